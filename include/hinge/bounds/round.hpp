@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The neighbouring doubles, for bounds that may only grow. Branch-light: called for every box.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+namespace hinge {
+
+/// The next double above a finite x.
+inline double next_up(double x) noexcept {
+  if (x == 0.0) return std::bit_cast<double>(std::uint64_t{1});
+  const auto bits = std::bit_cast<std::int64_t>(x);
+  return std::bit_cast<double>(bits + (bits >= 0 ? 1 : -1));
+}
+
+/// The next double below a finite x.
+inline double next_down(double x) noexcept { return -next_up(-x); }
+
+}  // namespace hinge
