@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Hit, and Collector: what a query mode does with the pairs an engine finds.
+#pragma once
+
+#include <concepts>
+
+#include "hinge/core/id.hpp"
+
+namespace hinge {
+
+/// A pair that comes too close (or, in the modes that ask for it, close). In self queries first < second; between two
+/// models `first` belongs to the model asked and `second` to the other one. Lengths in the model's unit.
+struct Hit {
+  PrimitiveId first{};
+  PrimitiveId second{};
+  double distance = 0.0;
+  double threshold = 0.0;  ///< M of BioCD eq. (1), plus the extra clearances of the two groups where a query gave any
+
+  /// Surface distance: negative when the pair collides.
+  double gap() const noexcept { return distance - threshold; }
+
+  friend bool operator==(const Hit&, const Hit&) = default;
+};
+
+/// cutoff(): pairs with d - M beyond it are no longer wanted; never grows. done(): nothing more is wanted. `ranks` tells
+/// how the leaf kernel hands pairs over: false, only those that closer_than(p, q, M + cutoff) accepts; true, every pair
+/// that boxes could not rule out, and the collector itself compares d - M.
+template <class C>
+concept Collector = requires(C& collector, const C& constant, const Hit& hit) {
+  collector.add(hit);
+  { constant.cutoff() } noexcept -> std::same_as<double>;
+  { constant.done() } noexcept -> std::same_as<bool>;
+  { C::ranks } -> std::convertible_to<bool>;
+};
+
+}  // namespace hinge

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// DistanceMatrix: how close is too close. One clearance for all pairs, and thresholds by type.
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "hinge/core/finite.hpp"
+#include "hinge/core/id.hpp"
+
+namespace hinge {
+
+/// M of BioCD eq. (1), in the model's length unit. Symmetric, finite, >= 0, and reach(i) + reach(j) >= threshold(i, j)
+/// (BioCD eq. (2): reach(i) = max over j of threshold(i, j) / 2).
+template <class D>
+concept DistanceMatrix = std::copyable<D> && requires(const D& matrix, PrimitiveId i, PrimitiveId j) {
+  { matrix.threshold(i, j) } noexcept -> std::same_as<double>;
+  { matrix.reach(i) } noexcept -> std::same_as<double>;
+};
+
+/// Optional refinement: thresholds between primitive i of this model and primitive j of another one.
+template <class D>
+concept CrossMatrix = DistanceMatrix<D> && requires(const D& matrix, const D& other, PrimitiveId i, PrimitiveId j) {
+  { matrix.threshold(i, other, j) } noexcept -> std::same_as<double>;
+  { matrix.compatible(other) } noexcept -> std::same_as<bool>;
+};
+
+/// The same threshold for every pair.
+class UniformClearance {
+ public:
+  /// clearance: finite, >= 0, model length unit; else ModelError.
+  explicit UniformClearance(double clearance) : clearance_(clearance) {
+    if (!is_finite(clearance) || clearance < 0.0)
+      throw ModelError("clearance " + std::to_string(clearance) + ": expected a finite length >= 0");
+  }
+
+  double threshold(PrimitiveId, PrimitiveId) const noexcept { return clearance_; }
+  double threshold(PrimitiveId, const UniformClearance& other, PrimitiveId) const noexcept {
+    return std::max(clearance_, other.clearance_);
+  }
+  bool compatible(const UniformClearance& other) const noexcept { return clearance_ == other.clearance_; }
+  double reach(PrimitiveId) const noexcept { return clearance_ / 2; }
+
+ private:
+  double clearance_;
+};
+
+/// A symmetric table of thresholds between types, and the type of every primitive.
+class TypedThresholds {
+ public:
+  /// types[i] < type_count; table is type_count x type_count, row-major, symmetric, finite, >= 0; else ModelError.
+  TypedThresholds(std::vector<std::uint16_t> types, std::size_t type_count, std::vector<double> table);
+
+  double threshold(PrimitiveId i, PrimitiveId j) const noexcept { return threshold(i, *this, j); }
+  double threshold(PrimitiveId i, const TypedThresholds& other, PrimitiveId j) const noexcept {
+    return data_->table[data_->types[index(i)] * data_->type_count + other.data_->types[index(j)]];
+  }
+  double reach(PrimitiveId i) const noexcept { return data_->reach[data_->types[index(i)]]; }
+
+  /// Two models can be tested against each other when they use the same table.
+  bool compatible(const TypedThresholds& other) const noexcept {
+    return data_ == other.data_ || data_->table == other.data_->table;
+  }
+  std::size_t size() const noexcept { return data_->types.size(); }
+  std::size_t type_count() const noexcept { return data_->type_count; }
+  std::uint16_t type(PrimitiveId i) const noexcept { return data_->types[index(i)]; }
+
+ private:
+  struct Data {
+    std::vector<std::uint16_t> types;
+    std::size_t type_count;
+    std::vector<double> table;
+    std::vector<double> reach;  // per type
+  };
+  std::shared_ptr<const Data> data_;  // shared by the copies that engines and threads hold
+};
+
+inline TypedThresholds::TypedThresholds(std::vector<std::uint16_t> types, std::size_t type_count,
+                                        std::vector<double> table) {
+  if (table.size() != type_count * type_count)
+    throw ModelError("threshold table: " + std::to_string(table.size()) + " entries, expected " +
+                     std::to_string(type_count) + " x " + std::to_string(type_count));
+  std::vector<double> reach(type_count, 0.0);
+  for (std::size_t s = 0; s < type_count; ++s)
+    for (std::size_t t = 0; t < type_count; ++t) {
+      const double m = table[s * type_count + t];
+      const std::string entry = "threshold table: entry (" + std::to_string(s) + ", " + std::to_string(t) + ") is ";
+      if (!is_finite(m) || m < 0.0) throw ModelError(entry + std::to_string(m) + ", expected a finite length >= 0");
+      if (m != table[t * type_count + s])
+        throw ModelError(entry + std::to_string(m) + " but its mirror is " + std::to_string(table[t * type_count + s]));
+      reach[s] = std::max(reach[s], m / 2);
+    }
+  for (std::size_t i = 0; i < types.size(); ++i)
+    if (types[i] >= type_count)
+      throw ModelError("primitive " + std::to_string(i) + ": type " + std::to_string(types[i]) + ", expected below " +
+                       std::to_string(type_count));
+  data_ = std::make_shared<const Data>(Data{std::move(types), type_count, std::move(table), std::move(reach)});
+}
+
+static_assert(CrossMatrix<UniformClearance> && CrossMatrix<TypedThresholds>);
+
+}  // namespace hinge
