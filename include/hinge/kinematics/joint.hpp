@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Joints: what connects a link to its parent, and the motion one value of its coordinate makes.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "hinge/core/pose.hpp"
+#include "hinge/core/sincos.hpp"
+#include "hinge/core/vec3.hpp"
+
+namespace hinge {
+
+/// The child does not move against the parent.
+struct Fixed {
+  Pose origin{};  ///< child frame in the parent frame
+};
+
+/// The child turns by q radians about the line through `point` along `axis`.
+struct Revolute {
+  Vec3 axis = Vec3::UnitZ();   ///< any length but zero, child frame
+  Vec3 point = Vec3::Zero();   ///< any point of the line, child frame
+  Pose origin{};               ///< child frame in the parent frame at q = 0
+  std::string name{};
+};
+
+/// The child slides by q (model length unit) along `axis`.
+struct Prismatic {
+  Vec3 axis = Vec3::UnitZ();  ///< any length but zero, child frame
+  Pose origin{};              ///< child frame in the parent frame at q = 0
+  std::string name{};
+};
+
+enum class JointKind : unsigned char { fixed, revolute, prismatic };
+
+/// Any of the three: T(child) = T(parent) * origin * motion(q).
+struct Joint {
+  JointKind kind = JointKind::fixed;
+  Pose origin{};
+  Vec3 axis = Vec3::UnitZ();  ///< unit length once in a tree
+  Vec3 point = Vec3::Zero();
+  std::string name{};
+
+  Joint() = default;
+  Joint(Fixed j) : origin(std::move(j.origin)) {}
+  Joint(Revolute j)
+      : kind(JointKind::revolute), origin(j.origin), axis(j.axis), point(j.point), name(std::move(j.name)) {}
+  Joint(Prismatic j) : kind(JointKind::prismatic), origin(j.origin), axis(j.axis), name(std::move(j.name)) {}
+
+  bool has_dof() const noexcept { return kind != JointKind::fixed; }
+};
+
+/// The rotation by `angle` (rad) about a unit axis (Rodrigues), in a fixed order of operations; exactly the identity at 0.
+inline Mat3 rotation_about(const Vec3& axis, double angle) noexcept {
+  const SinCos sc = sincos(angle);
+  const double v = 1.0 - sc.cos;
+  const double x = axis[0], y = axis[1], z = axis[2];
+  const double xs = x * sc.sin, ys = y * sc.sin, zs = z * sc.sin;
+  Mat3 r;
+  r(0, 0) = sc.cos + x * x * v;
+  r(1, 1) = sc.cos + y * y * v;
+  r(2, 2) = sc.cos + z * z * v;
+  r(0, 1) = x * y * v - zs;
+  r(1, 0) = x * y * v + zs;
+  r(0, 2) = x * z * v + ys;
+  r(2, 0) = x * z * v - ys;
+  r(1, 2) = y * z * v - xs;
+  r(2, 1) = y * z * v + xs;
+  return r;
+}
+
+/// The motion a joint with a unit axis makes at q (rad or model length unit). Exactly the identity at q = 0.
+inline Pose motion(const Joint& joint, double q) noexcept {
+  Pose pose;
+  if (joint.kind == JointKind::revolute) {
+    pose.rotation = rotation_about(joint.axis, q);
+    pose.translation = joint.point - product(pose.rotation, joint.point);
+  } else if (joint.kind == JointKind::prismatic) {
+    pose.translation = joint.axis * q;
+  }
+  return pose;
+}
+
+}  // namespace hinge

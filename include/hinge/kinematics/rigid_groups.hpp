@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// RigidGroups: links that cannot move against each other under a DOF selection, merged; a tree of groups remains.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "hinge/core/id.hpp"
+#include "hinge/core/pose.hpp"
+#include "hinge/kinematics/dof_selection.hpp"
+#include "hinge/kinematics/joint.hpp"
+#include "hinge/kinematics/kinematic_tree.hpp"
+
+namespace hinge {
+
+/// One maximal set of links whose mutual placement is constant. Its frame is that of its topmost link.
+struct RigidGroup {
+  GroupId parent{};         ///< an earlier group; group 0, which holds the world, is its own parent
+  Joint joint{};            ///< free joint to the parent; origin is relative to the parent group's frame
+  std::size_t dof = 0;      ///< position of the joint's value in the selected configuration
+};
+
+/// Groups in topological order (parents first). Group 0 is the one of the world and never moves.
+class RigidGroups {
+ public:
+  RigidGroups(const KinematicTree& tree, const DofSelection& selection) {
+    std::vector<bool> selected(tree.dof_count(), false);
+    std::vector<std::size_t> position(tree.dof_count(), 0);
+    for (std::size_t k = 0; k < selection.size(); ++k) {
+      selected[index(selection.dofs()[k])] = true;
+      position[index(selection.dofs()[k])] = k;
+    }
+    group_of_.resize(tree.link_count());
+    link_in_group_.resize(tree.link_count());
+    groups_.emplace_back();
+    for (std::size_t l = 1; l < tree.link_count(); ++l) {
+      const LinkId link = id<LinkId>(l);
+      const Joint& joint = tree.joint(link);
+      const std::size_t parent = index(tree.parent(link));
+      const Pose origin = link_in_group_[parent] * joint.origin;
+      if (joint.has_dof() && selected[index(tree.dof_of(link))]) {
+        RigidGroup group{group_of_[parent], joint, position[index(tree.dof_of(link))]};
+        group.joint.origin = origin;
+        group_of_[l] = id<GroupId>(groups_.size());
+        groups_.push_back(std::move(group));
+      } else {
+        group_of_[l] = group_of_[parent];
+        link_in_group_[l] = origin;
+      }
+    }
+  }
+
+  std::size_t size() const noexcept { return groups_.size(); }
+  const RigidGroup& operator[](GroupId group) const noexcept { return groups_[index(group)]; }
+  GroupId group_of(LinkId link) const noexcept { return group_of_[index(link)]; }
+  /// The link's frame in its group's frame (constant).
+  const Pose& link_in_group(LinkId link) const noexcept { return link_in_group_[index(link)]; }
+
+ private:
+  std::vector<RigidGroup> groups_;
+  std::vector<GroupId> group_of_;
+  std::vector<Pose> link_in_group_;
+};
+
+}  // namespace hinge
