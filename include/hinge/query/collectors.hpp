@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The four query modes as collectors: any, all, within a margin, closest.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "hinge/policy/collector.hpp"
+
+namespace hinge {
+
+/// Yes or no; stops at the first hit, which may be any of them.
+class AnyHit {
+ public:
+  static constexpr bool ranks = false;
+  void add(const Hit& hit) noexcept { hit_ = hit; }
+  double cutoff() const noexcept { return 0.0; }
+  bool done() const noexcept { return hit_.has_value(); }
+  const std::optional<Hit>& hit() const noexcept { return hit_; }
+
+ private:
+  std::optional<Hit> hit_;
+};
+
+/// Every pair with d - M below a margin >= 0; margin 0 gives the colliding pairs.
+class HitsWithin {
+ public:
+  static constexpr bool ranks = false;
+  explicit HitsWithin(double margin = 0.0) noexcept : margin_(margin) {}
+  void add(const Hit& hit) { hits_.push_back(hit); }
+  double cutoff() const noexcept { return margin_; }
+  bool done() const noexcept { return false; }
+
+  /// The pairs, sorted by (first, second).
+  std::vector<Hit> take() {
+    std::sort(hits_.begin(), hits_.end(),
+              [](const Hit& a, const Hit& b) { return std::tie(a.first, a.second) < std::tie(b.first, b.second); });
+    return std::exchange(hits_, {});
+  }
+
+ private:
+  double margin_;
+  std::vector<Hit> hits_;
+};
+
+/// The pair with the smallest d - M: the closest one, the most interpenetrating one when any collides. Among exact ties
+/// the smallest (first, second).
+class Closest {
+ public:
+  static constexpr bool ranks = true;
+  void add(const Hit& hit) noexcept {
+    const auto key = [](const Hit& h) { return std::tuple(h.gap(), h.first, h.second); };
+    if (!hit_ || key(hit) < key(*hit_)) hit_ = hit;
+  }
+  double cutoff() const noexcept { return hit_ ? hit_->gap() : std::numeric_limits<double>::infinity(); }
+  bool done() const noexcept { return false; }
+  const std::optional<Hit>& hit() const noexcept { return hit_; }
+
+ private:
+  std::optional<Hit> hit_;
+};
+
+static_assert(Collector<AnyHit> && Collector<HitsWithin> && Collector<Closest>);
+
+}  // namespace hinge

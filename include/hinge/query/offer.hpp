@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// offer: the leaf kernel. The only place where a pair of primitives is judged, for every engine and every mode.
+#pragma once
+
+#include <cmath>
+
+#include "hinge/core/id.hpp"
+#include "hinge/policy/collector.hpp"
+#include "hinge/policy/primitive.hpp"
+
+namespace hinge {
+
+/// Hands the pair to the collector when it is wanted: BioCD eq. (1) with threshold m (extra clearances included). The
+/// distance is looked at first and `admitted()` asked last: most pairs are far apart, and knowing whether a pair counts
+/// may cost a look-up.
+template <Collector C, Primitive P, class Admitted>
+void offer(C& collector, PrimitiveId i, PrimitiveId j, const P& p, const P& q, double m, Admitted&& admitted) {
+  if constexpr (C::ranks) {
+    const Hit hit{i, j, std::sqrt(squared_distance(p, q)), m};
+    if (hit.gap() <= collector.cutoff() && admitted()) collector.add(hit);
+  } else {
+    if (closer_than(p, q, m + collector.cutoff()) && admitted())
+      collector.add(Hit{i, j, std::sqrt(squared_distance(p, q)), m});
+  }
+}
+
+}  // namespace hinge

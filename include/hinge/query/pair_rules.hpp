@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// PairRules: the policies of one query put together: threshold and admission of a pair, within a model or across two.
+#pragma once
+
+#include <span>
+
+#include "hinge/core/id.hpp"
+#include "hinge/model/placement.hpp"
+#include "hinge/policy/distance_matrix.hpp"
+#include "hinge/policy/pair_filter.hpp"
+#include "hinge/policy/primitive.hpp"
+#include "hinge/query/query_options.hpp"
+
+namespace hinge {
+
+/// Extra clearance of a group; none when no list was given.
+inline double clearance_of(std::span<const double> clearance, GroupId group) noexcept {
+  return clearance.empty() ? 0.0 : clearance[index(group)];
+}
+
+/// Pairs inside one model. A view: lives as long as one query.
+template <Primitive P, PairFilter F, DistanceMatrix D>
+struct SelfRules {
+  const Placement<P>& placement;
+  const F& filter;
+  const D& matrix;
+  const QueryOptions& options;
+
+  double threshold(PrimitiveId i, PrimitiveId j) const noexcept {
+    const double m = matrix.threshold(i, j);
+    if (options.clearance.empty()) return m;
+    const auto& model = placement.model();
+    return m + (clearance_of(options.clearance, model.group_of(i)) + clearance_of(options.clearance, model.group_of(j)));
+  }
+  /// Admission beyond the filter: pairs of constant distance, and moved-only queries.
+  bool counts(PrimitiveId i, PrimitiveId j) const noexcept {
+    const auto& model = placement.model();
+    return !placement.constant(i, j) &&
+           (!options.moved_only || placement.moved_apart(model.group_of(i), model.group_of(j)));
+  }
+  bool admits(PrimitiveId i, PrimitiveId j) const noexcept { return filter.admits(i, j) && counts(i, j); }
+};
+
+/// Pairs of two models: i of the first, j of the second.
+template <Primitive P, PairFilter F, CrossMatrix D>
+struct CrossRules {
+  const Placement<P>& first;
+  const Placement<P>& second;
+  const F& filter;
+  const D& first_matrix;
+  const D& second_matrix;
+  const QueryOptions& options;
+
+  double threshold(PrimitiveId i, PrimitiveId j) const noexcept {
+    return first_matrix.threshold(i, second_matrix, j) +
+           (clearance_of(options.clearance, first.model().group_of(i)) +
+            clearance_of(options.other_clearance, second.model().group_of(j)));
+  }
+  bool admits(PrimitiveId i, PrimitiveId j) const noexcept {
+    return filter.admits(i, j) && (!options.moved_only || first.moved(first.model().group_of(i)) ||
+                                   second.moved(second.model().group_of(j)));
+  }
+};
+
+}  // namespace hinge
