@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Hierarchy: the public face. Which primitives of an articulated model come too close at a configuration?
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "hinge/core/finite.hpp"
+#include "hinge/engine/brute/brute.hpp"
+#include "hinge/engine/engine.hpp"
+#include "hinge/engine/lazy/lazy.hpp"
+#include "hinge/model/model.hpp"
+#include "hinge/model/selected_model.hpp"
+#include "hinge/policy/collector.hpp"
+#include "hinge/policy/distance_matrix.hpp"
+#include "hinge/policy/pair_filter.hpp"
+#include "hinge/policy/primitive.hpp"
+#include "hinge/query/collectors.hpp"
+#include "hinge/query/query_options.hpp"
+
+namespace hinge {
+
+/// A pair (i, j) collides when the filter admits it, its distance can change under the selected DOF, and
+/// d(i, j) < M(i, j), or, for closed solids, d(i, j) = 0 (BioCD eq. (1)). Lengths in the model's unit, angles in rad.
+/// One per thread: copies share the constant model and nothing else.
+template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf = Lazy>
+  requires Engine<EngineOf<P, F, D>, P, F, D>
+class Hierarchy {
+ public:
+  /// Every DOF free. ModelError: a filter or matrix made for another number of primitives.
+  Hierarchy(Model<P> model, F filter, D matrix)
+      : Hierarchy(model, DofSelection::all(model.tree()), std::move(filter), std::move(matrix)) {}
+
+  /// Only the selected DOF free, all others at their reference.
+  Hierarchy(Model<P> model, DofSelection selection, F filter, D matrix)
+      : filter_(std::move(filter)),
+        matrix_(std::move(matrix)),
+        engine_(std::make_shared<const SelectedModel<P>>(checked(std::move(model), filter_, matrix_), std::move(selection)),
+                filter_, matrix_) {}
+
+  // --- state. Each throws ConfigurationError on bad input, naming the element, and keeps the previous state. ---
+
+  /// q: one value per selected DOF, in the selection's order; rad or model length unit. Starts at all 0, the reference.
+  void update(std::span<const double> q) { placement().update(q); }
+  /// World poses of the rigid groups, computed elsewhere; group 0 is the world.
+  void update_poses(std::span<const Pose> poses) { placement().update_poses(poses); }
+  /// World coordinates of every primitive, computed elsewhere: every admitted pair is checked, constant ones included.
+  void update_placed(std::span<const P> placed) { placement().update_placed(placed); }
+
+  // --- queries at the current state ---
+
+  bool self_collides(const QueryOptions& options = {}) { return self(AnyHit{}, options).done(); }
+  /// All colliding pairs, sorted by (first, second).
+  std::vector<Hit> self_collisions(const QueryOptions& options = {}) { return self_within(0.0, options); }
+  /// All pairs with d - M < margin (finite, >= 0; else ConfigurationError), sorted by (first, second).
+  std::vector<Hit> self_within(double margin, const QueryOptions& options = {}) {
+    return self(HitsWithin{checked(margin)}, options).take();
+  }
+  /// The pair with the smallest d - M, most interpenetrating when colliding; none when no pair is tested.
+  std::optional<Hit> self_closest(const QueryOptions& options = {}) { return self(Closest{}, options).hit(); }
+
+  // --- the same against another model; `across` admits (primitive of this, primitive of other) ---
+  // ModelError: the two distance matrices do not belong together.
+
+  template <PairFilter G = AdmitAll>
+  bool collides(Hierarchy& other, const G& across = {}, const QueryOptions& options = {}) {
+    return mutual(AnyHit{}, other, across, options).done();
+  }
+  template <PairFilter G = AdmitAll>
+  std::vector<Hit> collisions(Hierarchy& other, const G& across = {}, const QueryOptions& options = {}) {
+    return within(other, 0.0, across, options);
+  }
+  template <PairFilter G = AdmitAll>
+  std::vector<Hit> within(Hierarchy& other, double margin, const G& across = {}, const QueryOptions& options = {}) {
+    return mutual(HitsWithin{checked(margin)}, other, across, options).take();
+  }
+  template <PairFilter G = AdmitAll>
+  std::optional<Hit> closest(Hierarchy& other, const G& across = {}, const QueryOptions& options = {}) {
+    return mutual(Closest{}, other, across, options).hit();
+  }
+
+  // --- what the selection fixed ---
+
+  const SelectedModel<P>& model() const noexcept { return engine_.placement().model(); }
+  std::size_t dof_count() const noexcept { return model().selection().size(); }
+  /// World coordinates at the current state, the ones verdicts are about.
+  std::span<const P> placed() {
+    for (std::size_t g = 0; g < model().groups()->size(); ++g) placement().place(id<GroupId>(g));
+    return placement().placed();
+  }
+  /// World pose of a link at the current configuration or poses.
+  Pose link_pose(LinkId link) {
+    const RigidGroups& groups = *model().groups();
+    return placement().pose(groups.group_of(link)) * groups.link_in_group(link);
+  }
+  /// Pairs too close in the reference whose distance cannot change: no query at a configuration reports them. Sorted;
+  /// costs one query over all pairs of the model.
+  std::vector<Hit> constant_contacts() const;
+
+ private:
+  using E = EngineOf<P, F, D>;
+
+  static Model<P> checked(Model<P> model, const F& filter, const D& matrix) {
+    const auto check = [&](const auto& policy, const char* what) {
+      if constexpr (KnowsSize<std::remove_cvref_t<decltype(policy)>>)
+        if (policy.size() != model.size())
+          throw ModelError(std::string(what) + " made for " + std::to_string(policy.size()) + " primitives, the model has " +
+                           std::to_string(model.size()));
+    };
+    check(filter, "pair filter");
+    check(matrix, "distance matrix");
+    return model;
+  }
+  static double checked(double margin) {
+    if (!is_finite(margin) || margin < 0.0)
+      throw ConfigurationError("margin " + std::to_string(margin) + ": expected a finite length >= 0");
+    return margin;
+  }
+  static void check_clearance(std::span<const double> clearance, std::size_t groups) {
+    if (!clearance.empty() && clearance.size() != groups)
+      throw ConfigurationError(std::to_string(clearance.size()) + " extra clearances, expected one for each of " +
+                               std::to_string(groups) + " rigid groups");
+    for (std::size_t g = 0; g < clearance.size(); ++g)
+      if (!is_finite(clearance[g]) || clearance[g] < 0.0)
+        throw ConfigurationError("extra clearance of rigid group " + std::to_string(g) + " is " +
+                                 std::to_string(clearance[g]) + ": expected a finite length >= 0");
+  }
+
+  Placement<P>& placement() noexcept { return engine_.placement(); }
+
+  template <Collector C>
+  C self(C collector, const QueryOptions& options) {
+    check_clearance(options.clearance, model().groups()->size());
+    engine_.self_query(collector, options);
+    return collector;
+  }
+  template <Collector C, PairFilter G>
+  C mutual(C collector, Hierarchy& other, const G& across, const QueryOptions& options) {
+    static_assert(CrossEngine<E, P, F, D, G>, "this engine or distance matrix cannot answer between two models");
+    if (!matrix_.compatible(other.matrix_)) throw ModelError("the two models use different distance matrices");
+    check_clearance(options.clearance, model().groups()->size());
+    check_clearance(options.other_clearance, other.model().groups()->size());
+    engine_.query(other.engine_, across, collector, options);
+    return collector;
+  }
+
+  F filter_;
+  D matrix_;
+  E engine_;
+};
+
+template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
+  requires Engine<EngineOf<P, F, D>, P, F, D>
+std::vector<Hit> Hierarchy<P, F, D, EngineOf>::constant_contacts() const {
+  Hierarchy at_reference(*this);
+  at_reference.update(std::vector<double>(dof_count(), 0.0));
+  const auto placed = at_reference.placed();
+  at_reference.update_placed(std::vector<P>(placed.begin(), placed.end()));
+  std::vector<Hit> contacts = at_reference.self_collisions();
+  std::erase_if(contacts, [&](const Hit& hit) { return !model().constant(hit.first, hit.second); });
+  return contacts;
+}
+
+template <Primitive P, PairFilter F, DistanceMatrix D>
+Hierarchy(Model<P>, F, D) -> Hierarchy<P, F, D>;
+template <Primitive P, PairFilter F, DistanceMatrix D>
+Hierarchy(Model<P>, DofSelection, F, D) -> Hierarchy<P, F, D>;
+
+}  // namespace hinge
