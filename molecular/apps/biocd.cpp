@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// biocd: self-collision of molecules on the command line. This file is the command line itself.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <string>
+
+#include "hinge/core/error.hpp"
+#include "hinge/version.hpp"
+#include "options.hpp"
+
+namespace {
+
+using biocd::Options;
+
+constexpr const char* footer =
+    "Exit status: 0 free, 1 collision found, 2 usage, 3 bad input.\n"
+    "Selections (--free): all none loops every:N count:K backbone chi phi psi omega chi1..., A:45, A:10-20, A:45:chi1,\n"
+    "joined by commas. omega stays at its reference unless --omega is given or it is named.";
+
+void add_model_options(CLI::App& command, Options& o) {
+  command.add_option("FILE", o.file, "PDB or mmCIF file, plain or .gz")->required();
+  command.add_option("--free", o.free, "torsions that are free")->capture_default_str();
+  command.add_flag("--omega", o.omega, "free omega too");
+  command.add_option("--radii", o.check.thresholds.radii, "radii set: bondi, probe, probe-united, amber")
+      ->capture_default_str();
+  command.add_option("--rho", o.check.thresholds.rho, "M = rho * (sum of radii)")->capture_default_str();
+  command.add_option("--min-bonds", o.check.min_bonds,
+                     "pairs count from this bond distance on (default: the radii set's, 4 for bondi)");
+  command
+      .add_option_function<std::string>(
+          "--hbond",
+          [&o](const std::string& text) {
+            if (text != "auto") o.check.thresholds.hydrogen_bonds = text == "on";
+          },
+          "hydrogen-bond rule: auto (on with hydrogens), on, off")
+      ->check(CLI::IsMember({"auto", "on", "off"}));
+  command.add_option("--hbond-allowance", o.check.thresholds.hydrogen_bond_allowance,
+                     "taken from M(polar H, acceptor), angstrom")
+      ->capture_default_str();
+  command
+      .add_option_function<std::string>(
+          "--hydrogens", [&o](const std::string& text) { o.read.keep_hydrogens = text == "keep"; },
+          "hydrogens of the file: keep (default) or drop")
+      ->check(CLI::IsMember({"keep", "drop"}));
+  command.add_option_function<int>("--model", [&o](int number) { o.read.model = number; }, "number of the model to use");
+  command.add_option_function<std::string>(
+      "--altloc",
+      [&o](const std::string& text) {
+        if (text.size() != 1) throw CLI::ValidationError("--altloc", "one character expected");
+        o.read.altloc = text.front();
+      },
+      "alternative location to use (default: highest occupancy, then first)");
+  command.add_flag("--hetero", o.read.hetero, "keep ligands, ions and sugars");
+  command.add_flag("--exempt-reference", o.check.exempt_reference,
+                   "pairs that collide in the file's (first) model do not count");
+  command.add_option("--engine", o.check.engine, "lazy or brute")->capture_default_str();
+  command.add_option("--explain", o.explain, "say which rule keeps or drops the pair of atoms i,j (numbers from 0)");
+}
+
+void add_output_options(CLI::App& command, Options& o, bool csv) {
+  auto* json = command.add_flag_callback("--json", [&o] { o.output = biocd::Output::json; }, "JSON on standard output");
+  if (csv)
+    command.add_flag_callback("--csv", [&o] { o.output = biocd::Output::csv; }, "CSV on standard output")->excludes(json);
+}
+
+int run(int argc, char** argv) {
+  Options o;
+  std::function<int(const Options&)> command;
+  CLI::App app{"biocd: self-collision of proteins and other molecules as articulated mechanisms"};
+  app.footer(footer);
+  app.set_version_flag("--version", std::string("biocd ") + hinge::version_string);
+  app.require_subcommand(1);
+
+  CLI::App* info = app.add_subcommand("info", "what the file holds, its degrees of freedom and rigid groups");
+  add_model_options(*info, o);
+  add_output_options(*info, o, false);
+  info->add_flag("--atoms", o.atoms, "list atoms, bonds, thresholds and constant contacts (with --json)");
+  info->callback([&] { command = biocd::run_info; });
+
+  CLI::App* check = app.add_subcommand("check", "verdict and pairs for each model of the file");
+  add_model_options(*check, o);
+  add_output_options(*check, o, true);
+  check->add_option("--mode", o.mode, "any, all, within:D (angstrom) or closest")->capture_default_str();
+  check->callback([&] { command = biocd::run_check; });
+
+  CLI::App* sample = app.add_subcommand("sample", "random conformations of the free torsions, each checked");
+  add_model_options(*sample, o);
+  add_output_options(*sample, o, true);
+  sample->add_option("--mode", o.mode, "any, all, within:D (angstrom) or closest")->capture_default_str();
+  sample->add_option("-n,--count", o.count, "number of conformations")->capture_default_str();
+  sample->add_option("--seed", o.seed, "seed; conformation k is a function of (seed, k) alone")->capture_default_str();
+  sample->add_option("--sigma", o.sigma_degrees, "Gaussian about the reference, degrees (default: full range)")
+      ->check(CLI::PositiveNumber);
+  sample->add_option("--threads", o.threads, "worker threads; the output does not depend on them")
+      ->check(CLI::Range(1U, 1024U))
+      ->capture_default_str();
+  sample->add_option("--out", o.out, "write the conformations as a multi-model PDB file");
+  sample->callback([&] { command = biocd::run_sample; });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int status = app.exit(error);
+    return status == 0 ? 0 : static_cast<int>(biocd::Exit::usage);
+  }
+  return command(o);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const hinge::LoadError& error) {
+    std::fprintf(stderr, "biocd: %s\n", error.what());
+    return static_cast<int>(biocd::Exit::bad_input);
+  } catch (const hinge::ConfigurationError& error) {
+    std::fprintf(stderr, "biocd: %s\n", error.what());
+    return static_cast<int>(biocd::Exit::bad_input);
+  } catch (const hinge::Error& error) {  // a rule or selection that does not fit: the command line is at fault
+    std::fprintf(stderr, "biocd: %s\n", error.what());
+    return static_cast<int>(biocd::Exit::usage);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "biocd: %s\n", error.what());
+    return static_cast<int>(biocd::Exit::bad_input);
+  }
+}

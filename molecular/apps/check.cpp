@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// biocd check: the coordinates of the file, model by model, every admitted pair.
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+
+#include "options.hpp"
+#include "report.hpp"
+
+namespace biocd {
+
+using namespace hinge::molecular;
+
+int run_check(const Options& options) {
+  Job job = load(options);
+  const Mode mode = Mode::parse(options.mode);
+  print_notes(job);
+  if (!options.explain.empty()) {
+    explain(options, job);
+    return static_cast<int>(Exit::free);
+  }
+  const Structure& s = job.molecule->structure();
+  Json json{{"tool", "biocd"}, {"command", "check"}, {"model", model_json(options, job)}, {"mode", mode.text()}};
+  json["constant_contacts"] = constant_contacts_json(job);
+  json["conformations"] = Json::array();
+  std::string table = heading(options, job), csv = csv_header();
+  std::size_t colliding = 0;
+  for (std::size_t m = 0; m < s.models.size(); ++m) {
+    const Verdict verdict = job.checker.check_coordinates(s.models[m], mode);
+    colliding += verdict.collides ? 1 : 0;
+    if (options.output == Output::json) {
+      Json row = verdict_json(s, m, verdict, mode);
+      row["model_number"] = s.model_numbers[m];
+      json["conformations"].push_back(std::move(row));
+    }
+    if (options.output == Output::csv) csv += csv_rows(s, m, verdict);
+    if (options.output != Output::table) continue;
+    table += fmt::format("model {}: {}", s.model_numbers[m], verdict.collides ? "collides" : "free");
+    if (mode.kind == Mode::Kind::all) table += fmt::format(", {} pairs", verdict.pairs.size());
+    if (mode.kind == Mode::Kind::within)
+      table += fmt::format(", {} pairs closer than their threshold + {}", verdict.pairs.size(), mode.margin);
+    table += "\n";
+    for (const hinge::Hit& hit : verdict.pairs) table += hit_line(s, hit) + "\n";
+    if (verdict.closest) table += hit_line(s, *verdict.closest) + "  (closest)\n";
+  }
+  if (options.output == Output::json) fmt::print("{}\n", json.dump(1));
+  if (options.output == Output::csv) fmt::print("{}", csv);
+  if (options.output == Output::table) fmt::print("{}{} of {} models collide\n", table, colliding, s.models.size());
+  return static_cast<int>(colliding > 0 ? Exit::collision : Exit::free);
+}
+
+}  // namespace biocd

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From options to a molecule that can be asked, and the explanation of one pair.
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+#include "hinge/core/error.hpp"
+#include "hinge/core/vec3.hpp"
+#include "hinge/molecular/bond_exclusions.hpp"
+#include "hinge/molecular/selection.hpp"
+#include "options.hpp"
+
+namespace biocd {
+
+using namespace hinge::molecular;
+
+Job load(const Options& options) {
+  auto molecule = std::make_shared<const Molecule>(read_structure(options.file, options.read));
+  const auto torsions = select_torsions(*molecule, options.free, options.omega);
+  Checker checker(molecule, molecule->select(torsions), options.check);
+  return {std::move(molecule), std::move(checker)};
+}
+
+namespace {
+
+std::uint32_t read_atom(std::string_view text, std::size_t atoms) {
+  std::uint32_t atom = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), atom);
+  if (error != std::errc{} || end != text.data() + text.size() || atom >= atoms)
+    throw hinge::ModelError(fmt::format("--explain atom '{}': expected a number from 0 to {}", text, atoms - 1));
+  return atom;
+}
+
+}  // namespace
+
+void explain(const Options& options, const Job& job) {
+  const Structure& s = job.molecule->structure();
+  const std::string_view text = options.explain;
+  const std::size_t comma = text.find(',');
+  const std::uint32_t i = read_atom(text.substr(0, comma), s.atoms.size());
+  const std::uint32_t j = read_atom(comma == std::string_view::npos ? "" : text.substr(comma + 1), s.atoms.size());
+  if (i == j) throw hinge::ModelError("--explain: expected two different atoms");
+  const Checker& checker = job.checker;
+  const Thresholds& t = checker.thresholds();
+  const auto a = hinge::id<hinge::PrimitiveId>(i), b = hinge::id<hinge::PrimitiveId>(j);
+  const std::size_t type_i = t.matrix.type(a), type_j = t.matrix.type(b);
+  const double distance = std::sqrt(hinge::squared_norm(s.models.front()[i] - s.models.front()[j]));
+  const double threshold = t.between(type_i, type_j);
+
+  fmt::print("pair {} {} - {} {}\n", i, label(s, i), j, label(s, j));
+  fmt::print("  types        {} - {} ({} v{}, rho {}, hydrogen-bond rule {})\n", t.type_names[type_i],
+             t.type_names[type_j], t.set->name, t.set->version, t.rho, t.hydrogen_bonds ? "on" : "off");
+  fmt::print("  threshold    {:.4f} angstrom\n", threshold);
+  fmt::print("  distance     {:.4f} angstrom in the first model\n", distance);
+  const int bonds = bond_distance(s, i, j, checker.min_bonds() - 1);
+  if (bonds >= 0)
+    fmt::print("  dropped      {} bonds apart, pairs count from {} on\n", bonds, checker.min_bonds());
+  else if (!checker.exclusions().admits(a, b))
+    fmt::print("  dropped      collides in the reference, exempted\n");
+  else if (checker.constant(i, j))
+    fmt::print("  kept         for coordinates from a file; its distance is constant under this selection, so samples "
+               "leave it out\n");
+  else
+    fmt::print("  kept         at least {} bonds apart, distance changes under this selection\n", checker.min_bonds());
+  fmt::print("  verdict      {}\n", distance < threshold ? "closer than the threshold" : "not closer than the threshold");
+}
+
+}  // namespace biocd

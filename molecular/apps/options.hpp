@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the biocd command line asks for, after parsing, and the molecule it is about.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "hinge/molecular/checker.hpp"
+#include "hinge/molecular/molecule.hpp"
+#include "hinge/molecular/read_structure.hpp"
+
+namespace biocd {
+
+/// Exit status, as grep uses it: documented in docs/reference/biocd.md.
+enum class Exit : int { free = 0, collision = 1, usage = 2, bad_input = 3 };
+
+enum class Output : std::uint8_t { table, json, csv };
+
+struct Options {
+  std::string file;
+  hinge::molecular::ReadOptions read;
+  hinge::molecular::CheckOptions check;
+  std::string free = "all";
+  bool omega = false;
+  std::string mode = "all";
+  Output output = Output::table;
+  std::string explain;        // "i,j"; empty: nothing to explain
+  bool atoms = false;         // info: list atoms, bonds and thresholds too
+  std::uint64_t count = 1000; // sample: number of conformations
+  std::uint64_t seed = 1;
+  std::optional<double> sigma_degrees;
+  unsigned threads = 1;
+  std::string out;            // sample: multi-model PDB to write
+};
+
+/// A file read, with its selection and rules, ready to be asked.
+struct Job {
+  std::shared_ptr<const hinge::molecular::Molecule> molecule;
+  hinge::molecular::Checker checker;
+};
+
+Job load(const Options& options);
+
+int run_info(const Options& options);
+int run_check(const Options& options);
+int run_sample(const Options& options);
+
+/// Prints which rule kept or dropped the pair named by options.explain.
+void explain(const Options& options, const Job& job);
+
+}  // namespace biocd

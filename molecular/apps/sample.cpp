@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// biocd sample: random conformations, checked in parallel, reported in index order.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <numbers>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "hinge/molecular/sampler.hpp"
+#include "hinge/molecular/write_structure.hpp"
+#include "options.hpp"
+#include "progress_bar.hpp"
+#include "report.hpp"
+
+namespace biocd {
+
+namespace {
+
+using namespace hinge::molecular;
+
+struct Sample {
+  Verdict verdict;
+  std::vector<hinge::Vec3> positions;  // only when they are to be written
+};
+
+/// Checks samples [first, first + out.size()) with one checker per worker.
+void check_block(std::vector<Checker>& workers, const Sampling& sampling, const Mode& mode, std::uint64_t first,
+                 bool keep_positions, std::vector<Sample>& out) {
+  std::atomic<std::size_t> next{0};
+  std::vector<std::exception_ptr> failures(workers.size());
+  const auto work = [&](std::size_t w) {
+    try {
+      for (std::size_t k = next++; k < out.size(); k = next++) {
+        const auto q = sample_configuration(sampling, first + k, workers[w].dof_count());
+        out[k].verdict = workers[w].check(q, mode);
+        if (keep_positions) out[k].positions = workers[w].positions();
+      }
+    } catch (...) {
+      failures[w] = std::current_exception();
+    }
+  };
+  std::vector<std::thread> threads;
+  for (std::size_t w = 1; w < workers.size(); ++w) threads.emplace_back(work, w);
+  work(0);
+  for (std::thread& thread : threads) thread.join();
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+}
+
+/// Writes beside the wanted file and takes its name only when complete, so that nothing half-written is left.
+class ConformationFile {
+ public:
+  explicit ConformationFile(std::string path) : path_(std::move(path)) {
+    if (path_.empty()) return;
+    stream_.open(partial());
+    if (!stream_) throw hinge::LoadError(path_ + ": cannot be written: " + std::strerror(errno));
+  }
+  ConformationFile(const ConformationFile&) = delete;
+  ConformationFile& operator=(const ConformationFile&) = delete;
+  ~ConformationFile() {
+    std::error_code ignored;
+    if (!path_.empty()) std::filesystem::remove(partial(), ignored);
+  }
+  bool wanted() const { return !path_.empty(); }
+  std::ofstream& stream() { return stream_; }
+  void finish() {
+    if (path_.empty()) return;
+    stream_ << "END\n";
+    stream_.close();
+    if (!stream_) throw hinge::LoadError(path_ + ": cannot be written: " + std::strerror(errno));
+    std::filesystem::rename(partial(), path_);
+  }
+
+ private:
+  std::string partial() const { return path_ + ".partial"; }
+  std::string path_;
+  std::ofstream stream_;
+};
+
+struct Summary {
+  std::uint64_t checked = 0;
+  std::uint64_t colliding = 0;
+  double worst_residual = 0.0;
+  std::map<std::pair<hinge::PrimitiveId, hinge::PrimitiveId>, std::uint64_t> offenders;
+
+  void add(const Verdict& verdict) {
+    ++checked;
+    colliding += verdict.collides ? 1 : 0;
+    worst_residual = std::max(worst_residual, verdict.closure_residual);
+    for (const hinge::Hit& hit : verdict.pairs)
+      if (hit.distance < hit.threshold) ++offenders[{hit.first, hit.second}];
+  }
+
+  /// The pairs that collide most often, most frequent first.
+  std::vector<std::pair<std::pair<hinge::PrimitiveId, hinge::PrimitiveId>, std::uint64_t>> top(std::size_t n) const {
+    std::vector<std::pair<std::pair<hinge::PrimitiveId, hinge::PrimitiveId>, std::uint64_t>> all(offenders.begin(),
+                                                                                                offenders.end());
+    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+    all.resize(std::min(n, all.size()));
+    return all;
+  }
+};
+
+void print_json_end(const Structure& s, const Summary& summary) {
+  Json offenders = Json::array();
+  for (const auto& [pair, count] : summary.top(10)) {
+    const auto i = static_cast<std::uint32_t>(hinge::index(pair.first));
+    const auto j = static_cast<std::uint32_t>(hinge::index(pair.second));
+    offenders.push_back({{"i", i}, {"j", j}, {"label_i", label(s, i)}, {"label_j", label(s, j)}, {"count", count}});
+  }
+  Json end{{"checked", summary.checked},
+           {"colliding", summary.colliding},
+           {"worst_closure_residual", summary.worst_residual},
+           {"offenders", offenders}};
+  fmt::print("\n],\n\"summary\": {}}}\n", end.dump());
+}
+
+void print_table(const Structure& s, const Summary& summary, double seconds) {
+  fmt::print("{} of {} conformations collide ({:.2f} %), {:.0f} conformations per second\n", summary.colliding,
+             summary.checked, 100.0 * static_cast<double>(summary.colliding) / static_cast<double>(summary.checked),
+             static_cast<double>(summary.checked) / seconds);
+  if (summary.worst_residual > 0.0)
+    fmt::print("closures: sampled freely, so cycles open; the worst residual is {:.3f} angstrom\n", summary.worst_residual);
+  for (const auto& [pair, count] : summary.top(10))
+    fmt::print("  {:<18} {:<18} {:8}\n", label(s, static_cast<std::uint32_t>(hinge::index(pair.first))),
+               label(s, static_cast<std::uint32_t>(hinge::index(pair.second))), count);
+}
+
+}  // namespace
+
+int run_sample(const Options& options) {
+  const Job job = load(options);
+  const Mode mode = Mode::parse(options.mode);
+  print_notes(job);
+  if (!options.explain.empty()) {
+    explain(options, job);
+    return static_cast<int>(Exit::free);
+  }
+  if (options.count == 0) throw hinge::ModelError("-n 0: expected at least one conformation");
+  Sampling sampling{options.seed, {}};
+  if (options.sigma_degrees) sampling.sigma = *options.sigma_degrees * std::numbers::pi / 180.0;
+  const Structure& s = job.molecule->structure();
+  ConformationFile file(options.out);
+  std::vector<Checker> workers(options.threads, job.checker);
+
+  if (options.output == Output::json) {
+    Json head{{"tool", "biocd"}, {"command", "sample"}, {"model", model_json(options, job)}, {"mode", mode.text()}};
+    head["seed"] = options.seed;
+    head["sigma_degrees"] = options.sigma_degrees ? Json(*options.sigma_degrees) : Json();
+    head["constant_contacts"] = constant_contacts_json(job);
+    std::string text = head.dump(1);
+    text.resize(text.rfind('\n'));  // the closing brace comes with the summary
+    fmt::print("{},\n\"conformations\": [", text);
+  }
+  if (options.output == Output::csv) fmt::print("{}", csv_header());
+  if (options.output == Output::table) fmt::print("{}", heading(options, job));
+
+  // A block bounds the memory; its rows are printed in index order whatever thread made them.
+  constexpr std::uint64_t block = 1024;
+  Summary summary;
+  ProgressBar bar(options.count);
+  std::chrono::duration<double> checking{};
+  for (std::uint64_t first = 0; first < options.count; first += block) {
+    std::vector<Sample> samples(static_cast<std::size_t>(std::min(block, options.count - first)));
+    const auto start = std::chrono::steady_clock::now();
+    check_block(workers, sampling, mode, first, file.wanted(), samples);
+    checking += std::chrono::steady_clock::now() - start;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      const Verdict& verdict = samples[k].verdict;
+      const std::uint64_t number = first + k;
+      summary.add(verdict);
+      if (options.output == Output::json)
+        fmt::print("{}\n{}", number == 0 ? "" : ",", verdict_json(s, number, verdict, mode).dump());
+      if (options.output == Output::csv) fmt::print("{}", csv_rows(s, number, verdict));
+      if (file.wanted()) write_pdb_model(file.stream(), s, samples[k].positions, static_cast<int>(number % 9999) + 1);
+    }
+    bar.show(first + samples.size());
+  }
+  file.finish();
+  if (options.output == Output::json) print_json_end(s, summary);
+  if (options.output == Output::table) print_table(s, summary, checking.count());
+  return static_cast<int>(summary.colliding > 0 ? Exit::collision : Exit::free);
+}
+
+}  // namespace biocd

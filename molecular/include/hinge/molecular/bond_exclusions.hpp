@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// BondExclusions: the pair filter of molecules, TopDist(i, j) >= min_bonds (BioCD eq. (1)), plus pairs exempted by hand.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "hinge/core/id.hpp"
+#include "hinge/molecular/structure.hpp"
+#include "hinge/policy/pair_filter.hpp"
+
+namespace hinge::molecular {
+
+/// Primitive i is atom i. A pair is admitted when at least min_bonds bonds lie on the shortest way between the two atoms
+/// (the paper's "more than three bonds" is min_bonds = 4); atoms that no chain of bonds joins are always admitted.
+class BondExclusions {
+ public:
+  /// min_bonds: 1 ... 16, else ModelError. exempt: further pairs that never count.
+  BondExclusions(const Structure& structure, int min_bonds,
+                 std::span<const std::pair<PrimitiveId, PrimitiveId>> exempt = {});
+
+  bool admits(PrimitiveId i, PrimitiveId j) const noexcept {
+    const auto list = excluded(i);
+    return !std::binary_search(list.begin(), list.end(), j);
+  }
+  /// Sorted, without i.
+  std::span<const PrimitiveId> excluded(PrimitiveId i) const noexcept {
+    return std::span(data_->excluded).subspan(data_->start[index(i)], data_->start[index(i) + 1] - data_->start[index(i)]);
+  }
+  std::size_t size() const noexcept { return data_->start.size() - 1; }
+  /// Number of unordered pairs that are not admitted.
+  std::size_t excluded_pairs() const noexcept { return data_->excluded.size() / 2; }
+
+ private:
+  struct Data {
+    std::vector<std::size_t> start;
+    std::vector<PrimitiveId> excluded;
+  };
+  std::shared_ptr<const Data> data_;  // shared by the copies that engines and threads hold
+};
+
+static_assert(ListsExclusions<BondExclusions>);
+
+/// Neighbours of every atom in the bond graph, sorted.
+std::vector<std::vector<std::uint32_t>> bonded_neighbours(const Structure& structure);
+
+/// Number of bonds on the shortest way between two atoms, or -1 when it is longer than `limit` or there is none.
+int bond_distance(const Structure& structure, std::uint32_t i, std::uint32_t j, int limit);
+
+}  // namespace hinge::molecular

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Checker: a molecule, a selection and the rules of a check put together, with the engine chosen at run time.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "hinge/engine/brute/brute.hpp"
+#include "hinge/engine/lazy/lazy.hpp"
+#include "hinge/hierarchy.hpp"
+#include "hinge/molecular/bond_exclusions.hpp"
+#include "hinge/molecular/molecule.hpp"
+#include "hinge/molecular/radii.hpp"
+#include "hinge/policy/collector.hpp"
+#include "hinge/primitive/point.hpp"
+
+namespace hinge::molecular {
+
+template <template <class, class, class> class EngineOf>
+using MolecularHierarchy = Hierarchy<Point, BondExclusions, TypedThresholds, EngineOf>;
+
+/// What is asked of every conformation.
+struct Mode {
+  enum class Kind : std::uint8_t { any, all, within, closest } kind = Kind::all;
+  double margin = 0.0;  ///< within: pairs with d - M below it, angstrom
+
+  /// "any", "all", "within:0.5", "closest"; ModelError otherwise.
+  static Mode parse(std::string_view text);
+  std::string text() const;
+};
+
+struct CheckOptions {
+  ThresholdOptions thresholds;
+  std::optional<int> min_bonds;    ///< pairs count from this bond distance on; none: the radii set's default
+  bool exempt_reference = false;   ///< pairs that collide in the reference never count
+  std::string engine = "lazy";     ///< "lazy" or "brute"
+};
+
+/// The answer for one conformation. `pairs` holds what the mode lists (all: colliding; within: closer than the margin;
+/// any: none, it stops at the first), `closest` only in mode closest. Pairs of constant distance are not in it.
+struct Verdict {
+  bool collides = false;
+  std::vector<Hit> pairs;
+  std::optional<Hit> closest;
+  double closure_residual = 0.0;  ///< worst over the molecule's closures, angstrom; 0 for coordinates given
+};
+
+/// One per thread; copies share everything constant.
+class Checker {
+ public:
+  /// ModelError: unknown engine, radii set or numbers out of range.
+  Checker(std::shared_ptr<const Molecule> molecule, DofSelection selection, const CheckOptions& options);
+
+  const Molecule& molecule() const noexcept { return *molecule_; }
+  const Thresholds& thresholds() const noexcept { return *thresholds_; }
+  const BondExclusions& exclusions() const noexcept { return *exclusions_; }
+  int min_bonds() const noexcept { return min_bonds_; }
+  /// Pairs that collide in the reference coordinates, all admitted pairs looked at, sorted.
+  std::span<const Hit> reference_collisions() const noexcept { return *reference_; }
+  /// Those whose distance the selection cannot change (and which are not exempted).
+  std::span<const Hit> constant_contacts() const noexcept { return *constant_; }
+
+  std::size_t dof_count() const;
+  std::size_t rigid_group_count() const;
+  GroupId group_of(std::uint32_t atom) const;
+  /// Can the distance of two atoms not change under the selection?
+  bool constant(std::uint32_t i, std::uint32_t j) const;
+
+  /// The conformation at q: turns from the reference, rad, one per selected DOF.
+  Verdict check(std::span<const double> q, const Mode& mode);
+  /// Coordinates from elsewhere, angstrom, one per atom: every admitted pair counts, whatever the selection.
+  Verdict check_coordinates(std::span<const Vec3> positions, const Mode& mode);
+  /// The coordinates of the last check, angstrom.
+  std::vector<Vec3> positions();
+
+ private:
+  using AnyHierarchy = std::variant<MolecularHierarchy<Lazy>, MolecularHierarchy<Brute>>;
+  AnyHierarchy make(const std::string& engine, DofSelection selection) const;
+  Verdict ask(const Mode& mode);
+
+  std::shared_ptr<const Molecule> molecule_;
+  std::shared_ptr<const Thresholds> thresholds_;
+  std::shared_ptr<const BondExclusions> exclusions_;
+  std::shared_ptr<const std::vector<Hit>> reference_;
+  std::shared_ptr<const std::vector<Hit>> constant_;
+  int min_bonds_;
+  std::optional<AnyHierarchy> hierarchy_;
+};
+
+}  // namespace hinge::molecular

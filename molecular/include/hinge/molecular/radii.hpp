@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Radii sets and atom types: from a structure to the thresholds M = rho * d0 by atom type (BioCD section II-C).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hinge/molecular/structure.hpp"
+#include "hinge/policy/distance_matrix.hpp"
+
+namespace hinge::molecular {
+
+/// What distinguishes atoms in some radii set; `other` atoms are told apart by element.
+enum class AtomClass : std::uint8_t {
+  carbon,             ///< aliphatic
+  carbon_aromatic,    ///< planar ring
+  carbon_carbonyl,    ///< bonded to an oxygen that has no other bond
+  nitrogen,           ///< cannot accept a hydrogen bond: bears hydrogen, or is bonded three times
+  nitrogen_acceptor,  ///< two heavy neighbours at most and no hydrogen in a residue with hydrogens
+  oxygen,
+  oxygen_hydroxyl,    ///< bears a hydrogen, or single-bonded in SER, THR, TYR
+  sulphur,
+  phosphorus,
+  hydrogen,           ///< bonded to aliphatic carbon
+  hydrogen_alpha,     ///< bonded to carbon that is bonded to N, O or S
+  hydrogen_aromatic,
+  hydrogen_polar,     ///< bonded to N or S
+  hydrogen_hydroxyl,  ///< bonded to O
+  other
+};
+
+/// A named, versioned set of radii (angstrom). d0 of a pair is the sum of its radii.
+struct RadiiSet {
+  std::string_view name;         ///< as on the command line
+  std::string_view version;      ///< changes whenever a number does
+  std::string_view source;
+  int default_min_bonds;         ///< bond distance at which a pair starts to count unless the user says otherwise
+  double (*radius)(AtomClass, std::string_view element);
+};
+
+/// bondi, probe, probe-united, amber.
+const std::vector<RadiiSet>& radii_sets();
+
+/// ModelError, listing the names, when there is none of that name.
+const RadiiSet& radii_set(std::string_view name);
+
+/// One class per atom, from elements, bonds and residues.
+std::vector<AtomClass> classify_atoms(const Structure& structure);
+
+struct ThresholdOptions {
+  std::string radii = "bondi";
+  double rho = 0.8;                     ///< M = rho * d0; finite, > 0
+  std::optional<bool> hydrogen_bonds;   ///< hydrogen-bond rule; none: on when the structure has hydrogens
+  double hydrogen_bond_allowance = 0.4; ///< angstrom, taken from M(polar H, acceptor N, O or S)
+};
+
+/// Thresholds with what is needed to print them.
+struct Thresholds {
+  TypedThresholds matrix;
+  std::vector<std::string> type_names;  ///< per type: "C", "C.aromatic", "H.polar", "Zn"
+  bool hydrogen_bonds = false;
+  const RadiiSet* set = nullptr;
+  double rho = 0.8;
+
+  double between(std::size_t s, std::size_t t) const noexcept { return table[s * type_names.size() + t]; }
+  std::vector<double> table;  ///< type x type, row-major, angstrom
+};
+
+/// ModelError: unknown set, rho or allowance out of range.
+Thresholds make_thresholds(const Structure& structure, const ThresholdOptions& options = {});
+
+}  // namespace hinge::molecular

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reading PDB and mmCIF files, plain or gzipped, with every repair said and every doubt refused.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "hinge/molecular/structure.hpp"
+
+namespace hinge::molecular {
+
+struct ReadOptions {
+  std::optional<int> model;     ///< the model's number in the file; none: all models
+  std::optional<char> altloc;   ///< none: per residue the one of highest occupancy, then the first
+  bool hetero = false;          ///< keep ligands, ions and sugars; waters are always left out and counted
+  bool keep_hydrogens = true;
+};
+
+/// Atoms, coordinates (angstrom) and bonds. LoadError names file, line (or entity), what was found and expected: files
+/// that cannot be opened, hold no atoms, have blank or non-finite coordinates, broken MODEL records, unequal models.
+Structure read_structure(const std::filesystem::path& path, const ReadOptions& options = {});
+
+}  // namespace hinge::molecular

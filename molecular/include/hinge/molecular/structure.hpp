@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Structure: what a molecular file says, after the loader's checks: atoms, residues, chains, bonds, models.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hinge/core/vec3.hpp"
+
+namespace hinge::molecular {
+
+/// One atom of the chosen conformer. Positions live in Structure::models.
+struct Atom {
+  std::string name;     ///< as in the file, without blanks: "CA", "HG11"
+  std::string element;  ///< symbol in periodic-table case: "C", "Zn"; deuterium is "H"
+  std::uint32_t residue = 0;
+  char altloc = '\0';  ///< '\0' where the file has none
+  int serial = 0;      ///< as in the file
+};
+
+enum class ResidueKind : std::uint8_t { amino_acid, nucleotide, water, other };
+
+/// A residue and the range [first_atom, last_atom) it owns.
+struct Residue {
+  std::string name;  ///< three-letter code, "HOH"
+  int sequence_number = 0;
+  char insertion_code = '\0';
+  std::uint32_t chain = 0;
+  std::uint32_t first_atom = 0;
+  std::uint32_t last_atom = 0;
+  ResidueKind kind = ResidueKind::other;
+};
+
+/// A chain and the range [first_residue, last_residue) it owns.
+struct Chain {
+  std::string name;
+  std::uint32_t first_residue = 0;
+  std::uint32_t last_residue = 0;
+};
+
+/// Where a bond comes from; the output says so for everything but templates and peptides.
+enum class BondOrigin : std::uint8_t {
+  residue_template,  ///< our own residue table
+  peptide,           ///< C(i)-N(i+1)
+  disulphide,        ///< SSBOND, struct_conn or SG-SG by distance
+  record,            ///< LINK, CONECT or struct_conn
+  covalent_radii     ///< perceived from distance
+};
+
+/// first < second, positions in Structure::atoms.
+struct Bond {
+  std::uint32_t first = 0;
+  std::uint32_t second = 0;
+  BondOrigin origin = BondOrigin::residue_template;
+};
+
+/// A bond the file records (SSBOND, LINK, struct_conn) between two kept atoms.
+struct Link {
+  std::uint32_t first = 0;
+  std::uint32_t second = 0;
+  bool disulphide = false;
+};
+
+/// A helix or strand from HELIX/SHEET records: residues [first, last] of one chain, positions in Structure::residues.
+struct SecondaryStructure {
+  enum class Kind : std::uint8_t { helix, strand } kind = Kind::helix;
+  std::uint32_t first = 0;
+  std::uint32_t last = 0;
+};
+
+/// A molecule as read (or built): topology once, coordinates per model, in angstrom.
+struct Structure {
+  std::string name;  ///< entry id, or the file's stem
+  std::vector<Atom> atoms;
+  std::vector<Residue> residues;
+  std::vector<Chain> chains;
+  std::vector<Link> links;  ///< as recorded; bonds says which of them hold
+  std::vector<Bond> bonds;  ///< sorted, unique
+  std::vector<SecondaryStructure> secondary_structure;
+  std::vector<std::vector<Vec3>> models;  ///< models[m][atom]; at least one
+  std::vector<int> model_numbers;         ///< as in the file, one per model
+  std::vector<std::string> notes;         ///< repairs, guesses and warnings, one sentence each
+  std::size_t waters_dropped = 0;
+  std::size_t hetero_dropped = 0;
+};
+
+/// "A:LYS77:NZ" (insertion code behind the number: "A:SER60A:OG"); a blank chain name is printed as "_".
+std::string label(const Structure& structure, std::uint32_t atom);
+
+}  // namespace hinge::molecular

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From raw records to a Structure: one conformer, kinds, elements, equal models, records resolved.
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "hinge/core/error.hpp"
+#include "hinge/core/finite.hpp"
+#include "hinge/molecular/residue_table.hpp"
+#include "read_file.hpp"
+
+namespace hinge::molecular {
+
+namespace {
+
+bool has_atom(const RawResidue& residue, std::string_view name) {
+  return std::any_of(residue.atoms.begin(), residue.atoms.end(), [&](const RawAtom& a) { return a.name == name; });
+}
+
+/// By name where the name is known, else by the backbone atoms it has.
+ResidueKind kind_of(const RawResidue& residue) {
+  if (residue.kind == ResidueKind::water || is_cap(residue.name))
+    return is_cap(residue.name) ? ResidueKind::other : ResidueKind::water;
+  if (find_residue_template(residue.name) != nullptr) return ResidueKind::amino_acid;
+  const bool peptide = has_atom(residue, "N") && has_atom(residue, "CA") && has_atom(residue, "C") && has_atom(residue, "O");
+  if (peptide) return ResidueKind::amino_acid;
+  const bool sugar = has_atom(residue, "C1'") && has_atom(residue, "O3'") && has_atom(residue, "C4'");
+  if (residue.kind == ResidueKind::nucleotide || (sugar && has_atom(residue, "P"))) return ResidueKind::nucleotide;
+  return ResidueKind::other;
+}
+
+class Assembler {
+ public:
+  Assembler(RawFile raw, const std::string& path, const ReadOptions& options)
+      : raw_(std::move(raw)), path_(path), options_(options) {}
+
+  Structure run() {
+    s_.name = raw_.name;
+    s_.notes = raw_.notes;
+    std::vector<const RawModel*> chosen;
+    for (const RawModel& model : raw_.models)
+      if (!options_.model || model.number == *options_.model) chosen.push_back(&model);
+    if (chosen.empty())
+      throw LoadError(path_ + (options_.model ? ": has no model " + std::to_string(*options_.model) + ", it has " +
+                                                    std::to_string(raw_.models.size())
+                                              : ": has no atoms"));
+    for (std::size_t m = 0; m < chosen.size(); ++m) add_model(*chosen[m], m == 0);
+    if (s_.atoms.empty())
+      throw LoadError(path_ + ": no atoms left (" + std::to_string(s_.waters_dropped) + " waters and " +
+                      std::to_string(s_.hetero_dropped) + " hetero atoms left out; hetero atoms are kept on request)");
+    resolve_records();
+    say_repairs();
+    return std::move(s_);
+  }
+
+ private:
+  /// Atoms of one model in order, of the conformer chosen; topology is taken from the first.
+  void add_model(const RawModel& model, bool first) {
+    std::vector<Vec3> positions;
+    const auto& residues = model.residues;
+    for (std::size_t begin = 0; begin < residues.size();) {
+      std::size_t end = begin + 1;  // residue types that share one position
+      while (end < residues.size() && residues[end].chain == residues[begin].chain &&
+             residues[end].number == residues[begin].number &&
+             residues[end].insertion_code == residues[begin].insertion_code && has_altlocs(residues[begin]) &&
+             has_altlocs(residues[end]))
+        ++end;
+      std::size_t best = begin;
+      for (std::size_t r = begin + 1; r < end; ++r)
+        if (preference(residues[r]) > preference(residues[best])) best = r;
+      if (first && end > begin + 1)
+        s_.notes.push_back(name_of(residues[begin]) + ": " + std::to_string(end - begin) +
+                           " residue types share the position, " + residues[best].name + " is used");
+      add_residue(residues[best], first, positions);
+      begin = end;
+    }
+    if (!first && positions.size() != s_.atoms.size())
+      throw LoadError(path_ + ": model " + std::to_string(model.number) + " has " + std::to_string(positions.size()) +
+                      " atoms, expected " + std::to_string(s_.atoms.size()) + " as in the first; choose one model");
+    s_.models.push_back(std::move(positions));
+    s_.model_numbers.push_back(model.number);
+  }
+
+  static bool has_altlocs(const RawResidue& residue) {
+    return std::any_of(residue.atoms.begin(), residue.atoms.end(), [](const RawAtom& a) { return a.altloc != '\0'; });
+  }
+  static std::string name_of(const RawResidue& residue) {
+    return (residue.chain.empty() ? "_" : residue.chain) + ":" + residue.name + std::to_string(residue.number) +
+           (residue.insertion_code != '\0' ? std::string(1, residue.insertion_code) : "");
+  }
+  double preference(const RawResidue& residue) const {
+    double best = 0.0;
+    for (const RawAtom& atom : residue.atoms) {
+      if (options_.altloc && atom.altloc == *options_.altloc) return 2.0;
+      best = std::max(best, atom.occupancy);
+    }
+    return best;
+  }
+
+  /// The alternative location to use in a residue; '\0' when there is none.
+  char altloc_of(const RawResidue& residue) const {
+    std::vector<std::pair<char, double>> sums;  // in order of appearance
+    for (const RawAtom& atom : residue.atoms) {
+      if (atom.altloc == '\0') continue;
+      auto found = std::find_if(sums.begin(), sums.end(), [&](const auto& entry) { return entry.first == atom.altloc; });
+      if (found == sums.end()) found = sums.insert(sums.end(), {atom.altloc, 0.0});
+      found->second = std::max(found->second, atom.occupancy);
+    }
+    char best = '\0';
+    double occupancy = -1.0;
+    for (const auto& [altloc, value] : sums) {
+      if (options_.altloc && altloc == *options_.altloc) return altloc;
+      if (value > occupancy) {
+        best = altloc;
+        occupancy = value;
+      }
+    }
+    return best;
+  }
+
+  void add_residue(const RawResidue& raw, bool first, std::vector<Vec3>& positions) {
+    const ResidueKind kind = kind_of(raw);
+    if (kind == ResidueKind::water) {
+      if (first) ++s_.waters_dropped;
+      return;
+    }
+    if (kind == ResidueKind::other && !options_.hetero && !is_cap(raw.name)) {
+      if (first) s_.hetero_dropped += raw.atoms.size();
+      return;
+    }
+    const char altloc = altloc_of(raw);
+    Residue residue{raw.name, raw.number, raw.insertion_code, 0, static_cast<std::uint32_t>(s_.atoms.size()), 0, kind};
+    std::map<std::string, int> seen;
+    for (const RawAtom& atom : raw.atoms) {
+      if (atom.altloc != '\0' && atom.altloc != altloc) continue;
+      const std::string where = path_ + ": " + name_of(raw) + ":" + atom.name;
+      if (!is_finite(atom.position)) throw LoadError(where + ": a coordinate is missing or not finite");
+      const std::string element = element_of(atom, raw, where, first);
+      if (element == "H" && !options_.keep_hydrogens) continue;
+      if (++seen[atom.name] > 1) {
+        if (first) s_.notes.push_back(name_of(raw) + ": atom " + atom.name + " is there more than once, the first is used");
+        continue;
+      }
+      check_same(positions.size(), atom, raw, first, where);
+      positions.push_back(atom.position);
+      if (!first) continue;
+      s_.atoms.push_back({atom.name, element, static_cast<std::uint32_t>(s_.residues.size()), atom.altloc, atom.serial});
+    }
+    if (!first || s_.atoms.size() == residue.first_atom) return;
+    residue.last_atom = static_cast<std::uint32_t>(s_.atoms.size());
+    if (s_.chains.empty() || s_.chains.back().name != raw.chain)
+      s_.chains.push_back({raw.chain, static_cast<std::uint32_t>(s_.residues.size()), 0});
+    residue.chain = static_cast<std::uint32_t>(s_.chains.size() - 1);
+    s_.residues.push_back(std::move(residue));
+    s_.chains.back().last_residue = static_cast<std::uint32_t>(s_.residues.size());
+  }
+
+  void check_same(std::size_t position, const RawAtom& atom, const RawResidue& raw, bool first, const std::string& where) const {
+    if (first) return;
+    bool same = position < s_.atoms.size() && s_.atoms[position].name == atom.name;
+    if (same) {
+      const Residue& residue = s_.residues[s_.atoms[position].residue];
+      same = residue.sequence_number == raw.number && residue.insertion_code == raw.insertion_code;
+    }
+    if (!same)
+      throw LoadError(where + ": this model's atoms differ from the first model's; choose one model");
+  }
+
+  /// What the element must be by the residue's table, or what the name suggests where the file says nothing.
+  std::string element_of(const RawAtom& atom, const RawResidue& residue, const std::string& where, bool first) {
+    std::string expected;
+    const std::string_view name = atom.name;
+    const std::size_t letter = name.find_first_not_of("0123456789");
+    const ResidueTemplate* known = find_residue_template(residue.name);
+    if (known != nullptr && letter != std::string_view::npos) {
+      const char c = name[letter];
+      if (residue.name == "MSE" && name == "SE") {
+        expected = "Se";
+      } else if (c == 'D' && atom.element == "H") {
+        expected = "H";
+      } else if (c == 'C' || c == 'N' || c == 'O' || c == 'S' || c == 'H') {
+        expected = std::string(1, c);
+      }
+    }
+    if (expected.empty()) expected = atom.element;
+    if (expected.empty() && letter != std::string_view::npos && std::string_view("CNOSPHF").find(name[letter]) != std::string_view::npos)
+      expected = std::string(1, name[letter]);
+    if (expected.empty() && letter != std::string_view::npos && name[letter] == 'D') expected = "H";
+    if (expected.empty())
+      throw LoadError(where + ": the element is unknown and cannot be told from the name, expected one in columns 77-78");
+    if (expected != atom.element && first) {
+      ++repaired_;
+      if (repaired_ == 1)
+        first_repair_ = name_of(residue) + ":" + atom.name + " read as " + (atom.element.empty() ? "nothing" : atom.element);
+    }
+    return expected;
+  }
+
+  void say_repairs() {
+    if (repaired_ > 0)
+      s_.notes.push_back("elements of " + std::to_string(repaired_) + " atoms taken from their names (first: " +
+                         first_repair_ + ")");
+  }
+
+  using Key = std::tuple<std::string, int, char>;
+  void resolve_records() {
+    std::map<Key, std::uint32_t> residues;
+    for (std::uint32_t r = 0; r < s_.residues.size(); ++r) {
+      const Residue& residue = s_.residues[r];
+      residues.emplace(Key{s_.chains[residue.chain].name, residue.sequence_number, residue.insertion_code}, r);
+    }
+    const auto residue = [&](const RawAddress& a) -> std::optional<std::uint32_t> {
+      const auto found = residues.find({a.chain, a.number, a.insertion_code});
+      return found == residues.end() ? std::nullopt : std::optional(found->second);
+    };
+    const auto atom = [&](const RawAddress& a) -> std::optional<std::uint32_t> {
+      const auto r = residue(a);
+      if (!r) return std::nullopt;
+      for (std::uint32_t i = s_.residues[*r].first_atom; i < s_.residues[*r].last_atom; ++i)
+        if (s_.atoms[i].name == a.atom) return i;
+      return std::nullopt;
+    };
+    std::size_t dangling = 0;
+    for (const RawLink& link : raw_.links) {
+      const auto a = atom(link.first), b = atom(link.second);
+      if (a && b && *a != *b)
+        s_.links.push_back({std::min(*a, *b), std::max(*a, *b), link.disulphide});
+      else
+        ++dangling;
+    }
+    if (dangling > 0)
+      s_.notes.push_back(std::to_string(dangling) + " recorded bonds name atoms that are not there or were left out");
+    for (const RawElement& element : raw_.elements) {
+      const auto a = residue(element.first), b = residue(element.last);
+      if (a && b && *a <= *b)
+        s_.secondary_structure.push_back({element.kind, *a, *b});
+      else
+        s_.notes.push_back("a helix or strand record names residues that are not there or out of order, ignored");
+    }
+  }
+
+  RawFile raw_;
+  const std::string& path_;
+  const ReadOptions& options_;
+  Structure s_;
+  std::size_t repaired_ = 0;
+  std::string first_repair_;
+};
+
+}  // namespace
+
+Structure assemble(RawFile raw, const std::string& path, const ReadOptions& options) {
+  return Assembler(std::move(raw), path, options).run();
+}
+
+}  // namespace hinge::molecular

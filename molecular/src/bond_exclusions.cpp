@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Breadth-first search over the bond graph, a few bonds deep from every atom.
+#include "hinge/molecular/bond_exclusions.hpp"
+
+#include <string>
+
+#include "hinge/core/error.hpp"
+
+namespace hinge::molecular {
+
+namespace {
+
+/// Atoms within `depth` bonds of `start` (itself first), level by level; `ends[k]` is where level k ends.
+std::vector<std::uint32_t> around(const std::vector<std::vector<std::uint32_t>>& neighbours, std::uint32_t start,
+                                  int depth, std::vector<std::uint8_t>& seen, std::vector<std::size_t>& ends) {
+  std::vector<std::uint32_t> reached{start};
+  seen[start] = 1;
+  ends.assign(1, 1);
+  std::size_t next = 0;
+  for (int level = 0; level < depth; ++level) {
+    const std::size_t end = reached.size();
+    for (; next < end; ++next)
+      for (const std::uint32_t atom : neighbours[reached[next]])
+        if (seen[atom] == 0) {
+          seen[atom] = 1;
+          reached.push_back(atom);
+        }
+    ends.push_back(reached.size());
+  }
+  for (const std::uint32_t atom : reached) seen[atom] = 0;
+  return reached;
+}
+
+}  // namespace
+
+std::vector<std::vector<std::uint32_t>> bonded_neighbours(const Structure& structure) {
+  std::vector<std::vector<std::uint32_t>> neighbours(structure.atoms.size());
+  for (const Bond& bond : structure.bonds) {
+    neighbours[bond.first].push_back(bond.second);
+    neighbours[bond.second].push_back(bond.first);
+  }
+  for (auto& list : neighbours) std::sort(list.begin(), list.end());
+  return neighbours;
+}
+
+int bond_distance(const Structure& structure, std::uint32_t i, std::uint32_t j, int limit) {
+  std::vector<std::uint8_t> seen(structure.atoms.size(), 0);
+  std::vector<std::size_t> ends;
+  const auto reached = around(bonded_neighbours(structure), i, limit, seen, ends);
+  const auto found = std::find(reached.begin(), reached.end(), j);
+  if (found == reached.end()) return -1;
+  const auto position = static_cast<std::size_t>(found - reached.begin());
+  return static_cast<int>(std::upper_bound(ends.begin(), ends.end(), position) - ends.begin());
+}
+
+BondExclusions::BondExclusions(const Structure& structure, int min_bonds,
+                               std::span<const std::pair<PrimitiveId, PrimitiveId>> exempt) {
+  // Beyond 16 bonds a list per atom is the wrong tool: it would hold a large part of the molecule.
+  if (min_bonds < 1 || min_bonds > 16)
+    throw ModelError("minimal bond distance " + std::to_string(min_bonds) + ": expected 1 to 16");
+  const auto neighbours = bonded_neighbours(structure);
+  std::vector<std::vector<PrimitiveId>> further(structure.atoms.size());
+  for (const auto& [i, j] : exempt) {
+    further.at(index(i)).push_back(j);
+    further.at(index(j)).push_back(i);
+  }
+  Data data;
+  data.start.assign(1, 0);
+  std::vector<std::uint8_t> seen(structure.atoms.size(), 0);
+  std::vector<std::size_t> ends;
+  for (std::uint32_t atom = 0; atom < structure.atoms.size(); ++atom) {
+    std::vector<PrimitiveId> list = std::move(further[atom]);
+    for (const std::uint32_t other : around(neighbours, atom, min_bonds - 1, seen, ends))
+      if (other != atom) list.push_back(id<PrimitiveId>(other));
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    data.excluded.insert(data.excluded.end(), list.begin(), list.end());
+    data.start.push_back(data.excluded.size());
+  }
+  data_ = std::make_shared<const Data>(std::move(data));
+}
+
+}  // namespace hinge::molecular

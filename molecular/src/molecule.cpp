@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From bonds and torsions to a kinematic tree: rigid fragments, a spanning tree over them, closures for the rest.
+#include "hinge/molecular/molecule.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "hinge/kinematics/joint.hpp"
+
+namespace hinge::molecular {
+
+namespace {
+
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+/// Disjoint sets of atoms.
+class Fragments {
+ public:
+  explicit Fragments(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0U); }
+  std::uint32_t find(std::uint32_t a) {
+    while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
+    return a;
+  }
+  /// False when the two were one already.
+  bool join(std::uint32_t a, std::uint32_t b) {
+    a = find(a);
+    b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+    return a != b;
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+bool is_cross_link(const Structure& s, const Bond& bond) {
+  if (bond.origin == BondOrigin::disulphide || bond.origin == BondOrigin::record) return true;
+  const std::uint32_t r = s.atoms[bond.first].residue, t = s.atoms[bond.second].residue;
+  return (r < t ? t - r : r - t) > 1;  // the bond that closes a cyclic backbone, or one perceived between far residues
+}
+
+}  // namespace
+
+/// One use: builds the links and joints of a Molecule.
+class MoleculeBuilder {
+ public:
+  explicit MoleculeBuilder(Molecule& molecule)
+      : molecule_(molecule), s_(molecule.structure_), rigid_(s_.atoms.size()), link_(s_.atoms.size(), none) {}
+
+  void build() {
+    split_bonds();
+    find_fragments();
+    for (const std::uint32_t root : roots()) grow(root);
+    add_atoms();
+    for (const Bond& bond : cross_links_) close_cycle(bond);
+    molecule_.model_ = model_.finish();
+    order_torsions();
+  }
+
+ private:
+  struct Hinge {  // a torsion's central bond
+    std::uint32_t torsion;
+    std::uint32_t from, to;  // atoms
+  };
+
+  const Vec3& at(std::uint32_t atom) const { return s_.models.front()[atom]; }
+
+  /// Cross-links that would close a cycle are set aside; all other bonds make the graph the tree is taken from.
+  void split_bonds() {
+    Fragments whole(s_.atoms.size());
+    for (const Bond& bond : s_.bonds)
+      if (!is_cross_link(s_, bond)) {
+        whole.join(bond.first, bond.second);
+        bonds_.push_back(bond);
+      }
+    for (const Bond& bond : s_.bonds)
+      if (is_cross_link(s_, bond)) (whole.join(bond.first, bond.second) ? bonds_ : cross_links_).push_back(bond);
+    whole_ = std::move(whole);
+  }
+
+  /// Atoms joined by bonds that do not turn. A torsion whose two ends stay joined lies in a ring and is no DOF.
+  void find_fragments() {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> turning;
+    for (std::uint32_t t = 0; t < molecule_.torsions_.size(); ++t) {
+      const auto& a = molecule_.torsions_[t].atoms;
+      turning.emplace(std::minmax(a[1], a[2]), t);
+    }
+    for (const Bond& bond : bonds_)
+      if (!turning.contains({bond.first, bond.second})) rigid_.join(bond.first, bond.second);
+    for (const auto& [bond, t] : turning) {
+      const auto [a, b] = bond;
+      if (rigid_.find(a) == rigid_.find(b)) {
+        note(t, "lies in a ring and stays rigid");
+        continue;
+      }
+      hinges_[rigid_.find(a)].push_back({t, a, b});
+      hinges_[rigid_.find(b)].push_back({t, b, a});
+    }
+  }
+
+  /// One fragment per connected part: the one that holds its middle atom, which halves the longest lever arm.
+  std::vector<std::uint32_t> roots() {
+    std::map<std::uint32_t, std::vector<std::uint32_t>> parts;
+    for (std::uint32_t atom = 0; atom < s_.atoms.size(); ++atom) parts[whole_.find(atom)].push_back(atom);
+    std::vector<std::uint32_t> roots;
+    for (const auto& [part, atoms] : parts) roots.push_back(rigid_.find(atoms[atoms.size() / 2]));
+    return roots;
+  }
+
+  /// Breadth-first over hinges from a root fragment. Link frames are the structure's frame at the reference.
+  void grow(std::uint32_t root) {
+    link_[root] = static_cast<std::uint32_t>(index(model_.add_link(world, Fixed{})));
+    std::vector<std::uint32_t> queue{root};
+    for (std::size_t k = 0; k < queue.size(); ++k)
+      for (const Hinge& hinge : hinges_[queue[k]]) {
+        const std::uint32_t next = rigid_.find(hinge.to);
+        if (done_.contains(hinge.torsion)) continue;
+        done_.insert({hinge.torsion, {}});
+        if (link_[next] != none) {
+          note(hinge.torsion, "closes a cycle of torsions and stays at its reference");
+          continue;
+        }
+        // Turning the far side by +q about the axis pointing at it raises the dihedral by q, from either end.
+        const Vec3 axis = at(hinge.to) - at(hinge.from);
+        const DofId dof = id<DofId>(model_.tree().dof_count());
+        const Torsion& torsion = molecule_.torsions_[hinge.torsion];
+        link_[next] = static_cast<std::uint32_t>(
+            index(model_.add_link(id<LinkId>(link_[queue[k]]), Revolute{axis, at(hinge.from), {}, torsion.name})));
+        // The far atom of the bond does not move against the near side either, and belongs to its pseudo-backbone.
+        on_axis_[hinge.to] = link_[queue[k]];
+        done_[hinge.torsion] = dof;
+        queue.push_back(next);
+      }
+  }
+
+  void add_atoms() {
+    for (std::uint32_t atom = 0; atom < s_.atoms.size(); ++atom) {
+      const auto axis = on_axis_.find(atom);
+      const std::uint32_t link = axis != on_axis_.end() ? axis->second : link_[rigid_.find(atom)];
+      model_.add_primitive(id<LinkId>(link), Point{at(atom)});
+    }
+    model_.set_basic_groups(basic_groups(s_));
+  }
+
+  void close_cycle(const Bond& bond) {
+    const std::uint32_t a = link_[rigid_.find(bond.first)], b = link_[rigid_.find(bond.second)];
+    if (a == b) return;  // inside one rigid fragment: nothing can open it
+    Closure closure;
+    closure.first = id<LinkId>(a);
+    closure.second = id<LinkId>(b);
+    closure.in_first = closure.in_second = {at(bond.first), at(bond.second)};
+    closure.name = label(s_, bond.first) + " - " + label(s_, bond.second);
+    molecule_.notes_.push_back("closure: the bond " + closure.name + " closes a cycle");
+    model_.add_closure(std::move(closure));
+  }
+
+  void note(std::uint32_t torsion, const char* what) {
+    const Torsion& t = molecule_.torsions_[torsion];
+    molecule_.notes_.push_back("torsion " + t.name + " of " + label(s_, t.atoms[1]) + ": " + what);
+  }
+
+  /// Keeps the torsions that became joints.
+  void order_torsions() {
+    std::vector<Torsion> kept;
+    molecule_.torsion_of_.resize(model_dof_count());
+    for (std::uint32_t t = 0; t < molecule_.torsions_.size(); ++t) {
+      const auto found = done_.find(t);
+      if (found == done_.end() || !found->second) continue;
+      molecule_.torsion_of_[index(*found->second)] = kept.size();
+      molecule_.dof_.push_back(*found->second);
+      kept.push_back(molecule_.torsions_[t]);
+    }
+    molecule_.torsions_ = std::move(kept);
+  }
+  std::size_t model_dof_count() const { return molecule_.model_->tree().dof_count(); }
+
+  Molecule& molecule_;
+  const Structure& s_;
+  ModelBuilder<Point> model_;
+  std::vector<Bond> bonds_;
+  std::vector<Bond> cross_links_;
+  Fragments whole_{0};
+  Fragments rigid_;
+  std::map<std::uint32_t, std::vector<Hinge>> hinges_;             // by fragment
+  std::vector<std::uint32_t> link_;                                // by fragment
+  std::map<std::uint32_t, std::uint32_t> on_axis_;                 // atom -> link of the near side
+  std::map<std::uint32_t, std::optional<DofId>> done_;             // torsion -> its DOF, if it got one
+};
+
+Molecule::Molecule(Structure structure) : structure_(std::move(structure)), torsions_(find_torsions(structure_, notes_)) {
+  MoleculeBuilder(*this).build();
+}
+
+DofSelection Molecule::select(std::span<const std::size_t> torsions) const {
+  std::vector<DofId> free;
+  for (const std::size_t k : torsions) free.push_back(dof_.at(k));
+  return {model_->tree(), std::move(free)};
+}
+
+}  // namespace hinge::molecular

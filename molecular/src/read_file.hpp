@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The steps of read_structure that live in files of their own.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hinge/molecular/read_structure.hpp"
+#include "hinge/molecular/structure.hpp"
+
+namespace hinge::molecular {
+
+/// The file's bytes, gunzipped where needed. LoadError: cannot be opened, damaged, empty.
+std::string read_bytes(const std::filesystem::path& path);
+
+/// Refuses what the parser would silently repair: blank or malformed coordinates, repeated or nested MODEL records.
+/// LoadError names the line.
+void check_pdb(const std::string& text, const std::string& path);
+
+/// An atom as the file has it, before conformers are chosen.
+struct RawAtom {
+  std::string name;
+  std::string element;  ///< empty: the file does not say, or says nonsense
+  char altloc = '\0';
+  int serial = 0;
+  double occupancy = 1.0;
+  Vec3 position = Vec3::Zero();
+};
+
+struct RawResidue {
+  std::string chain;
+  std::string name;
+  int number = 0;
+  char insertion_code = '\0';
+  bool hetero = false;      ///< HETATM
+  ResidueKind kind = ResidueKind::other;  ///< by name alone
+  std::vector<RawAtom> atoms;
+};
+
+struct RawModel {
+  int number = 1;
+  std::vector<RawResidue> residues;  ///< chain by chain
+};
+
+/// A residue or atom named by a record.
+struct RawAddress {
+  std::string chain;
+  int number = 0;
+  char insertion_code = '\0';
+  std::string atom;
+};
+
+struct RawLink {
+  RawAddress first, second;
+  bool disulphide = false;
+};
+
+struct RawElement {
+  SecondaryStructure::Kind kind{};
+  RawAddress first, last;
+};
+
+struct RawFile {
+  std::string name;
+  std::vector<RawModel> models;
+  std::vector<RawLink> links;
+  std::vector<RawElement> elements;
+  std::vector<std::string> notes;
+};
+
+/// Parses the bytes with gemmi (PDB or mmCIF). LoadError carries the parser's message.
+RawFile parse_with_gemmi(const std::string& bytes, const std::string& path, bool cif);
+
+/// Chooses conformers, kinds and elements and leaves out what was not asked for.
+Structure assemble(RawFile raw, const std::string& path, const ReadOptions& options);
+
+}  // namespace hinge::molecular

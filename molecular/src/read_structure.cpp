@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bytes, checks, parser, assembly, bonds.
+#include "hinge/molecular/read_structure.hpp"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <utility>
+
+#include "hinge/core/error.hpp"
+#include "hinge/molecular/bonds.hpp"
+#include "read_file.hpp"
+
+namespace hinge::molecular {
+
+namespace {
+
+/// mmCIF by content: its first word that is no comment is data_..., loop_ or an item; PDB lines start otherwise.
+bool looks_like_cif(const std::string& bytes) {
+  std::size_t line = 0;
+  while (line < bytes.size()) {
+    const std::size_t end = std::min(bytes.find('\n', line), bytes.size());
+    std::size_t k = line;
+    while (k < end && std::isspace(static_cast<unsigned char>(bytes[k])) != 0) ++k;
+    if (k < end && bytes[k] != '#')
+      return bytes.compare(k, 5, "data_") == 0 || bytes.compare(k, 5, "loop_") == 0 || bytes[k] == '_';
+    line = end + 1;
+  }
+  return false;
+}
+
+std::string stem(std::filesystem::path path) {
+  if (path.extension() == ".gz") path.replace_extension();
+  return path.stem().string();
+}
+
+}  // namespace
+
+std::string read_bytes(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path)) throw LoadError(path.string() + ": is a directory, expected a PDB or mmCIF file");
+  errno = 0;
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), gzclose);
+  if (!file) throw LoadError(path.string() + ": cannot be opened: " + std::strerror(errno != 0 ? errno : ENOMEM));
+  std::string bytes;
+  std::array<char, 1U << 16> chunk{};
+  int got = 0;
+  while ((got = gzread(file.get(), chunk.data(), static_cast<unsigned>(chunk.size()))) > 0)
+    bytes.append(chunk.data(), static_cast<std::size_t>(got));
+  int status = Z_OK;
+  const char* message = gzerror(file.get(), &status);
+  if (got < 0 || (status != Z_OK && status != Z_STREAM_END))
+    throw LoadError(path.string() + ": cannot be read to its end: " + message);
+  if (bytes.find_first_not_of(" \t\r\n") == std::string::npos)
+    throw LoadError(path.string() + ": is empty, expected a PDB or mmCIF file");
+  return bytes;
+}
+
+Structure read_structure(const std::filesystem::path& path, const ReadOptions& options) {
+  const std::string bytes = read_bytes(path);
+  const bool cif = looks_like_cif(bytes);
+  if (!cif) check_pdb(bytes, path.string());
+  RawFile raw = parse_with_gemmi(bytes, path.string(), cif);
+  if (raw.name.empty() || raw.name == path.string()) raw.name = stem(path);
+  Structure structure = assemble(std::move(raw), path.string(), options);
+  perceive_bonds(structure);
+  return structure;
+}
+
+}  // namespace hinge::molecular

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// IUPAC-IUB 1970 names and side-chain torsions.
+#include "hinge/molecular/residue_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace hinge::molecular {
+
+namespace {
+
+constexpr std::array<ResidueTemplate, 21> templates{{
+    {"ALA", 'A', "CA-CB", ""},
+    {"ARG", 'R', "CA-CB CB-CG CG-CD CD-NE NE-CZ CZ-NH1 CZ-NH2", "N-CA-CB-CG CA-CB-CG-CD CB-CG-CD-NE CG-CD-NE-CZ"},
+    {"ASN", 'N', "CA-CB CB-CG CG-OD1 CG-ND2", "N-CA-CB-CG CA-CB-CG-OD1"},
+    {"ASP", 'D', "CA-CB CB-CG CG-OD1 CG-OD2", "N-CA-CB-CG CA-CB-CG-OD1"},
+    {"CYS", 'C', "CA-CB CB-SG", "N-CA-CB-SG"},
+    {"GLN", 'Q', "CA-CB CB-CG CG-CD CD-OE1 CD-NE2", "N-CA-CB-CG CA-CB-CG-CD CB-CG-CD-OE1"},
+    {"GLU", 'E', "CA-CB CB-CG CG-CD CD-OE1 CD-OE2", "N-CA-CB-CG CA-CB-CG-CD CB-CG-CD-OE1"},
+    {"GLY", 'G', "", ""},
+    {"HIS", 'H', "CA-CB CB-CG CG-ND1 CG-CD2 ND1-CE1 CE1-NE2 CD2-NE2", "N-CA-CB-CG CA-CB-CG-ND1"},
+    {"ILE", 'I', "CA-CB CB-CG1 CB-CG2 CG1-CD1 CG1-CD", "N-CA-CB-CG1 CA-CB-CG1-CD1"},
+    {"LEU", 'L', "CA-CB CB-CG CG-CD1 CG-CD2", "N-CA-CB-CG CA-CB-CG-CD1"},
+    {"LYS", 'K', "CA-CB CB-CG CG-CD CD-CE CE-NZ", "N-CA-CB-CG CA-CB-CG-CD CB-CG-CD-CE CG-CD-CE-NZ"},
+    {"MET", 'M', "CA-CB CB-CG CG-SD SD-CE", "N-CA-CB-CG CA-CB-CG-SD CB-CG-SD-CE"},
+    {"MSE", '\0', "CA-CB CB-CG CG-SE SE-CE", "N-CA-CB-CG CA-CB-CG-SE CB-CG-SE-CE"},
+    {"PHE", 'F', "CA-CB CB-CG CG-CD1 CG-CD2 CD1-CE1 CD2-CE2 CE1-CZ CE2-CZ", "N-CA-CB-CG CA-CB-CG-CD1"},
+    {"PRO", 'P', "CA-CB CB-CG CG-CD CD-N", ""},
+    {"SER", 'S', "CA-CB CB-OG", "N-CA-CB-OG"},
+    {"THR", 'T', "CA-CB CB-OG1 CB-CG2", "N-CA-CB-OG1"},
+    {"TRP", 'W', "CA-CB CB-CG CG-CD1 CG-CD2 CD1-NE1 NE1-CE2 CD2-CE2 CD2-CE3 CE2-CZ2 CE3-CZ3 CZ2-CH2 CZ3-CH2",
+     "N-CA-CB-CG CA-CB-CG-CD1"},
+    {"TYR", 'Y', "CA-CB CB-CG CG-CD1 CG-CD2 CD1-CE1 CD2-CE2 CE1-CZ CE2-CZ CZ-OH", "N-CA-CB-CG CA-CB-CG-CD1"},
+    {"VAL", 'V', "CA-CB CB-CG1 CB-CG2", "N-CA-CB-CG1"},
+}};
+
+/// Other names of the same heavy atoms: protonation states of AMBER and CHARMM, disulphide-bonded cysteine.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 15> variants{{
+    {"HID", "HIS"}, {"HIE", "HIS"}, {"HIP", "HIS"}, {"HSD", "HIS"}, {"HSE", "HIS"}, {"HSP", "HIS"}, {"ASH", "ASP"},
+    {"ASPP", "ASP"}, {"GLH", "GLU"}, {"GLUP", "GLU"}, {"LYN", "LYS"}, {"LSN", "LYS"}, {"CYX", "CYS"}, {"CYM", "CYS"},
+    {"CYS2", "CYS"},
+}};
+
+}  // namespace
+
+const ResidueTemplate* find_residue_template(std::string_view name) noexcept {
+  for (const auto& [variant, standard] : variants)
+    if (name == variant) name = standard;
+  const auto found = std::find_if(templates.begin(), templates.end(), [&](const auto& t) { return t.name == name; });
+  return found == templates.end() ? nullptr : found;
+}
+
+const ResidueTemplate* find_residue_template(char letter) noexcept {
+  const auto found = std::find_if(templates.begin(), templates.end(),
+                                  [&](const auto& t) { return letter != '\0' && t.letter == letter; });
+  return found == templates.end() ? nullptr : found;
+}
+
+bool is_cap(std::string_view name) noexcept {
+  return name == "ACE" || name == "FOR" || name == "NME" || name == "NH2" || name == "ETA";
+}
+
+}  // namespace hinge::molecular
