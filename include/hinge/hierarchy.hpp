@@ -30,7 +30,7 @@ namespace hinge {
 /// d(i, j) < M(i, j), or, for closed solids, d(i, j) = 0 (BioCD eq. (1)). Lengths in the model's unit, angles in rad.
 /// One per thread: copies share the constant model and nothing else.
 template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf = Lazy>
-  requires Engine<EngineOf<P, F, D>, P, F, D>
+requires Engine<EngineOf<P, F, D>, P, F, D>
 class Hierarchy {
  public:
   /// Every DOF free. ModelError: a filter or matrix made for another number of primitives.
@@ -41,8 +41,9 @@ class Hierarchy {
   Hierarchy(Model<P> model, DofSelection selection, F filter, D matrix)
       : filter_(std::move(filter)),
         matrix_(std::move(matrix)),
-        engine_(std::make_shared<const SelectedModel<P>>(checked(std::move(model), filter_, matrix_), std::move(selection)),
-                filter_, matrix_) {}
+        engine_(
+            std::make_shared<const SelectedModel<P>>(checked(std::move(model), filter_, matrix_), std::move(selection)),
+            filter_, matrix_) {}
 
   // --- state. Each throws ConfigurationError on bad input, naming the element, and keeps the previous state. ---
 
@@ -110,8 +111,8 @@ class Hierarchy {
     const auto check = [&](const auto& policy, const char* what) {
       if constexpr (KnowsSize<std::remove_cvref_t<decltype(policy)>>)
         if (policy.size() != model.size())
-          throw ModelError(std::string(what) + " made for " + std::to_string(policy.size()) + " primitives, the model has " +
-                           std::to_string(model.size()));
+          throw ModelError(std::string(what) + " made for " + std::to_string(policy.size()) +
+                           " primitives, the model has " + std::to_string(model.size()));
     };
     check(filter, "pair filter");
     check(matrix, "distance matrix");
@@ -156,8 +157,8 @@ class Hierarchy {
 };
 
 template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
-  requires Engine<EngineOf<P, F, D>, P, F, D>
-std::vector<Hit> Hierarchy<P, F, D, EngineOf>::constant_contacts() const {
+requires Engine<EngineOf<P, F, D>, P, F, D> std::vector<Hit> Hierarchy<P, F, D, EngineOf>::constant_contacts()
+const {
   Hierarchy at_reference(*this);
   at_reference.update(std::vector<double>(dof_count(), 0.0));
   const auto placed = at_reference.placed();

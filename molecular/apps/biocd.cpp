@@ -16,7 +16,8 @@ using biocd::Options;
 
 constexpr const char* footer =
     "Exit status: 0 free, 1 collision found, 2 usage, 3 bad input.\n"
-    "Selections (--free): all none loops every:N count:K backbone chi phi psi omega chi1..., A:45, A:10-20, A:45:chi1,\n"
+    "Selections (--free): all none loops every:N count:K backbone chi phi psi omega chi1..., A:45, A:10-20, "
+    "A:45:chi1,\n"
     "joined by commas. omega stays at its reference unless --omega is given or it is named.";
 
 void add_model_options(CLI::App& command, Options& o) {
@@ -36,15 +37,17 @@ void add_model_options(CLI::App& command, Options& o) {
           },
           "hydrogen-bond rule: auto (on with hydrogens), on, off")
       ->check(CLI::IsMember({"auto", "on", "off"}));
-  command.add_option("--hbond-allowance", o.check.thresholds.hydrogen_bond_allowance,
-                     "taken from M(polar H, acceptor), angstrom")
+  command
+      .add_option("--hbond-allowance", o.check.thresholds.hydrogen_bond_allowance,
+                  "taken from M(polar H, acceptor), angstrom")
       ->capture_default_str();
   command
       .add_option_function<std::string>(
           "--hydrogens", [&o](const std::string& text) { o.read.keep_hydrogens = text == "keep"; },
           "hydrogens of the file: keep (default) or drop")
       ->check(CLI::IsMember({"keep", "drop"}));
-  command.add_option_function<int>("--model", [&o](int number) { o.read.model = number; }, "number of the model to use");
+  command.add_option_function<int>(
+      "--model", [&o](int number) { o.read.model = number; }, "number of the model to use");
   command.add_option_function<std::string>(
       "--altloc",
       [&o](const std::string& text) {
@@ -60,9 +63,13 @@ void add_model_options(CLI::App& command, Options& o) {
 }
 
 void add_output_options(CLI::App& command, Options& o, bool csv) {
-  auto* json = command.add_flag_callback("--json", [&o] { o.output = biocd::Output::json; }, "JSON on standard output");
+  auto* json = command.add_flag_callback(
+      "--json", [&o] { o.output = biocd::Output::json; }, "JSON on standard output");
   if (csv)
-    command.add_flag_callback("--csv", [&o] { o.output = biocd::Output::csv; }, "CSV on standard output")->excludes(json);
+    command
+        .add_flag_callback(
+            "--csv", [&o] { o.output = biocd::Output::csv; }, "CSV on standard output")
+        ->excludes(json);
 }
 
 int run(int argc, char** argv) {

@@ -62,11 +62,13 @@ void explain(const Options& options, const Job& job) {
   else if (!checker.exclusions().admits(a, b))
     fmt::print("  dropped      collides in the reference, exempted\n");
   else if (checker.constant(i, j))
-    fmt::print("  kept         for coordinates from a file; its distance is constant under this selection, so samples "
-               "leave it out\n");
+    fmt::print(
+        "  kept         for coordinates from a file; its distance is constant under this selection, so samples "
+        "leave it out\n");
   else
     fmt::print("  kept         at least {} bonds apart, distance changes under this selection\n", checker.min_bonds());
-  fmt::print("  verdict      {}\n", distance < threshold ? "closer than the threshold" : "not closer than the threshold");
+  fmt::print("  verdict      {}\n",
+             distance < threshold ? "closer than the threshold" : "not closer than the threshold");
 }
 
 }  // namespace biocd

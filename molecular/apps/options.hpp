@@ -26,13 +26,13 @@ struct Options {
   bool omega = false;
   std::string mode = "all";
   Output output = Output::table;
-  std::string explain;        // "i,j"; empty: nothing to explain
-  bool atoms = false;         // info: list atoms, bonds and thresholds too
-  std::uint64_t count = 1000; // sample: number of conformations
+  std::string explain;         // "i,j"; empty: nothing to explain
+  bool atoms = false;          // info: list atoms, bonds and thresholds too
+  std::uint64_t count = 1000;  // sample: number of conformations
   std::uint64_t seed = 1;
   std::optional<double> sigma_degrees;
   unsigned threads = 1;
-  std::string out;            // sample: multi-model PDB to write
+  std::string out;  // sample: multi-model PDB to write
 };
 
 /// A file read, with its selection and rules, ready to be asked.

@@ -67,7 +67,8 @@ Json hit_json(const Structure& structure, const hinge::Hit& hit) {
 
 Json constant_contacts_json(const Job& job) {
   Json list = Json::array();
-  for (const hinge::Hit& hit : job.checker.constant_contacts()) list.push_back(hit_json(job.molecule->structure(), hit));
+  for (const hinge::Hit& hit : job.checker.constant_contacts())
+    list.push_back(hit_json(job.molecule->structure(), hit));
   return list;
 }
 
@@ -78,7 +79,8 @@ Json verdict_json(const Structure& structure, std::uint64_t index, const Verdict
     for (const hinge::Hit& hit : verdict.pairs) pairs.push_back(hit_json(structure, hit));
     json["pairs"] = std::move(pairs);
   }
-  if (mode.kind == Mode::Kind::closest) json["closest"] = verdict.closest ? hit_json(structure, *verdict.closest) : Json();
+  if (mode.kind == Mode::Kind::closest)
+    json["closest"] = verdict.closest ? hit_json(structure, *verdict.closest) : Json();
   return json;
 }
 

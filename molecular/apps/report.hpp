@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parts that the outputs of info, check and sample share. The JSON keys are a contract: docs/reference/biocd-json.md.
+// The parts that the outputs of info, check and sample share. The JSON keys are a contract:
+// docs/reference/biocd-json.md.
 #pragma once
 
 #include <cstdint>

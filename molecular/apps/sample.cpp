@@ -108,7 +108,7 @@ struct Summary {
   /// The pairs that collide most often, most frequent first.
   std::vector<std::pair<std::pair<hinge::PrimitiveId, hinge::PrimitiveId>, std::uint64_t>> top(std::size_t n) const {
     std::vector<std::pair<std::pair<hinge::PrimitiveId, hinge::PrimitiveId>, std::uint64_t>> all(offenders.begin(),
-                                                                                                offenders.end());
+                                                                                                 offenders.end());
     std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
     all.resize(std::min(n, all.size()));
     return all;
@@ -134,7 +134,8 @@ void print_table(const Structure& s, const Summary& summary, double seconds) {
              summary.checked, 100.0 * static_cast<double>(summary.colliding) / static_cast<double>(summary.checked),
              static_cast<double>(summary.checked) / seconds);
   if (summary.worst_residual > 0.0)
-    fmt::print("closures: sampled freely, so cycles open; the worst residual is {:.3f} angstrom\n", summary.worst_residual);
+    fmt::print("closures: sampled freely, so cycles open; the worst residual is {:.3f} angstrom\n",
+               summary.worst_residual);
   for (const auto& [pair, count] : summary.top(10))
     fmt::print("  {:<18} {:<18} {:8}\n", label(s, static_cast<std::uint32_t>(hinge::index(pair.first))),
                label(s, static_cast<std::uint32_t>(hinge::index(pair.second))), count);

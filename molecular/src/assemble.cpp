@@ -25,7 +25,8 @@ ResidueKind kind_of(const RawResidue& residue) {
   if (residue.kind == ResidueKind::water || is_cap(residue.name))
     return is_cap(residue.name) ? ResidueKind::other : ResidueKind::water;
   if (find_residue_template(residue.name) != nullptr) return ResidueKind::amino_acid;
-  const bool peptide = has_atom(residue, "N") && has_atom(residue, "CA") && has_atom(residue, "C") && has_atom(residue, "O");
+  const bool peptide =
+      has_atom(residue, "N") && has_atom(residue, "CA") && has_atom(residue, "C") && has_atom(residue, "O");
   if (peptide) return ResidueKind::amino_acid;
   const bool sugar = has_atom(residue, "C1'") && has_atom(residue, "O3'") && has_atom(residue, "C4'");
   if (residue.kind == ResidueKind::nucleotide || (sugar && has_atom(residue, "P"))) return ResidueKind::nucleotide;
@@ -105,7 +106,8 @@ class Assembler {
     std::vector<std::pair<char, double>> sums;  // in order of appearance
     for (const RawAtom& atom : residue.atoms) {
       if (atom.altloc == '\0') continue;
-      auto found = std::find_if(sums.begin(), sums.end(), [&](const auto& entry) { return entry.first == atom.altloc; });
+      auto found =
+          std::find_if(sums.begin(), sums.end(), [&](const auto& entry) { return entry.first == atom.altloc; });
       if (found == sums.end()) found = sums.insert(sums.end(), {atom.altloc, 0.0});
       found->second = std::max(found->second, atom.occupancy);
     }
@@ -141,13 +143,15 @@ class Assembler {
       const std::string element = element_of(atom, raw, where, first);
       if (element == "H" && !options_.keep_hydrogens) continue;
       if (++seen[atom.name] > 1) {
-        if (first) s_.notes.push_back(name_of(raw) + ": atom " + atom.name + " is there more than once, the first is used");
+        if (first)
+          s_.notes.push_back(name_of(raw) + ": atom " + atom.name + " is there more than once, the first is used");
         continue;
       }
       check_same(positions.size(), atom, raw, first, where);
       positions.push_back(atom.position);
       if (!first) continue;
-      s_.atoms.push_back({atom.name, element, static_cast<std::uint32_t>(s_.residues.size()), atom.altloc, atom.serial});
+      s_.atoms.push_back(
+          {atom.name, element, static_cast<std::uint32_t>(s_.residues.size()), atom.altloc, atom.serial});
     }
     if (!first || s_.atoms.size() == residue.first_atom) return;
     residue.last_atom = static_cast<std::uint32_t>(s_.atoms.size());
@@ -158,15 +162,15 @@ class Assembler {
     s_.chains.back().last_residue = static_cast<std::uint32_t>(s_.residues.size());
   }
 
-  void check_same(std::size_t position, const RawAtom& atom, const RawResidue& raw, bool first, const std::string& where) const {
+  void check_same(std::size_t position, const RawAtom& atom, const RawResidue& raw, bool first,
+                  const std::string& where) const {
     if (first) return;
     bool same = position < s_.atoms.size() && s_.atoms[position].name == atom.name;
     if (same) {
       const Residue& residue = s_.residues[s_.atoms[position].residue];
       same = residue.sequence_number == raw.number && residue.insertion_code == raw.insertion_code;
     }
-    if (!same)
-      throw LoadError(where + ": this model's atoms differ from the first model's; choose one model");
+    if (!same) throw LoadError(where + ": this model's atoms differ from the first model's; choose one model");
   }
 
   /// What the element must be by the residue's table, or what the name suggests where the file says nothing.
@@ -186,23 +190,26 @@ class Assembler {
       }
     }
     if (expected.empty()) expected = atom.element;
-    if (expected.empty() && letter != std::string_view::npos && std::string_view("CNOSPHF").find(name[letter]) != std::string_view::npos)
+    if (expected.empty() && letter != std::string_view::npos &&
+        std::string_view("CNOSPHF").find(name[letter]) != std::string_view::npos)
       expected = std::string(1, name[letter]);
     if (expected.empty() && letter != std::string_view::npos && name[letter] == 'D') expected = "H";
     if (expected.empty())
-      throw LoadError(where + ": the element is unknown and cannot be told from the name, expected one in columns 77-78");
+      throw LoadError(where +
+                      ": the element is unknown and cannot be told from the name, expected one in columns 77-78");
     if (expected != atom.element && first) {
       ++repaired_;
       if (repaired_ == 1)
-        first_repair_ = name_of(residue) + ":" + atom.name + " read as " + (atom.element.empty() ? "nothing" : atom.element);
+        first_repair_ =
+            name_of(residue) + ":" + atom.name + " read as " + (atom.element.empty() ? "nothing" : atom.element);
     }
     return expected;
   }
 
   void say_repairs() {
     if (repaired_ > 0)
-      s_.notes.push_back("elements of " + std::to_string(repaired_) + " atoms taken from their names (first: " +
-                         first_repair_ + ")");
+      s_.notes.push_back("elements of " + std::to_string(repaired_) +
+                         " atoms taken from their names (first: " + first_repair_ + ")");
   }
 
   using Key = std::tuple<std::string, int, char>;

@@ -15,8 +15,8 @@ namespace {
 
 using Neighbours = std::vector<std::vector<std::uint32_t>>;
 
-/// Aromatic carbons of amino acids; planar rings of other residues count as aliphatic here, whose radii differ by 0.05 A
-/// in one set only.
+/// Aromatic carbons of amino acids; planar rings of other residues count as aliphatic here, whose radii differ by 0.05
+/// A in one set only.
 bool is_aromatic(std::string_view residue, std::string_view atom) {
   if (residue == "PHE" || residue == "TYR" || residue == "PTR")
     return atom == "CG" || atom == "CD1" || atom == "CD2" || atom == "CE1" || atom == "CE2" || atom == "CZ";
@@ -48,8 +48,8 @@ AtomClass classify_oxygen(const Structure& s, const Neighbours& near, std::uint3
   for (const std::uint32_t j : near[i])
     if (s.atoms[j].element == "H") return AtomClass::oxygen_hydroxyl;
   const std::string_view residue = s.residues[s.atoms[i].residue].name, atom = s.atoms[i].name;
-  const bool hydroxyl = (residue == "SER" && atom == "OG") || (residue == "THR" && atom == "OG1") ||
-                        (residue == "TYR" && atom == "OH");
+  const bool hydroxyl =
+      (residue == "SER" && atom == "OG") || (residue == "THR" && atom == "OG1") || (residue == "TYR" && atom == "OH");
   return hydroxyl ? AtomClass::oxygen_hydroxyl : AtomClass::oxygen;
 }
 
@@ -65,15 +65,15 @@ AtomClass classify_hydrogen(const Structure& s, const Neighbours& near, std::uin
     return other == "N" || other == "O" || other == "S";
   };
   return std::any_of(near[bearer].begin(), near[bearer].end(), withdraws) ? AtomClass::hydrogen_alpha
-                                                                           : AtomClass::hydrogen;
+                                                                          : AtomClass::hydrogen;
 }
 
 }  // namespace
 
 std::vector<AtomClass> classify_atoms(const Structure& structure) {
   const Neighbours near = bonded_neighbours(structure);
-  const bool has_hydrogens = std::any_of(structure.atoms.begin(), structure.atoms.end(),
-                                         [](const Atom& atom) { return atom.element == "H"; });
+  const bool has_hydrogens =
+      std::any_of(structure.atoms.begin(), structure.atoms.end(), [](const Atom& atom) { return atom.element == "H"; });
   std::vector<AtomClass> classes;
   classes.reserve(structure.atoms.size());
   for (std::uint32_t i = 0; i < structure.atoms.size(); ++i) {

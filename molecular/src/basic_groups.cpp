@@ -14,16 +14,15 @@ namespace hinge::molecular {
 namespace {
 
 bool in_pseudo_backbone(std::string_view atom) {
-  static constexpr std::array<std::string_view, 20> names{"N",  "CA", "C",   "O",   "CB",  "OXT", "OT1", "OT2", "H",   "HN",
-                                                          "D",  "H1", "H2",  "H3",  "HT1", "HT2", "HT3", "HA",  "HXT", "DA"};
+  static constexpr std::array<std::string_view, 20> names{"N",   "CA",  "C",   "O",  "CB",  "OXT", "OT1",
+                                                          "OT2", "H",   "HN",  "D",  "H1",  "H2",  "H3",
+                                                          "HT1", "HT2", "HT3", "HA", "HXT", "DA"};
   for (const std::string_view name : names)
     if (atom == name) return true;
   return atom == "HA2" || atom == "HA3" || atom == "1HA" || atom == "2HA";
 }
 
-bool in_nucleotide_backbone(std::string_view atom) {
-  return atom.find_first_of("'*P") != std::string_view::npos;
-}
+bool in_nucleotide_backbone(std::string_view atom) { return atom.find_first_of("'*P") != std::string_view::npos; }
 
 }  // namespace
 

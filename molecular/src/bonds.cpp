@@ -187,15 +187,15 @@ class Perception {
     }
     if (untabled_.empty()) return;
     std::string names;
-    for (const auto& [name, count] : untabled_) names += (names.empty() ? "" : ", ") + name + " x" + std::to_string(count);
+    for (const auto& [name, count] : untabled_)
+      names += (names.empty() ? "" : ", ") + name + " x" + std::to_string(count);
     s_.notes.push_back("bonds by covalent radii, no template for: " + names);
   }
   bool unknown(std::uint32_t i) const { return residue_of(i).kind == ResidueKind::other; }
 
   void finish() {
-    std::sort(s_.bonds.begin(), s_.bonds.end(), [](const Bond& a, const Bond& b) {
-      return std::pair(a.first, a.second) < std::pair(b.first, b.second);
-    });
+    std::sort(s_.bonds.begin(), s_.bonds.end(),
+              [](const Bond& a, const Bond& b) { return std::pair(a.first, a.second) < std::pair(b.first, b.second); });
   }
 
   Structure& s_;

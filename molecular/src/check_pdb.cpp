@@ -25,8 +25,8 @@ void check_coordinates(std::string_view line, const std::string& where) {
     const std::string_view field = trimmed(line.size() > column ? line.substr(column, 8) : std::string_view());
     const std::string what = where + ": atom " + std::string(trimmed(line.substr(6, 5))) + " " +
                              std::string(trimmed(line.substr(12, 4))) + ": coordinate " + "xyz"[k];
-    const std::string expected = ", expected a number in columns " + std::to_string(column + 1) + "-" +
-                                 std::to_string(column + 8);
+    const std::string expected =
+        ", expected a number in columns " + std::to_string(column + 1) + "-" + std::to_string(column + 8);
     if (field.empty()) throw LoadError(what + " is blank" + expected);
     double value = 0.0;
     const std::string_view digits = field.front() == '+' ? field.substr(1) : field;
@@ -50,8 +50,9 @@ void check_pdb(const std::string& text, const std::string& path) {
     ++number;
     const std::string where = path + ":" + std::to_string(number);
     if (line.starts_with("ATOM  ") || line.starts_with("HETATM")) {
-      if (line.size() < 30) throw LoadError(where + ": atom record of " + std::to_string(line.size()) +
-                                            " characters, expected coordinates in columns 31-54");
+      if (line.size() < 30)
+        throw LoadError(where + ": atom record of " + std::to_string(line.size()) +
+                        " characters, expected coordinates in columns 31-54");
       check_coordinates(line, where);
       ++atoms;
     } else if (line.starts_with("MODEL ")) {

@@ -94,7 +94,8 @@ std::size_t Checker::rigid_group_count() const {
 }
 
 GroupId Checker::group_of(std::uint32_t atom) const {
-  return std::visit([&](const auto& hierarchy) { return hierarchy.model().group_of(id<PrimitiveId>(atom)); }, *hierarchy_);
+  return std::visit([&](const auto& hierarchy) { return hierarchy.model().group_of(id<PrimitiveId>(atom)); },
+                    *hierarchy_);
 }
 
 bool Checker::constant(std::uint32_t i, std::uint32_t j) const {
@@ -109,9 +110,9 @@ Verdict Checker::check(std::span<const double> q, const Mode& mode) {
         hierarchy.update(q);
         Verdict verdict = ask(mode);
         for (const Closure& closure : molecule_->model().tree().closures())
-          verdict.closure_residual =
-              std::max(verdict.closure_residual, closure_residual(closure, hierarchy.link_pose(closure.first),
-                                                                  hierarchy.link_pose(closure.second)));
+          verdict.closure_residual = std::max(
+              verdict.closure_residual,
+              closure_residual(closure, hierarchy.link_pose(closure.first), hierarchy.link_pose(closure.second)));
         return verdict;
       },
       *hierarchy_);

@@ -184,13 +184,14 @@ class MoleculeBuilder {
   std::vector<Bond> cross_links_;
   Fragments whole_{0};
   Fragments rigid_;
-  std::map<std::uint32_t, std::vector<Hinge>> hinges_;             // by fragment
-  std::vector<std::uint32_t> link_;                                // by fragment
-  std::map<std::uint32_t, std::uint32_t> on_axis_;                 // atom -> link of the near side
-  std::map<std::uint32_t, std::optional<DofId>> done_;             // torsion -> its DOF, if it got one
+  std::map<std::uint32_t, std::vector<Hinge>> hinges_;  // by fragment
+  std::vector<std::uint32_t> link_;                     // by fragment
+  std::map<std::uint32_t, std::uint32_t> on_axis_;      // atom -> link of the near side
+  std::map<std::uint32_t, std::optional<DofId>> done_;  // torsion -> its DOF, if it got one
 };
 
-Molecule::Molecule(Structure structure) : structure_(std::move(structure)), torsions_(find_torsions(structure_, notes_)) {
+Molecule::Molecule(Structure structure)
+    : structure_(std::move(structure)), torsions_(find_torsions(structure_, notes_)) {
   MoleculeBuilder(*this).build();
 }
 

@@ -32,7 +32,7 @@ struct RawResidue {
   std::string name;
   int number = 0;
   char insertion_code = '\0';
-  bool hetero = false;      ///< HETATM
+  bool hetero = false;                    ///< HETATM
   ResidueKind kind = ResidueKind::other;  ///< by name alone
   std::vector<RawAtom> atoms;
 };

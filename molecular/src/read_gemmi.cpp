@@ -65,7 +65,8 @@ gemmi::Structure parse(const std::string& bytes, const std::string& path, bool c
   try {
     return gemmi::read_pdb_from_memory(bytes.data(), bytes.size(), path);
   } catch (const std::exception& first) {
-    // Files from before 1996 carry the entry's name and a line number in columns 73-80, where element and charge are now.
+    // Files from before 1996 carry the entry's name and a line number in columns 73-80, where element and charge are
+    // now.
     gemmi::PdbReadOptions options;
     options.max_line_length = 72;
     try {

@@ -42,7 +42,8 @@ std::string stem(std::filesystem::path path) {
 }  // namespace
 
 std::string read_bytes(const std::filesystem::path& path) {
-  if (std::filesystem::is_directory(path)) throw LoadError(path.string() + ": is a directory, expected a PDB or mmCIF file");
+  if (std::filesystem::is_directory(path))
+    throw LoadError(path.string() + ": is a directory, expected a PDB or mmCIF file");
   errno = 0;
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), gzclose);
   if (!file) throw LoadError(path.string() + ": cannot be opened: " + std::strerror(errno != 0 ? errno : ENOMEM));

@@ -37,8 +37,20 @@ constexpr std::array<ResidueTemplate, 21> templates{{
 
 /// Other names of the same heavy atoms: protonation states of AMBER and CHARMM, disulphide-bonded cysteine.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 15> variants{{
-    {"HID", "HIS"}, {"HIE", "HIS"}, {"HIP", "HIS"}, {"HSD", "HIS"}, {"HSE", "HIS"}, {"HSP", "HIS"}, {"ASH", "ASP"},
-    {"ASPP", "ASP"}, {"GLH", "GLU"}, {"GLUP", "GLU"}, {"LYN", "LYS"}, {"LSN", "LYS"}, {"CYX", "CYS"}, {"CYM", "CYS"},
+    {"HID", "HIS"},
+    {"HIE", "HIS"},
+    {"HIP", "HIS"},
+    {"HSD", "HIS"},
+    {"HSE", "HIS"},
+    {"HSP", "HIS"},
+    {"ASH", "ASP"},
+    {"ASPP", "ASP"},
+    {"GLH", "GLU"},
+    {"GLUP", "GLU"},
+    {"LYN", "LYS"},
+    {"LSN", "LYS"},
+    {"CYX", "CYS"},
+    {"CYM", "CYS"},
     {"CYS2", "CYS"},
 }};
 

@@ -74,8 +74,10 @@ class Selector {
   template <class InResidues>
   void choose(const InResidues& in, std::string_view names, std::string_view word) {
     const bool known = names == "all" || names == "backbone" || names == "phi" || names == "psi" || names == "omega" ||
-                       names == "chi" || (names.size() == 4 && names.starts_with("chi") && names[3] >= '1' && names[3] <= '5');
-    if (!known) refuse(word, "all, none, backbone, chi, loops, every:N, count:K, a torsion name or CHAIN:RESIDUES[:NAME]");
+                       names == "chi" ||
+                       (names.size() == 4 && names.starts_with("chi") && names[3] >= '1' && names[3] <= '5');
+    if (!known)
+      refuse(word, "all, none, backbone, chi, loops, every:N, count:K, a torsion name or CHAIN:RESIDUES[:NAME]");
     for (std::size_t k = 0; k < chosen_.size(); ++k) {
       const Torsion& torsion = molecule_.torsions()[k];
       if (!in(torsion.residue)) continue;
@@ -122,7 +124,8 @@ class Selector {
       rest.remove_prefix(1);
       last = read_number(rest);
     }
-    if (!first || !last || !(rest.empty() || rest.starts_with(':'))) refuse(word, "CHAIN:45, CHAIN:10-20 or CHAIN:45:chi1");
+    if (!first || !last || !(rest.empty() || rest.starts_with(':')))
+      refuse(word, "CHAIN:45, CHAIN:10-20 or CHAIN:45:chi1");
     const std::uint32_t from = find(chain, *first, word), to = find(chain, *last, word);
     if (from > to) refuse(word, "the first residue to come before the last");
     const std::string_view name = rest.empty() ? "all" : rest.substr(1);

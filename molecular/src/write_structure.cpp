@@ -65,11 +65,12 @@ void write_pdb_model(std::ostream& out, const Structure& structure, std::span<co
     if (chain.size() > 1) throw ModelError("chain " + chain + ": PDB format has one character for a chain name");
     for (int k = 0; k < 3; ++k)
       if (!(positions[i][k] > -999.9995 && positions[i][k] < 9999.9995))
-        throw ModelError(label(structure, static_cast<std::uint32_t>(i)) + ": a coordinate does not fit the PDB columns");
+        throw ModelError(label(structure, static_cast<std::uint32_t>(i)) +
+                         ": a coordinate does not fit the PDB columns");
     const bool hetero = residue.kind == ResidueKind::other || residue.kind == ResidueKind::water;
     std::snprintf(line.data(), line.size(), "%-6s%5s %4s%c%3.3s %c%4d%c   %8.3f%8.3f%8.3f%6.2f%6.2f          %2.2s\n",
-                  hetero ? "HETATM" : "ATOM", hybrid36(i + 1).c_str(), atom_field(atom).c_str(), ' ', residue.name.c_str(),
-                  chain.empty() ? ' ' : chain.front(), residue.sequence_number % 10000,
+                  hetero ? "HETATM" : "ATOM", hybrid36(i + 1).c_str(), atom_field(atom).c_str(), ' ',
+                  residue.name.c_str(), chain.empty() ? ' ' : chain.front(), residue.sequence_number % 10000,
                   residue.insertion_code == '\0' ? ' ' : residue.insertion_code, positions[i][0], positions[i][1],
                   positions[i][2], 1.0, 0.0, atom.element.c_str());
     out << line.data();

@@ -72,10 +72,10 @@ TEST(LazyTree, StaysWithinItsDepthBoundOnClusteredInput) {
   Random random(5);
   std::vector<std::vector<Aabb>> inputs(4);
   for (std::size_t k = 0; k < n; ++k) {
-    inputs[0].push_back(Aabb(Vec3(1.0, 2.0, 3.0)).inflated(1.5));                      // all at one point
-    inputs[1].push_back(Aabb(random.vector(1e-6)).inflated(1.5));                      // one small cluster
+    inputs[0].push_back(Aabb(Vec3(1.0, 2.0, 3.0)).inflated(1.5));                        // all at one point
+    inputs[1].push_back(Aabb(random.vector(1e-6)).inflated(1.5));                        // one small cluster
     inputs[2].push_back(Aabb(Vec3(std::ldexp(1.0, static_cast<int>(k % 1000)), 0, 0)));  // exponential spacing
-    inputs[3].push_back(Aabb(Vec3(static_cast<double>(k), 0, 0)));                     // on a line
+    inputs[3].push_back(Aabb(Vec3(static_cast<double>(k), 0, 0)));                       // on a line
   }
   for (const auto& boxes : inputs) {
     LazyTree tree;
@@ -100,10 +100,12 @@ TEST(Traversal, VisitsEveryOverlappingPairOnceAndNoLeafWithItself) {
     NodePairs stack;
     QueryCounts counts;
     std::multiset<std::pair<std::uint32_t, std::uint32_t>> found, expected;
-    traverse(tree, tree, stack, counts, [] { return 0.0; }, [&](std::uint32_t a, std::uint32_t b) {
-      found.emplace(std::min(a, b), std::max(a, b));
-      return true;
-    });
+    traverse(
+        tree, tree, stack, counts, [] { return 0.0; },
+        [&](std::uint32_t a, std::uint32_t b) {
+          found.emplace(std::min(a, b), std::max(a, b));
+          return true;
+        });
     for (std::uint32_t a = 0; a < n; ++a)
       for (std::uint32_t b = a + 1; b < n; ++b)
         if (overlap(boxes[a], boxes[b])) expected.emplace(a, b);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One call that holds any Hierarchy of points or triangles against FCL at its present configuration. FCL is asked only what
-// it answers well: crossing surfaces, distance when disjoint, nothing within `margin` of touching.
+// One call that holds any Hierarchy of points or triangles against FCL at its present configuration. FCL is asked only
+// what it answers well: crossing surfaces, distance when disjoint, nothing within `margin` of touching.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -80,7 +80,8 @@ class TriangleOracle {
     for (std::size_t a = 0; a < of_link_.size(); ++a)
       for (std::size_t b = a + 1; b < of_link_.size(); ++b) {
         if (of_link_[a].empty() || of_link_[b].empty() || !admits_links(id<LinkId>(a), id<LinkId>(b))) continue;
-        const Placement x = placement(hierarchy.link_pose(id<LinkId>(a))), y = placement(hierarchy.link_pose(id<LinkId>(b)));
+        const Placement x = placement(hierarchy.link_pose(id<LinkId>(a))),
+                        y = placement(hierarchy.link_pose(id<LinkId>(b)));
         for (const auto& [i, j] : meshes_.contacts(a, x, b, y))
           pairs.emplace_back(std::min(of_link_[a][i], of_link_[b][j]), std::max(of_link_[a][i], of_link_[b][j]));
         EXPECT_EQ(meshes_.collide(a, x, b, y), !meshes_.contacts(a, x, b, y).empty());

@@ -135,8 +135,7 @@ FclMeshes::FclMeshes(const std::vector<std::vector<std::array<double, 9>>>& mesh
       continue;
     }
     mesh->beginModel();
-    for (const auto& t : triangles)
-      mesh->addTriangle({t[0], t[1], t[2]}, {t[3], t[4], t[5]}, {t[6], t[7], t[8]});
+    for (const auto& t : triangles) mesh->addTriangle({t[0], t[1], t[2]}, {t[3], t[4], t[5]}, {t[6], t[7], t[8]});
     mesh->endModel();
     impl_->meshes.push_back(std::move(mesh));
   }
@@ -147,7 +146,8 @@ FclMeshes::~FclMeshes() = default;
 bool FclMeshes::collide(std::size_t i, const Placement& at_i, std::size_t j, const Placement& at_j) const {
   fcl::CollisionRequest<double> request;
   fcl::CollisionResult<double> result;
-  return fcl::collide(impl_->meshes[i].get(), transform(at_i), impl_->meshes[j].get(), transform(at_j), request, result) > 0;
+  return fcl::collide(impl_->meshes[i].get(), transform(at_i), impl_->meshes[j].get(), transform(at_j), request,
+                      result) > 0;
 }
 
 Pairs FclMeshes::contacts(std::size_t i, const Placement& at_i, std::size_t j, const Placement& at_j) const {
@@ -169,7 +169,8 @@ Pairs FclMeshes::contacts(std::size_t i, const Placement& at_i, std::size_t j, c
 double FclMeshes::distance(std::size_t i, const Placement& at_i, std::size_t j, const Placement& at_j) const {
   fcl::DistanceRequest<double> request;
   fcl::DistanceResult<double> result;
-  return fcl::distance(impl_->meshes[i].get(), transform(at_i), impl_->meshes[j].get(), transform(at_j), request, result);
+  return fcl::distance(impl_->meshes[i].get(), transform(at_i), impl_->meshes[j].get(), transform(at_j), request,
+                       result);
 }
 
 }  // namespace hinge::oracle

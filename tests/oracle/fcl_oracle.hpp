@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FCL as an oracle and a peer, behind plain arrays: its types change layout with compiler flags, so they stay in the .cpp.
+// FCL as an oracle and a peer, behind plain arrays: its types change layout with compiler flags, so they stay in the
+// .cpp.
 #pragma once
 
 #include <array>

@@ -47,7 +47,8 @@ TEST(FclOracle, AgreesOnMeshRobots) {
     for (std::size_t k = 0; k < links; ++k) {
       Pose origin;
       origin.translation = Vec3(k == 0 ? 0.0 : 0.35, 0, 0);
-      const LinkId link = build.add_link(parent, Revolute{random.vector(1.0), Vec3::Zero(), origin, {}}, spindle(random));
+      const LinkId link =
+          build.add_link(parent, Revolute{random.vector(1.0), Vec3::Zero(), origin, {}}, spindle(random));
       if (k > 0 && links > 2) neighbours.emplace_back(parent, link);
       parent = link;
     }
@@ -79,7 +80,7 @@ TEST(FclOracle, AgreesOnMeshRobots) {
 
 TEST(FclOracle, AgreesOnPointModels) {
   std::size_t compared = 0, colliding = 0;
-  const auto make = [](Random& random, const Vec3&, const Vec3&) { return Point{random.vector(6.0)}; };
+  const auto make = [](Random& random, const Vec3&, const Vec3&) { return Point{random.vector(3.5)}; };
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);

@@ -48,9 +48,9 @@ struct Aabb {
     return size[0] >= size[1] ? (size[0] >= size[2] ? 0 : 2) : (size[1] >= size[2] ? 1 : 2);
   }
 
-  /// The box grown by r >= 0 on every side, rounded outward. Grows by a further 2^-50 of the largest magnitude involved,
-  /// so that a pair whose *computed* distance falls just below a threshold is never pruned by exact boxes: a computed
-  /// distance is off by at most a few 2^-53 of the coordinates it came from.
+  /// The box grown by r >= 0 on every side, rounded outward. Grows by a further 2^-50 of the largest magnitude
+  /// involved, so that a pair whose *computed* distance falls just below a threshold is never pruned by exact boxes: a
+  /// computed distance is off by at most a few 2^-53 of the coordinates it came from.
   Aabb inflated(double r) const noexcept {
     constexpr double slack = 0x1p-50;
     Aabb grown;
@@ -63,10 +63,10 @@ struct Aabb {
   }
 };
 
-/// A lower bound of d - r - s for any two things held by a and b, when a was inflated by r and b by s: the largest signed
-/// gap along an axis, and where several gaps are positive their Euclidean norm, rounded down. At most 0 when the closed
-/// boxes touch. (BioCD eq. (2)-(4): each thing lies with a ball of its reach inside its box; two balls are at least as
-/// far apart as the boxes, and along one axis the bound also holds when it is negative.)
+/// A lower bound of d - r - s for any two things held by a and b, when a was inflated by r and b by s: the largest
+/// signed gap along an axis, and where several gaps are positive their Euclidean norm, rounded down. At most 0 when the
+/// closed boxes touch. (BioCD eq. (2)-(4): each thing lies with a ball of its reach inside its box; two balls are at
+/// least as far apart as the boxes, and along one axis the bound also holds when it is negative.)
 inline double separation(const Aabb& a, const Aabb& b) noexcept {
   constexpr double down = 1.0 - 0x1p-50;
   double largest = -std::numeric_limits<double>::infinity();

@@ -16,8 +16,8 @@ enum class GroupId : std::uint32_t {};      ///< rigid group under one DOF selec
 inline constexpr LinkId world{0};
 
 template <class T>
-concept Id = std::is_enum_v<T> && (std::is_same_v<T, PrimitiveId> || std::is_same_v<T, LinkId> ||
-                                   std::is_same_v<T, DofId> || std::is_same_v<T, GroupId>);
+concept Id = std::is_enum_v<T> &&(std::is_same_v<T, PrimitiveId> || std::is_same_v<T, LinkId> ||
+                                  std::is_same_v<T, DofId> || std::is_same_v<T, GroupId>);
 
 /// The position an id stands for.
 template <Id T>

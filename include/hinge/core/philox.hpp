@@ -13,7 +13,8 @@
 namespace hinge {
 
 /// Philox4x32-10 (Salmon, Moraes, Dror, Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC 2011).
-inline std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key) noexcept {
+inline std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
+                                           std::array<std::uint32_t, 2> key) noexcept {
   for (int round = 0; round < 10; ++round) {
     const std::uint64_t p0 = std::uint64_t{0xD2511F53U} * counter[0];
     const std::uint64_t p1 = std::uint64_t{0xCD9E8D57U} * counter[2];
@@ -24,8 +25,8 @@ inline std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
   return counter;
 }
 
-/// The random numbers of one sample: a pure function of (seed, index), drawn in order. Built of + - * / and sqrt alone, so
-/// that the numbers are the same bits on every CPU.
+/// The random numbers of one sample: a pure function of (seed, index), drawn in order. Built of + - * / and sqrt alone,
+/// so that the numbers are the same bits on every CPU.
 class SampleStream {
  public:
   SampleStream(std::uint64_t seed, std::uint64_t index) noexcept
@@ -52,8 +53,8 @@ class SampleStream {
   }
 
  private:
-  /// Natural logarithm for normal x > 0: x = 2^e m with m in [0.7, 1.42), log m = 2 artanh((m - 1) / (m + 1)) as a series
-  /// whose first omitted term is below 1e-19.
+  /// Natural logarithm for normal x > 0: x = 2^e m with m in [0.7, 1.42), log m = 2 artanh((m - 1) / (m + 1)) as a
+  /// series whose first omitted term is below 1e-19.
   static double log_of(double x) noexcept {
     auto bits = std::bit_cast<std::uint64_t>(x);
     auto exponent = static_cast<int>(bits >> 52) - 1023;

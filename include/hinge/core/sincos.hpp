@@ -14,8 +14,8 @@ struct SinCos {
   double cos = 1.0;
 };
 
-/// sin and cos of a finite angle in radians, within 1.5 ulp for every finite argument; sincos(0) is exactly {0, 1}. Uses
-/// only + - * and integers, so the result depends on nothing but the argument (given -ffp-contract=off).
+/// sin and cos of a finite angle in radians, within 1.5 ulp for every finite argument; sincos(0) is exactly {0, 1}.
+/// Uses only + - * and integers, so the result depends on nothing but the argument (given -ffp-contract=off).
 SinCos sincos(double angle) noexcept;
 
 namespace detail {
@@ -48,10 +48,11 @@ inline Reduced reduce_large(double x) noexcept {
   __extension__ using Wide = unsigned __int128;
   // 2/pi = 0.word0 word1 ..., enough for the largest exponent plus 192 bits.
   constexpr std::array<std::uint64_t, 20> two_over_pi = {
-      0xa2f9836e4e441529ULL, 0xfc2757d1f534ddc0ULL, 0xdb6295993c439041ULL, 0xfe5163abdebbc561ULL, 0xb7246e3a424dd2e0ULL,
-      0x06492eea09d1921cULL, 0xfe1deb1cb129a73eULL, 0xe88235f52ebb4484ULL, 0xe99c7026b45f7e41ULL, 0x3991d639835339f4ULL,
-      0x9c845f8bbdf9283bULL, 0x1ff897ffde05980fULL, 0xef2f118b5a0a6d1fULL, 0x6d367ecf27cb09b7ULL, 0x4f463f669e5fea2dULL,
-      0x7527bac7ebe5f17bULL, 0x3d0739f78a5292eaULL, 0x6bfb5fb11f8d5d08ULL, 0x56033046fc7b6babULL, 0xf0cfbc209af4361dULL};
+      0xa2f9836e4e441529ULL, 0xfc2757d1f534ddc0ULL, 0xdb6295993c439041ULL, 0xfe5163abdebbc561ULL,
+      0xb7246e3a424dd2e0ULL, 0x06492eea09d1921cULL, 0xfe1deb1cb129a73eULL, 0xe88235f52ebb4484ULL,
+      0xe99c7026b45f7e41ULL, 0x3991d639835339f4ULL, 0x9c845f8bbdf9283bULL, 0x1ff897ffde05980fULL,
+      0xef2f118b5a0a6d1fULL, 0x6d367ecf27cb09b7ULL, 0x4f463f669e5fea2dULL, 0x7527bac7ebe5f17bULL,
+      0x3d0739f78a5292eaULL, 0x6bfb5fb11f8d5d08ULL, 0x56033046fc7b6babULL, 0xf0cfbc209af4361dULL};
   const auto bits = std::bit_cast<std::uint64_t>(x);
   const int exponent = static_cast<int>((bits >> 52) & 0x7ffU) - 1075;  // x = +- mantissa * 2^exponent
   const std::uint64_t mantissa = (bits & 0xf'ffff'ffff'ffffULL) | 0x10'0000'0000'0000ULL;
@@ -81,14 +82,16 @@ inline Reduced reduce_large(double x) noexcept {
     fraction = -fraction;
   }
   // The fraction as a sum of two doubles, times pi/2 in the same form.
-  const double first = static_cast<double>(static_cast<std::uint64_t>(fraction >> 75)) * 0x1p-53;  // its leading 53 bits
+  const double first =
+      static_cast<double>(static_cast<std::uint64_t>(fraction >> 75)) * 0x1p-53;  // its leading 53 bits
   const Wide rest = fraction & ((Wide{1} << 75) - 1);
   const double second = static_cast<double>(static_cast<std::uint64_t>(rest >> 11)) * 0x1p-117;
   constexpr double pio2_a = 0x1.921fb5p+0, pio2_b = 0x1.110b46p-26, pio2_c = 0x1.1a62633145c07p-54;
   const double leading = std::bit_cast<double>(std::bit_cast<std::uint64_t>(first) & ~0x3ff'ffffULL);  // 27 bits
   const double trailing = first - leading;
   const double exact = leading * pio2_a;
-  const double small = (leading * pio2_b + trailing * pio2_a) + (trailing * pio2_b + (first * pio2_c + second * 0x1.921fb54442d18p+0));
+  const double small =
+      (leading * pio2_b + trailing * pio2_a) + (trailing * pio2_b + (first * pio2_c + second * 0x1.921fb54442d18p+0));
   const double high = exact + small;
   const double low = (exact - high) + small;
   const bool negate = upper_half;
@@ -107,15 +110,14 @@ inline SinCos sincos(double angle) noexcept {
   const double s_poly =
       -1.0 / 6 +
       z * (1.0 / 120 +
-           z * (-1.0 / 5040 +
-                z * (1.0 / 362880 +
-                     z * (-1.0 / 39916800 +
-                          z * (1.0 / 6227020800.0 + z * (-1.0 / 1307674368000.0 + z * (1.0 / 355687428096000.0)))))));
+           z * (-1.0 / 5040 + z * (1.0 / 362880 + z * (-1.0 / 39916800 + z * (1.0 / 6227020800.0 +
+                                                                              z * (-1.0 / 1307674368000.0 +
+                                                                                   z * (1.0 / 355687428096000.0)))))));
   const double c_poly =
       1.0 / 24 +
       z * (-1.0 / 720 +
-           z * (1.0 / 40320 +
-                z * (-1.0 / 3628800 + z * (1.0 / 479001600.0 + z * (-1.0 / 87178291200.0 + z * (1.0 / 20922789888000.0))))));
+           z * (1.0 / 40320 + z * (-1.0 / 3628800 + z * (1.0 / 479001600.0 +
+                                                         z * (-1.0 / 87178291200.0 + z * (1.0 / 20922789888000.0))))));
   const double s = x + (x * z * s_poly + r.low * (1.0 - z / 2));
   const double half = z / 2;
   const double w = 1.0 - half;

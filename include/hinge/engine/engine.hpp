@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Engine: what a collision engine offers to Hierarchy. Prepared once from a model and its DOF selection, then updated and
-// queried many times; holds all scratch, so one engine belongs to one thread.
+// Engine: what a collision engine offers to Hierarchy. Prepared once from a model and its DOF selection, then updated
+// and queried many times; holds all scratch, so one engine belongs to one thread.
 #pragma once
 
 #include <concepts>
@@ -19,22 +19,24 @@ namespace hinge {
 /// E answers for primitive P under filter F and matrix D. Every engine gives the same answers as engine/brute in every
 /// mode; placement() is the one place through which configurations, poses or coordinates come in.
 template <class E, class P, class F, class D>
-concept Engine =
-    std::copyable<E> && Primitive<P> && PairFilter<F> && DistanceMatrix<D> &&
+concept Engine = std::copyable<E> && Primitive<P> && PairFilter<F> && DistanceMatrix<D> &&
     std::constructible_from<E, std::shared_ptr<const SelectedModel<P>>, F, D> &&
-    requires(E& engine, const E& constant, AnyHit& any, HitsWithin& within, Closest& closest, const QueryOptions& options) {
-      { engine.placement() } noexcept -> std::same_as<Placement<P>&>;
-      { constant.placement() } noexcept -> std::same_as<const Placement<P>&>;
-      engine.self_query(any, options);
-      engine.self_query(within, options);
-      engine.self_query(closest, options);
-    };
+    requires(E& engine, const E& constant, AnyHit& any, HitsWithin& within, Closest& closest,
+             const QueryOptions& options) {
+  { engine.placement() }
+  noexcept->std::same_as<Placement<P>&>;
+  { constant.placement() }
+  noexcept->std::same_as<const Placement<P>&>;
+  engine.self_query(any, options);
+  engine.self_query(within, options);
+  engine.self_query(closest, options);
+};
 
 /// Can also answer between two models of the same kind; the filter G admits (primitive of this, primitive of other).
 template <class E, class P, class F, class D, class G>
 concept CrossEngine = Engine<E, P, F, D> && CrossMatrix<D> && PairFilter<G> &&
-                      requires(E& engine, E& other, Closest& closest, const G& across, const QueryOptions& options) {
-                        engine.query(other, across, closest, options);
-                      };
+    requires(E& engine, E& other, Closest& closest, const G& across, const QueryOptions& options) {
+  engine.query(other, across, closest, options);
+};
 
 }  // namespace hinge

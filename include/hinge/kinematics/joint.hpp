@@ -18,9 +18,9 @@ struct Fixed {
 
 /// The child turns by q radians about the line through `point` along `axis`.
 struct Revolute {
-  Vec3 axis = Vec3::UnitZ();   ///< any length but zero, child frame
-  Vec3 point = Vec3::Zero();   ///< any point of the line, child frame
-  Pose origin{};               ///< child frame in the parent frame at q = 0
+  Vec3 axis = Vec3::UnitZ();  ///< any length but zero, child frame
+  Vec3 point = Vec3::Zero();  ///< any point of the line, child frame
+  Pose origin{};              ///< child frame in the parent frame at q = 0
   std::string name{};
 };
 
@@ -50,7 +50,8 @@ struct Joint {
   bool has_dof() const noexcept { return kind != JointKind::fixed; }
 };
 
-/// The rotation by `angle` (rad) about a unit axis (Rodrigues), in a fixed order of operations; exactly the identity at 0.
+/// The rotation by `angle` (rad) about a unit axis (Rodrigues), in a fixed order of operations; exactly the identity at
+/// 0.
 inline Mat3 rotation_about(const Vec3& axis, double angle) noexcept {
   const SinCos sc = sincos(angle);
   const double v = 1.0 - sc.cos;

@@ -19,8 +19,8 @@
 
 namespace hinge {
 
-/// A cycle of the mechanism: two links that the spanning tree does not join must agree on two points of a line (the hinge
-/// or bond that closes the cycle). Points in the frames of the two links, model length unit.
+/// A cycle of the mechanism: two links that the spanning tree does not join must agree on two points of a line (the
+/// hinge or bond that closes the cycle). Points in the frames of the two links, model length unit.
 struct Closure {
   LinkId first{};
   LinkId second{};
@@ -29,8 +29,8 @@ struct Closure {
   std::string name{};
 };
 
-/// Link 0 is the world; every other link hangs on an earlier one by one joint. Degrees of freedom are numbered in the order
-/// their links were added. A configuration is one value per DOF: rad (revolute) or model length unit (prismatic).
+/// Link 0 is the world; every other link hangs on an earlier one by one joint. Degrees of freedom are numbered in the
+/// order their links were added. A configuration is one value per DOF: rad (revolute) or model length unit (prismatic).
 class KinematicTree {
  public:
   KinematicTree() : parent_{world}, joint_(1), dof_of_link_(1) {}
@@ -58,7 +58,8 @@ class KinematicTree {
   std::vector<Closure> closures_;
 };
 
-/// Largest distance (model length unit) between the two positions a closure's points have, given the poses of its links.
+/// Largest distance (model length unit) between the two positions a closure's points have, given the poses of its
+/// links.
 inline double closure_residual(const Closure& closure, const Pose& first, const Pose& second) noexcept {
   double worst = 0.0;
   for (std::size_t k = 0; k < 2; ++k) {
@@ -72,7 +73,8 @@ inline LinkId KinematicTree::add_link(LinkId parent, Joint joint) {
   const std::string who = "link " + std::to_string(link_count()) + (joint.name.empty() ? "" : " (" + joint.name + ")");
   if (index(parent) >= link_count())
     throw ModelError(who + ": parent " + std::to_string(index(parent)) + " does not exist yet");
-  if (!is_rigid(joint.origin)) throw ModelError(who + ": its origin is not a rigid placement (finite, R R^T = 1, det 1)");
+  if (!is_rigid(joint.origin))
+    throw ModelError(who + ": its origin is not a rigid placement (finite, R R^T = 1, det 1)");
   const double length = std::sqrt(squared_norm(joint.axis));
   if (joint.has_dof() && !(is_finite(length) && length > 0.0))
     throw ModelError(who + ": the axis has length " + std::to_string(length) + ", expected a finite length above 0");
@@ -87,7 +89,8 @@ inline LinkId KinematicTree::add_link(LinkId parent, Joint joint) {
 }
 
 inline void KinematicTree::add_closure(Closure closure) {
-  const std::string who = "closure " + std::to_string(closures_.size()) + (closure.name.empty() ? "" : " (" + closure.name + ")");
+  const std::string who =
+      "closure " + std::to_string(closures_.size()) + (closure.name.empty() ? "" : " (" + closure.name + ")");
   if (index(closure.first) >= link_count() || index(closure.second) >= link_count())
     throw ModelError(who + ": joins a link that does not exist");
   if (closure.first == closure.second) throw ModelError(who + ": joins a link with itself");

@@ -30,8 +30,8 @@ class PoseSource {
     for (std::size_t g = 0; g < component_.size(); ++g) component_[g] = g;
   }
 
-  /// q: one value per selected DOF, rad or model length unit. ConfigurationError: wrong length or not finite, naming the
-  /// position; the previous state is kept.
+  /// q: one value per selected DOF, rad or model length unit. ConfigurationError: wrong length or not finite, naming
+  /// the position; the previous state is kept.
   void set_configuration(std::span<const double> q);
 
   /// One world pose per group; group 0 must keep the identity, it is the world. ConfigurationError: wrong number or no

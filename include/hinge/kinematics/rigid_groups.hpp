@@ -15,9 +15,9 @@ namespace hinge {
 
 /// One maximal set of links whose mutual placement is constant. Its frame is that of its topmost link.
 struct RigidGroup {
-  GroupId parent{};         ///< an earlier group; group 0, which holds the world, is its own parent
-  Joint joint{};            ///< free joint to the parent; origin is relative to the parent group's frame
-  std::size_t dof = 0;      ///< position of the joint's value in the selected configuration
+  GroupId parent{};     ///< an earlier group; group 0, which holds the world, is its own parent
+  Joint joint{};        ///< free joint to the parent; origin is relative to the parent group's frame
+  std::size_t dof = 0;  ///< position of the joint's value in the selected configuration
 };
 
 /// Groups in topological order (parents first). Group 0 is the one of the world and never moves.

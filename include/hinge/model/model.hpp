@@ -32,7 +32,8 @@ class Model {
   std::size_t size() const noexcept { return data_->primitives.size(); }
   /// The link of every primitive.
   std::span<const LinkId> links() const noexcept { return data_->links; }
-  /// A label per primitive: primitives that belong closely together and stay together in one leaf (BioCD's basic groups).
+  /// A label per primitive: primitives that belong closely together and stay together in one leaf (BioCD's basic
+  /// groups).
   std::span<const std::uint32_t> basic_groups() const noexcept { return data_->basic_groups; }
 
  private:

@@ -20,8 +20,8 @@
 
 namespace hinge {
 
-/// The state every engine starts from. Coordinates are defined here once: pose * primitive for a configuration or poses,
-/// as given otherwise. One per thread.
+/// The state every engine starts from. Coordinates are defined here once: pose * primitive for a configuration or
+/// poses, as given otherwise. One per thread.
 template <Primitive P>
 class Placement {
  public:
@@ -71,8 +71,9 @@ class Placement {
   /// Changes whenever the coordinates of the group may have changed: what was built from them is stale.
   std::uint64_t version(GroupId group) const noexcept { return version_[index(group)]; }
 
-  /// Is the pair left out for the present coordinates? With a configuration, constant pairs are; with poses from elsewhere
-  /// only pairs inside one group; coordinates from elsewhere bring their own geometry, so there every pair counts.
+  /// Is the pair left out for the present coordinates? With a configuration, constant pairs are; with poses from
+  /// elsewhere only pairs inside one group; coordinates from elsewhere bring their own geometry, so there every pair
+  /// counts.
   bool constant(PrimitiveId i, PrimitiveId j) const noexcept {
     if (source_ == Source::configuration) return model_->constant(i, j);
     return source_ == Source::poses && model_->group_of(i) == model_->group_of(j);

@@ -22,14 +22,16 @@ struct Hit {
   friend bool operator==(const Hit&, const Hit&) = default;
 };
 
-/// cutoff(): pairs with d - M beyond it are no longer wanted; never grows. done(): nothing more is wanted. `ranks` tells
-/// how the leaf kernel hands pairs over: false, only those that closer_than(p, q, M + cutoff) accepts; true, every pair
-/// that boxes could not rule out, and the collector itself compares d - M.
+/// cutoff(): pairs with d - M beyond it are no longer wanted; never grows. done(): nothing more is wanted. `ranks`
+/// tells how the leaf kernel hands pairs over: false, only those that closer_than(p, q, M + cutoff) accepts; true,
+/// every pair that boxes could not rule out, and the collector itself compares d - M.
 template <class C>
 concept Collector = requires(C& collector, const C& constant, const Hit& hit) {
   collector.add(hit);
-  { constant.cutoff() } noexcept -> std::same_as<double>;
-  { constant.done() } noexcept -> std::same_as<bool>;
+  { constant.cutoff() }
+  noexcept->std::same_as<double>;
+  { constant.done() }
+  noexcept->std::same_as<bool>;
   { C::ranks } -> std::convertible_to<bool>;
 };
 

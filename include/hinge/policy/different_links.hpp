@@ -15,8 +15,8 @@ namespace hinge {
 /// Admits pairs whose primitives belong to different links, except pairs of links switched off by the caller.
 class DifferentLinks {
  public:
-  /// link_of[i] is the link of primitive i (Model::links()); ignored holds link pairs that are not tested, such as parent
-  /// and child whose meshes meet in the joint.
+  /// link_of[i] is the link of primitive i (Model::links()); ignored holds link pairs that are not tested, such as
+  /// parent and child whose meshes meet in the joint.
   explicit DifferentLinks(std::vector<LinkId> link_of, std::vector<std::pair<LinkId, LinkId>> ignored = {});
 
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept {

@@ -21,15 +21,19 @@ namespace hinge {
 /// (BioCD eq. (2): reach(i) = max over j of threshold(i, j) / 2).
 template <class D>
 concept DistanceMatrix = std::copyable<D> && requires(const D& matrix, PrimitiveId i, PrimitiveId j) {
-  { matrix.threshold(i, j) } noexcept -> std::same_as<double>;
-  { matrix.reach(i) } noexcept -> std::same_as<double>;
+  { matrix.threshold(i, j) }
+  noexcept->std::same_as<double>;
+  { matrix.reach(i) }
+  noexcept->std::same_as<double>;
 };
 
 /// Optional refinement: thresholds between primitive i of this model and primitive j of another one.
 template <class D>
 concept CrossMatrix = DistanceMatrix<D> && requires(const D& matrix, const D& other, PrimitiveId i, PrimitiveId j) {
-  { matrix.threshold(i, other, j) } noexcept -> std::same_as<double>;
-  { matrix.compatible(other) } noexcept -> std::same_as<bool>;
+  { matrix.threshold(i, other, j) }
+  noexcept->std::same_as<double>;
+  { matrix.compatible(other) }
+  noexcept->std::same_as<bool>;
 };
 
 /// The same threshold for every pair.

@@ -13,20 +13,23 @@ namespace hinge {
 /// Pure and symmetric: admits(i, j) == admits(j, i). Asked for i != j only.
 template <class F>
 concept PairFilter = std::copyable<F> && requires(const F& filter, PrimitiveId i, PrimitiveId j) {
-  { filter.admits(i, j) } noexcept -> std::same_as<bool>;
+  { filter.admits(i, j) }
+  noexcept->std::same_as<bool>;
 };
 
 /// Optional refinement: can name the few primitives that are not admitted with i (sorted, without i), so that engines
 /// look them up once when they are prepared and never in the inner loop.
 template <class F>
 concept ListsExclusions = PairFilter<F> && requires(const F& filter, PrimitiveId i) {
-  { filter.excluded(i) } noexcept -> std::convertible_to<std::span<const PrimitiveId>>;
+  { filter.excluded(i) }
+  noexcept->std::convertible_to<std::span<const PrimitiveId>>;
 };
 
 /// Optional refinement of filters and matrices: made for exactly this many primitives; checked against the model.
 template <class T>
 concept KnowsSize = requires(const T& policy) {
-  { policy.size() } noexcept -> std::same_as<std::size_t>;
+  { policy.size() }
+  noexcept->std::same_as<std::size_t>;
 };
 
 /// Every pair counts.

@@ -23,8 +23,8 @@ struct Point {
     return squared_norm(Vec3(p.position - q.position));
   }
 
-  /// Strictly d < m; never when m = 0, also for coincident points. Squares leave the range of doubles beyond about 1e154
-  /// and below 1e-154: there both sides are scaled by a power of two, which changes no comparison.
+  /// Strictly d < m; never when m = 0, also for coincident points. Squares leave the range of doubles beyond about
+  /// 1e154 and below 1e-154: there both sides are scaled by a power of two, which changes no comparison.
   friend bool closer_than(const Point& p, const Point& q, double m) noexcept {
     constexpr double large = 0x1p400, small = 0x1p-400;
     const Vec3 d = p.position - q.position;
@@ -43,8 +43,8 @@ struct Point {
     return {p.position, q.position};
   }
 
-  /// On the line through axis_point along the unit vector axis, up to rounding: an axis is a normalised difference of two
-  /// stored points, so its end misses the line by a few 2^-53 of the coordinates involved.
+  /// On the line through axis_point along the unit vector axis, up to rounding: an axis is a normalised difference of
+  /// two stored points, so its end misses the line by a few 2^-53 of the coordinates involved.
   bool fixed_on_axis(const Vec3& axis_point, const Vec3& axis) const noexcept {
     const double size = std::sqrt(squared_norm(position)) + std::sqrt(squared_norm(axis_point));
     const double off = 16 * 0x1p-53 * size;

@@ -48,8 +48,8 @@ struct Triangle {
     return true;
   }
 
-  /// Disjoint triangles are nearest at two edges, or at a vertex and a face; intersecting ones have an edge of one through
-  /// the other.
+  /// Disjoint triangles are nearest at two edges, or at a vertex and a face; intersecting ones have an edge of one
+  /// through the other.
   static NearestPair nearest_points(const Triangle& p, const Triangle& q) noexcept {
     const Vertices x = p.vertices(), y = q.vertices();
     for (std::size_t k = 0; k < 3; ++k) {

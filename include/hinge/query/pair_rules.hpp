@@ -30,7 +30,8 @@ struct SelfRules {
     const double m = matrix.threshold(i, j);
     if (options.clearance.empty()) return m;
     const auto& model = placement.model();
-    return m + (clearance_of(options.clearance, model.group_of(i)) + clearance_of(options.clearance, model.group_of(j)));
+    return m +
+           (clearance_of(options.clearance, model.group_of(i)) + clearance_of(options.clearance, model.group_of(j)));
   }
   /// Admission beyond the filter: pairs of constant distance, and moved-only queries.
   bool counts(PrimitiveId i, PrimitiveId j) const noexcept {
@@ -57,8 +58,8 @@ struct CrossRules {
             clearance_of(options.other_clearance, second.model().group_of(j)));
   }
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept {
-    return filter.admits(i, j) && (!options.moved_only || first.moved(first.model().group_of(i)) ||
-                                   second.moved(second.model().group_of(j)));
+    return filter.admits(i, j) &&
+           (!options.moved_only || first.moved(first.model().group_of(i)) || second.moved(second.model().group_of(j)));
   }
 };
 

@@ -17,8 +17,8 @@ struct QueryCounts {
 struct QueryOptions {
   /// Only pairs whose distance may have changed in the last update.
   bool moved_only = false;
-  /// Extra clearance per rigid group (model length unit, finite, >= 0), added to the threshold of every pair for both of
-  /// its groups. Empty: none.
+  /// Extra clearance per rigid group (model length unit, finite, >= 0), added to the threshold of every pair for both
+  /// of its groups. Empty: none.
   std::span<const double> clearance{};
   /// The same for the groups of the other model, in queries between two.
   std::span<const double> other_clearance{};

@@ -36,7 +36,7 @@ class Brute {
 
   /// `across` admits (primitive of this, primitive of other).
   template <Collector C, PairFilter G>
-    requires CrossMatrix<D>
+  requires CrossMatrix<D>
   void query(Brute& other, const G& across, C& collector, const QueryOptions& options) {
     place_all();
     other.place_all();

@@ -23,8 +23,9 @@
 
 namespace hinge {
 
-/// After an update only bodies that moved get new boxes, and of those only leaves and root; nodes between are split when
-/// a query reaches them, and kept while the body stands still. The upper tree over the roots is built anew in each query.
+/// After an update only bodies that moved get new boxes, and of those only leaves and root; nodes between are split
+/// when a query reaches them, and kept while the body stands still. The upper tree over the roots is built anew in each
+/// query.
 template <Primitive P, PairFilter F, DistanceMatrix D>
 class Lazy {
  public:
@@ -50,7 +51,7 @@ class Lazy {
 
   /// `across` admits (primitive of this, primitive of other).
   template <Collector C, PairFilter G>
-    requires CrossMatrix<D>
+  requires CrossMatrix<D>
   void query(Lazy& other, const G& across, C& collector, const QueryOptions& options) {
     if (trees_.empty() || other.trees_.empty()) return;
     QueryCounts counts;
@@ -148,9 +149,11 @@ class Lazy {
       if (deforms && !test_bodies(b, b, collector, rules, counts)) return;
     }
     make_upper(options.clearance);
-    traverse(upper_, upper_, stack_, counts, [&] { return collector.cutoff(); }, [&](std::uint32_t a, std::uint32_t b) {
-      return (options.moved_only && !moved_apart(a, b)) || test_bodies(a, b, collector, rules, counts);
-    });
+    traverse(
+        upper_, upper_, stack_, counts, [&] { return collector.cutoff(); },
+        [&](std::uint32_t a, std::uint32_t b) {
+          return (options.moved_only && !moved_apart(a, b)) || test_bodies(a, b, collector, rules, counts);
+        });
   }
 
   bool moved_apart(std::uint32_t a, std::uint32_t b) const noexcept {

@@ -19,9 +19,9 @@
 namespace hinge {
 
 /// Leaves are the basic groups of BioCD section III. A body is what has a low-level tree of its own: a rigid group with
-/// the basic groups that lie wholly in it, or one basic group that spans several rigid groups (an articulated unit, such
-/// as a side chain whose torsions are free), which is a single leaf. Near leaf pairs are those with pairs the filter does
-/// not admit; the admitted rest of each is its SRI list, so that the filter is never asked inside a query.
+/// the basic groups that lie wholly in it, or one basic group that spans several rigid groups (an articulated unit,
+/// such as a side chain whose torsions are free), which is a single leaf. Near leaf pairs are those with pairs the
+/// filter does not admit; the admitted rest of each is its SRI list, so that the filter is never asked inside a query.
 class LazyLayout {
  public:
   using PrimitivePair = std::pair<PrimitiveId, PrimitiveId>;

@@ -15,15 +15,15 @@
 
 namespace hinge {
 
-/// Items are numbered 0 .. n-1; reset() computes the root only, everything below comes with split(). The same boxes give
-/// the same tree whatever was there before. Nothing recurses; depth is at most 3 ceil(log2 n) + 9.
+/// Items are numbered 0 .. n-1; reset() computes the root only, everything below comes with split(). The same boxes
+/// give the same tree whatever was there before. Nothing recurses; depth is at most 3 ceil(log2 n) + 9.
 class LazyTree {
  public:
   struct Node {
     Aabb box;
     std::uint32_t begin = 0;  ///< range of items in order()
     std::uint32_t end = 0;
-    std::uint32_t left = 0;   ///< children are left and left + 1; 0 while not split
+    std::uint32_t left = 0;  ///< children are left and left + 1; 0 while not split
     std::uint32_t depth = 0;
     bool is_leaf() const noexcept { return end - begin == 1; }
     std::uint32_t size() const noexcept { return end - begin; }

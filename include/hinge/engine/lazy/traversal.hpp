@@ -22,10 +22,11 @@ inline bool reaches(const Aabb& a, const Aabb& b, double cutoff) noexcept {
 }
 
 /// Calls visit(item of a, item of b) -> bool for every pair of leaves whose boxes may hold wanted pairs; stops when it
-/// returns false, and then returns false itself. `cutoff()` may shrink on the way. Where a and b are the same tree, every
-/// unordered pair of different leaves comes once; a leaf is not tested with itself.
+/// returns false, and then returns false itself. `cutoff()` may shrink on the way. Where a and b are the same tree,
+/// every unordered pair of different leaves comes once; a leaf is not tested with itself.
 template <class Cutoff, class Visit>
-bool traverse(LazyTree& a, LazyTree& b, NodePairs& stack, QueryCounts& counts, const Cutoff& cutoff, const Visit& visit) {
+bool traverse(LazyTree& a, LazyTree& b, NodePairs& stack, QueryCounts& counts, const Cutoff& cutoff,
+              const Visit& visit) {
   const bool self = &a == &b;
   const auto push = [&](std::uint32_t m, std::uint32_t n) {
     ++counts.boxes_tested;

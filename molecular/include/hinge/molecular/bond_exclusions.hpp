@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// BondExclusions: the pair filter of molecules, TopDist(i, j) >= min_bonds (BioCD eq. (1)), plus pairs exempted by hand.
+// BondExclusions: the pair filter of molecules, TopDist(i, j) >= min_bonds (BioCD eq. (1)), plus pairs exempted by
+// hand.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +17,9 @@
 
 namespace hinge::molecular {
 
-/// Primitive i is atom i. A pair is admitted when at least min_bonds bonds lie on the shortest way between the two atoms
-/// (the paper's "more than three bonds" is min_bonds = 4); atoms that no chain of bonds joins are always admitted.
+/// Primitive i is atom i. A pair is admitted when at least min_bonds bonds lie on the shortest way between the two
+/// atoms (the paper's "more than three bonds" is min_bonds = 4); atoms that no chain of bonds joins are always
+/// admitted.
 class BondExclusions {
  public:
   /// min_bonds: 1 ... 16, else ModelError. exempt: further pairs that never count.
@@ -30,7 +32,8 @@ class BondExclusions {
   }
   /// Sorted, without i.
   std::span<const PrimitiveId> excluded(PrimitiveId i) const noexcept {
-    return std::span(data_->excluded).subspan(data_->start[index(i)], data_->start[index(i) + 1] - data_->start[index(i)]);
+    return std::span(data_->excluded)
+        .subspan(data_->start[index(i)], data_->start[index(i) + 1] - data_->start[index(i)]);
   }
   std::size_t size() const noexcept { return data_->start.size() - 1; }
   /// Number of unordered pairs that are not admitted.

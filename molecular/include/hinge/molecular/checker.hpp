@@ -38,9 +38,9 @@ struct Mode {
 
 struct CheckOptions {
   ThresholdOptions thresholds;
-  std::optional<int> min_bonds;    ///< pairs count from this bond distance on; none: the radii set's default
-  bool exempt_reference = false;   ///< pairs that collide in the reference never count
-  std::string engine = "lazy";     ///< "lazy" or "brute"
+  std::optional<int> min_bonds;   ///< pairs count from this bond distance on; none: the radii set's default
+  bool exempt_reference = false;  ///< pairs that collide in the reference never count
+  std::string engine = "lazy";    ///< "lazy" or "brute"
 };
 
 /// The answer for one conformation. `pairs` holds what the mode lists (all: colliding; within: closer than the margin;

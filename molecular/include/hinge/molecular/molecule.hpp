@@ -17,9 +17,9 @@
 
 namespace hinge::molecular {
 
-/// Every torsion of the structure is a joint; primitive i is atom i of model 0, in angstrom. Joint values are turns away
-/// from that reference (rad), so that all 0 gives back the coordinates read, bit for bit, and a torsion at q has the
-/// dihedral angle reference + q. Rings stay rigid; cycles through disulphides and other cross-links are closures.
+/// Every torsion of the structure is a joint; primitive i is atom i of model 0, in angstrom. Joint values are turns
+/// away from that reference (rad), so that all 0 gives back the coordinates read, bit for bit, and a torsion at q has
+/// the dihedral angle reference + q. Rings stay rigid; cycles through disulphides and other cross-links are closures.
 class Molecule {
  public:
   explicit Molecule(Structure structure);
@@ -47,8 +47,9 @@ class Molecule {
   std::optional<Model<Point>> model_;
 };
 
-/// BioCD's basic groups: pseudo-backbone (backbone and C-beta) and pseudo-side-chain of each residue, proline whole, the
-/// side chains a disulphide joins as one; for nucleotides backbone and base; any other residue whole. One label per atom.
+/// BioCD's basic groups: pseudo-backbone (backbone and C-beta) and pseudo-side-chain of each residue, proline whole,
+/// the side chains a disulphide joins as one; for nucleotides backbone and base; any other residue whole. One label per
+/// atom.
 std::vector<std::uint32_t> basic_groups(const Structure& structure);
 
 }  // namespace hinge::molecular

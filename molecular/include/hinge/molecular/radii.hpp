@@ -21,11 +21,11 @@ enum class AtomClass : std::uint8_t {
   nitrogen,           ///< cannot accept a hydrogen bond: bears hydrogen, or is bonded three times
   nitrogen_acceptor,  ///< two heavy neighbours at most and no hydrogen in a residue with hydrogens
   oxygen,
-  oxygen_hydroxyl,    ///< bears a hydrogen, or single-bonded in SER, THR, TYR
+  oxygen_hydroxyl,  ///< bears a hydrogen, or single-bonded in SER, THR, TYR
   sulphur,
   phosphorus,
-  hydrogen,           ///< bonded to aliphatic carbon
-  hydrogen_alpha,     ///< bonded to carbon that is bonded to N, O or S
+  hydrogen,        ///< bonded to aliphatic carbon
+  hydrogen_alpha,  ///< bonded to carbon that is bonded to N, O or S
   hydrogen_aromatic,
   hydrogen_polar,     ///< bonded to N or S
   hydrogen_hydroxyl,  ///< bonded to O
@@ -34,10 +34,10 @@ enum class AtomClass : std::uint8_t {
 
 /// A named, versioned set of radii (angstrom). d0 of a pair is the sum of its radii.
 struct RadiiSet {
-  std::string_view name;         ///< as on the command line
-  std::string_view version;      ///< changes whenever a number does
+  std::string_view name;     ///< as on the command line
+  std::string_view version;  ///< changes whenever a number does
   std::string_view source;
-  int default_min_bonds;         ///< bond distance at which a pair starts to count unless the user says otherwise
+  int default_min_bonds;  ///< bond distance at which a pair starts to count unless the user says otherwise
   double (*radius)(AtomClass, std::string_view element);
 };
 
@@ -52,9 +52,9 @@ std::vector<AtomClass> classify_atoms(const Structure& structure);
 
 struct ThresholdOptions {
   std::string radii = "bondi";
-  double rho = 0.8;                     ///< M = rho * d0; finite, > 0
-  std::optional<bool> hydrogen_bonds;   ///< hydrogen-bond rule; none: on when the structure has hydrogens
-  double hydrogen_bond_allowance = 0.4; ///< angstrom, taken from M(polar H, acceptor N, O or S)
+  double rho = 0.8;                      ///< M = rho * d0; finite, > 0
+  std::optional<bool> hydrogen_bonds;    ///< hydrogen-bond rule; none: on when the structure has hydrogens
+  double hydrogen_bond_allowance = 0.4;  ///< angstrom, taken from M(polar H, acceptor N, O or S)
 };
 
 /// Thresholds with what is needed to print them.

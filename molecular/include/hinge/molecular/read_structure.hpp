@@ -10,9 +10,9 @@
 namespace hinge::molecular {
 
 struct ReadOptions {
-  std::optional<int> model;     ///< the model's number in the file; none: all models
-  std::optional<char> altloc;   ///< none: per residue the one of highest occupancy, then the first
-  bool hetero = false;          ///< keep ligands, ions and sugars; waters are always left out and counted
+  std::optional<int> model;    ///< the model's number in the file; none: all models
+  std::optional<char> altloc;  ///< none: per residue the one of highest occupancy, then the first
+  bool hetero = false;         ///< keep ligands, ions and sugars; waters are always left out and counted
   bool keep_hydrogens = true;
 };
 

@@ -10,9 +10,9 @@ namespace hinge::molecular {
 /// Pairs and quadruples of atom names, separated by blanks: "CB-CG CG-CD", "N-CA-CB-CG CA-CB-CG-CD".
 struct ResidueTemplate {
   std::string_view name;
-  char letter;                   ///< one-letter code
-  std::string_view side_chain;   ///< bonds beyond the backbone, from CA-CB on
-  std::string_view chi;          ///< chi1, chi2, ...
+  char letter;                  ///< one-letter code
+  std::string_view side_chain;  ///< bonds beyond the backbone, from CA-CB on
+  std::string_view chi;         ///< chi1, chi2, ...
 };
 
 /// Backbone bonds of every amino acid, terminal atoms in PDB and CHARMM names included.

@@ -16,7 +16,8 @@ namespace hinge::molecular {
 ///   loops      residues outside HELIX and SHEET records
 ///   every:N    each N-th amino acid of the molecule, starting with the N-th
 ///   count:K    K amino acids at regular intervals: number floor((i + 1/2) n / K) of n, i = 0 ... K - 1
-///   A:45  A:10-20  A:45:chi1  A:10-20:backbone    residues of a chain ("_" for a blank name; insertion codes as in 60A)
+///   A:45  A:10-20  A:45:chi1  A:10-20:backbone    residues of a chain ("_" for a blank name; insertion codes as in
+///   60A)
 /// omega is freed only when `omega` is set or it is named. ModelError names the word and what was expected.
 std::vector<std::size_t> select_torsions(const Molecule& molecule, std::string_view spec, bool omega);
 

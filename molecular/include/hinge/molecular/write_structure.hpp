@@ -12,8 +12,8 @@
 
 namespace hinge::molecular {
 
-/// One MODEL ... ENDMDL block, positions in angstrom, one per atom. Serials beyond 99999 are hybrid-36. ModelError: a chain
-/// name longer than one character, a coordinate that does not fit eight columns.
+/// One MODEL ... ENDMDL block, positions in angstrom, one per atom. Serials beyond 99999 are hybrid-36. ModelError: a
+/// chain name longer than one character, a coordinate that does not fit eight columns.
 void write_pdb_model(std::ostream& out, const Structure& structure, std::span<const Vec3> positions, int number);
 
 /// A script that opens pdb_file (beside it) and marks every pair with a pseudobond and its distance.
