@@ -106,6 +106,13 @@ int run(int argc, char** argv) {
   sample->add_option("--out", o.out, "write the conformations as a multi-model PDB file");
   sample->callback([&] { command = biocd::run_sample; });
 
+  CLI::App* demo = app.add_subcommand("demo", "the main job on one protein: sample, time, verify, draw");
+  demo->add_option("FILE", o.file, "PDB or mmCIF file")->required();
+  demo->add_option("--out", o.out, "folder for the plot and the viewer scripts")->required();
+  demo->add_option("-n,--count", o.count, "conformations per row")->capture_default_str();
+  demo->add_option("--seed", o.seed, "seed")->capture_default_str();
+  demo->callback([&] { command = biocd::run_demo; });
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -46,6 +46,7 @@ Job load(const Options& options);
 int run_info(const Options& options);
 int run_check(const Options& options);
 int run_sample(const Options& options);
+int run_demo(const Options& options);
 
 /// Prints which rule kept or dropped the pair named by options.explain.
 void explain(const Options& options, const Job& job);

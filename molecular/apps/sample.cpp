@@ -3,19 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cstdint>
 #include <cstring>
-#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <numbers>
 #include <string>
 #include <system_error>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -23,6 +20,7 @@
 #include "hinge/molecular/sampler.hpp"
 #include "hinge/molecular/write_structure.hpp"
 #include "options.hpp"
+#include "parallel_check.hpp"
 #include "progress_bar.hpp"
 #include "report.hpp"
 
@@ -31,35 +29,6 @@ namespace biocd {
 namespace {
 
 using namespace hinge::molecular;
-
-struct Sample {
-  Verdict verdict;
-  std::vector<hinge::Vec3> positions;  // only when they are to be written
-};
-
-/// Checks samples [first, first + out.size()) with one checker per worker.
-void check_block(std::vector<Checker>& workers, const Sampling& sampling, const Mode& mode, std::uint64_t first,
-                 bool keep_positions, std::vector<Sample>& out) {
-  std::atomic<std::size_t> next{0};
-  std::vector<std::exception_ptr> failures(workers.size());
-  const auto work = [&](std::size_t w) {
-    try {
-      for (std::size_t k = next++; k < out.size(); k = next++) {
-        const auto q = sample_configuration(sampling, first + k, workers[w].dof_count());
-        out[k].verdict = workers[w].check(q, mode);
-        if (keep_positions) out[k].positions = workers[w].positions();
-      }
-    } catch (...) {
-      failures[w] = std::current_exception();
-    }
-  };
-  std::vector<std::thread> threads;
-  for (std::size_t w = 1; w < workers.size(); ++w) threads.emplace_back(work, w);
-  work(0);
-  for (std::thread& thread : threads) thread.join();
-  for (const std::exception_ptr& failure : failures)
-    if (failure) std::rethrow_exception(failure);
-}
 
 /// Writes beside the wanted file and takes its name only when complete, so that nothing half-written is left.
 class ConformationFile {
@@ -176,9 +145,9 @@ int run_sample(const Options& options) {
   ProgressBar bar(options.count);
   std::chrono::duration<double> checking{};
   for (std::uint64_t first = 0; first < options.count; first += block) {
-    std::vector<Sample> samples(static_cast<std::size_t>(std::min(block, options.count - first)));
     const auto start = std::chrono::steady_clock::now();
-    check_block(workers, sampling, mode, first, file.wanted(), samples);
+    const auto samples =
+        check_samples(workers, sampling, mode, first, std::min(block, options.count - first), file.wanted());
     checking += std::chrono::steady_clock::now() - start;
     for (std::size_t k = 0; k < samples.size(); ++k) {
       const Verdict& verdict = samples[k].verdict;

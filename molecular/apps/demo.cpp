@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// biocd demo: the main job from end to end on one protein: sample, time, verify, draw.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <numbers>
+#include <set>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "hinge/molecular/sampler.hpp"
+#include "hinge/molecular/selection.hpp"
+#include "hinge/molecular/write_structure.hpp"
+#include "options.hpp"
+#include "parallel_check.hpp"
+#include "plot_svg.hpp"
+
+namespace biocd {
+
+namespace {
+
+using namespace hinge::molecular;
+
+constexpr std::uint64_t verified = 100;  // conformations of each selection that brute force decides too
+
+struct NamedSampling {
+  const char* name;
+  const char* title;
+  Sampling sampling;
+};
+
+/// The conformation with the most clashes.
+struct Worst {
+  std::vector<hinge::Hit> pairs;
+  std::vector<hinge::Vec3> positions;
+};
+
+std::ofstream open(const std::filesystem::path& path) {
+  std::ofstream file(path);
+  if (!file) throw hinge::LoadError(path.string() + ": cannot be written");
+  return file;
+}
+
+/// Verdicts, pairs and closest pairs of the first conformations on both engines; the number that differ.
+int differences(Checker& lazy, Checker& brute, const Sampling& sampling, std::uint64_t count) {
+  int different = 0;
+  for (std::uint64_t k = 0; k < count; ++k) {
+    const auto q = sample_configuration(sampling, k, lazy.dof_count());
+    for (const char* text : {"any", "all", "within:1", "closest"}) {
+      const Mode mode = Mode::parse(text);
+      const Verdict a = lazy.check(q, mode), b = brute.check(q, mode);
+      if (a.collides != b.collides || a.pairs != b.pairs || a.closest != b.closest) ++different;
+    }
+  }
+  return different;
+}
+
+void write_worst(const Structure& s, const Worst& worst, const std::filesystem::path& folder) {
+  auto pdb = open(folder / "worst.pdb");
+  write_pdb_model(pdb, s, worst.positions, 1);
+  pdb << "END\n";
+  auto chimerax = open(folder / "worst.cxc");
+  write_chimerax_script(chimerax, s, worst.pairs, "worst.pdb");
+  auto pymol = open(folder / "worst.pml");
+  write_pymol_script(pymol, s, worst.pairs, "worst.pdb");
+}
+
+}  // namespace
+
+int run_demo(const Options& options) {
+  const auto molecule = std::make_shared<const Molecule>(read_structure(options.file, options.read));
+  const Structure& s = molecule->structure();
+  const auto residues = static_cast<std::size_t>(std::count_if(
+      s.residues.begin(), s.residues.end(), [](const Residue& r) { return r.kind == ResidueKind::amino_acid; }));
+  std::set<std::size_t> counts;
+  for (const std::size_t k : {std::size_t{1}, std::size_t{5}, std::size_t{10}, std::size_t{35}, residues})
+    counts.insert(std::min(k, residues));
+  const NamedSampling samplings[] = {
+      {"full", "torsions over the full turn", {options.seed, {}}},
+      {"0.5 deg", "torsions 0.5 degrees (sigma) about native", {options.seed, std::numbers::pi / 360}}};
+  const unsigned threads = std::max(1U, std::thread::hardware_concurrency());
+  CheckOptions rules = options.check;
+  rules.exempt_reference = true;
+
+  fmt::print(
+      "{}: {} atoms, {} residues; {} conformations per row, seed {}, {} threads, d < {} * (bondi radii), pairs\n"
+      "that collide in the file itself do not count\n\n{:>8} {:>5} {:<8}",
+      s.name, s.atoms.size(), residues, options.count, options.seed, threads, rules.thresholds.rho, "residues", "dof",
+      "sampling");
+  const char* modes[] = {"any", "all", "within:1", "closest"};
+  for (const char* mode : modes) fmt::print(" {:>12}/s", mode);
+  fmt::print("  colliding\n");
+
+  std::vector<Plot> plots;
+  for (const NamedSampling& n : samplings) {
+    plots.push_back({n.title, "free residues", "conformations per second", {}, {}});
+    for (const char* mode : modes) plots.back().curves.push_back({mode, {}});
+  }
+  Worst worst;
+  int different = 0;
+  for (const std::size_t count : counts) {
+    const std::string spec = fmt::format("count:{}", count);
+    const auto selection = molecule->select(select_torsions(*molecule, spec, options.omega));
+    Checker lazy(molecule, selection, rules);
+    rules.engine = "brute";
+    Checker brute(molecule, selection, rules);
+    rules.engine = "lazy";
+    for (std::size_t n = 0; n < plots.size(); ++n) {
+      plots[n].labels.push_back(std::to_string(count));
+      fmt::print("{:>8} {:>5} {:<8}", count, lazy.dof_count(), samplings[n].name);
+      std::uint64_t colliding = 0;
+      for (std::size_t m = 0; m < plots[n].curves.size(); ++m) {
+        std::vector<Checker> workers(threads, lazy);
+        const auto start = std::chrono::steady_clock::now();
+        const auto samples =
+            check_samples(workers, samplings[n].sampling, Mode::parse(modes[m]), 0, options.count, false);
+        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+        const double rate = static_cast<double>(options.count) / seconds.count();
+        plots[n].curves[m].values.push_back(rate);
+        colliding = 0;
+        for (std::size_t k = 0; k < samples.size(); ++k) {
+          const Verdict& verdict = samples[k].verdict;
+          colliding += verdict.collides ? 1 : 0;
+          // A conformation near the native one is a picture a person can read.
+          if (m != 1 || n != 1 || verdict.pairs.size() <= worst.pairs.size()) continue;
+          lazy.check(sample_configuration(samplings[n].sampling, k, lazy.dof_count()), Mode::parse("all"));
+          worst = {verdict.pairs, lazy.positions()};
+        }
+        fmt::print(" {:>14.0f}", rate);
+        std::fflush(stdout);
+      }
+      fmt::print("  {:8.2f} %\n", 100.0 * static_cast<double>(colliding) / static_cast<double>(options.count));
+      different += differences(lazy, brute, samplings[n].sampling, std::min(verified, options.count));
+    }
+  }
+  fmt::print("\nbrute force on {} conformations of each row, all four modes: {} differences\n",
+             std::min(verified, options.count), different);
+
+  const std::filesystem::path folder(options.out);
+  std::filesystem::create_directories(folder);
+  open(folder / "speed.svg") << to_svg(plots);
+  fmt::print("written: {}", (folder / "speed.svg").string());
+  if (!worst.pairs.empty()) {
+    write_worst(s, worst, folder);
+    fmt::print(", worst.pdb with {} clashes, worst.cxc (ChimeraX), worst.pml (PyMOL)", worst.pairs.size());
+  }
+  fmt::print("\n");
+  return static_cast<int>(different == 0 ? Exit::free : Exit::bad_input);
+}
+
+}  // namespace biocd
