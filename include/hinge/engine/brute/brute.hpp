@@ -56,9 +56,8 @@ class Brute {
   template <Collector C, class Rules>
   static bool test(C& collector, const Rules& rules, const P& p, const P& q, std::size_t i, std::size_t j) {
     const auto a = id<PrimitiveId>(i), b = id<PrimitiveId>(j);
-    if (!rules.admits(a, b)) return true;
     if (rules.options.counts != nullptr) ++rules.options.counts->pairs_tested;
-    offer(collector, a, b, p, q, rules.threshold(a, b), [] { return true; });
+    offer(collector, a, b, p, q, rules.threshold(a, b), [&] { return rules.admits(a, b); });
     return !collector.done();
   }
 

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// biocd from outside: exit status, JSON contract, determinism, messages.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+#include "hinge/molecular/read_structure.hpp"
+#include "molecular/test_files.hpp"
+
+namespace hinge::molecular {
+namespace {
+
+using Json = nlohmann::json;
+
+struct Outcome {
+  int status = -1;
+  std::string out;
+};
+
+/// Standard output and exit status; standard error goes along with `2>&1` in the arguments.
+Outcome biocd(const std::string& arguments) {
+  Outcome outcome;
+  FILE* pipe = popen((std::string(HINGE_BIOCD) + " " + arguments).c_str(), "r");
+  if (pipe == nullptr) return outcome;
+  std::array<char, 4096> chunk{};
+  for (std::size_t got = 0; (got = fread(chunk.data(), 1, chunk.size(), pipe)) > 0;)
+    outcome.out.append(chunk.data(), got);
+  const int status = pclose(pipe);
+  outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return outcome;
+}
+
+std::string file() { return test::ubiquitin().string(); }
+
+std::string content(const std::filesystem::path& path) {
+  std::ifstream stream(path);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST(Biocd, ExitsWithTheDocumentedStatus) {
+  EXPECT_EQ(biocd("check " + file()).status, 1);
+  EXPECT_EQ(biocd("check " + file() + " --exempt-reference").status, 0);
+  EXPECT_EQ(biocd("info " + file()).status, 0);
+  EXPECT_EQ(biocd("--version").status, 0);
+  EXPECT_EQ(biocd("--help").status, 0);
+  EXPECT_EQ(biocd("2>&1").status, 2);
+  EXPECT_EQ(biocd("check 2>&1").status, 2);
+  EXPECT_EQ(biocd("frobnicate 2>&1").status, 2);
+  EXPECT_EQ(biocd("check " + file() + " --free A:5000 2>&1").status, 2);
+  EXPECT_EQ(biocd("check " + file() + " --radii x 2>&1").status, 2);
+  EXPECT_EQ(biocd("check " + file() + " --mode x 2>&1").status, 2);
+  EXPECT_EQ(biocd("sample " + file() + " -n 0 2>&1").status, 2);
+  EXPECT_EQ(biocd("sample " + file() + " --sigma -1 2>&1").status, 2);
+  EXPECT_EQ(biocd("check /nonexistent.pdb 2>&1").status, 3);
+  const test::TemporaryFile empty("");
+  const Outcome refused = biocd("check " + empty.path().string() + " 2>&1");
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_EQ(refused.out, "biocd: " + empty.path().string() + ": is empty, expected a PDB or mmCIF file\n");
+}
+
+TEST(Biocd, KeepsTheJsonContractOfInfo) {
+  const Outcome outcome = biocd("info " + file() + " --json --atoms --free A:48");
+  ASSERT_EQ(outcome.status, 0);
+  const Json json = Json::parse(outcome.out);
+  for (const char* key :
+       {"atoms", "bonds", "residues", "chains", "dof", "rigid_groups", "excluded_pairs", "radii", "rho", "min_bonds"})
+    EXPECT_TRUE(json.at("model").contains(key)) << key;
+  EXPECT_EQ(json["model"]["atoms"], 602);
+  EXPECT_EQ(json["model"]["dof"], 6);
+  EXPECT_EQ(json["model"]["rigid_groups"], 7);
+  ASSERT_EQ(json["atoms"].size(), 602U);
+  for (const char* key :
+       {"index", "name", "residue", "seq", "icode", "chain", "element", "type", "x", "y", "z", "group"})
+    EXPECT_TRUE(json["atoms"][0].contains(key)) << key;
+  EXPECT_EQ(json["atoms"][1]["name"], "CA");
+  EXPECT_EQ(json["atoms"][1]["x"], 26.266);
+  std::set<int> groups;
+  for (const Json& atom : json["atoms"]) groups.insert(atom["group"].get<int>());
+  EXPECT_EQ(groups.size(), 7U);
+  EXPECT_EQ(json["bonds"].size(), 608U);
+  EXPECT_EQ(json["bonds"][0].size(), 2U);
+  for (const Json& row : json["thresholds"]) EXPECT_EQ(row.size(), 3U);
+  ASSERT_EQ(json["constant_contacts"].size(), 1U);
+  for (const char* key : {"i", "j", "distance", "threshold"}) EXPECT_TRUE(json["constant_contacts"][0].contains(key));
+}
+
+TEST(Biocd, KeepsTheJsonContractOfCheckAndSample) {
+  for (const char* mode : {"any", "all", "within:0.5", "closest"})
+    for (const std::string& command : {"check " + file(), "sample " + file() + " -n 5 --sigma 1 --free every:4"}) {
+      SCOPED_TRACE(command + " " + mode);
+      const Outcome outcome = biocd(command + " --json --mode " + mode);
+      const Json json = Json::parse(outcome.out);
+      bool collides = false;
+      ASSERT_FALSE(json.at("conformations").empty());
+      for (const Json& c : json["conformations"]) {
+        EXPECT_TRUE(c.contains("index"));
+        collides = collides || c.at("collides").get<bool>();
+        EXPECT_EQ(c.contains("closest"), std::string(mode) == "closest");
+        if (c.contains("closest") && c["collides"].get<bool>()) {
+          EXPECT_LT(c["closest"]["distance"], c["closest"]["threshold"]);
+        }
+        for (const Json& pair : c.value("pairs", Json::array()))
+          for (const char* key : {"i", "j", "label_i", "label_j", "distance", "threshold"})
+            EXPECT_TRUE(pair.contains(key)) << key;
+      }
+      EXPECT_TRUE(json.contains("constant_contacts"));
+      EXPECT_EQ(outcome.status, collides ? 1 : 0);
+    }
+}
+
+TEST(Biocd, GivesIdenticalBytesForAnyThreadCount) {
+  const std::string command = "sample " + file() + " -n 1500 --sigma 1 --free count:5 --seed 9 ";
+  const auto folder = std::filesystem::temp_directory_path();
+  const auto one = folder / "hinge-threads-1.pdb", three = folder / "hinge-threads-3.pdb";
+  for (const char* output : {"--json", "--csv"}) {
+    const Outcome a = biocd(command + output + " --threads 1 --out " + one.string());
+    const Outcome b = biocd(command + output + " --threads 3 --out " + three.string());
+    EXPECT_EQ(a.status, 1);
+    EXPECT_FALSE(a.out.empty());
+    EXPECT_TRUE(a.out == b.out);
+    EXPECT_TRUE(content(one) == content(three));
+  }
+  const Structure written = read_structure(one);
+  EXPECT_EQ(written.models.size(), 1500U);
+  std::filesystem::remove(one);
+  std::filesystem::remove(three);
+}
+
+TEST(Biocd, WritesConformationsThatCheckTheSame) {
+  const auto out = std::filesystem::temp_directory_path() / "hinge-sampled.pdb";
+  const Outcome sampled = biocd("sample " + file() + " -n 20 --sigma 0.3 --free all --json --out " + out.string());
+  const Outcome checked = biocd("check " + out.string() + " --json");
+  const Json a = Json::parse(sampled.out), b = Json::parse(checked.out);
+  ASSERT_EQ(a["conformations"].size(), 20U);
+  ASSERT_EQ(b["conformations"].size(), 20U);
+  // The file has three decimals, so pairs near their threshold may change sides; the bulk may not.
+  for (std::size_t k = 0; k < 20; ++k) {
+    const auto found = static_cast<double>(a["conformations"][k]["pairs"].size());
+    EXPECT_NEAR(found, static_cast<double>(b["conformations"][k]["pairs"].size()), 1.0 + 0.1 * found);
+  }
+  std::filesystem::remove(out);
+}
+
+TEST(Biocd, LeavesNothingHalfWritten) {
+  EXPECT_EQ(biocd("sample " + file() + " -n 1 --out /nonexistent/x.pdb 2>&1").status, 3);
+  EXPECT_FALSE(std::filesystem::exists("/nonexistent/x.pdb.partial"));
+}
+
+TEST(Biocd, ExplainsAPair) {
+  EXPECT_NE(biocd("check " + file() + " --explain 0,1").out.find("1 bonds apart"), std::string::npos);
+  EXPECT_NE(biocd("check " + file() + " --explain 0,500").out.find("kept"), std::string::npos);
+  EXPECT_EQ(biocd("check " + file() + " --explain 0,9999 2>&1").status, 2);
+  EXPECT_EQ(biocd("check " + file() + " --explain 4,4 2>&1").status, 2);
+}
+
+}  // namespace
+}  // namespace hinge::molecular

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Engines against brute force on real and built proteins; published contact counts; thresholds and exclusions.
+#include "hinge/molecular/checker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "hinge/molecular/ideal_protein.hpp"
+#include "hinge/molecular/sampler.hpp"
+#include "hinge/molecular/selection.hpp"
+#include "molecular/test_files.hpp"
+
+namespace hinge::molecular {
+namespace {
+
+constexpr std::uint64_t seed = 1;
+
+/// `count` conformations from full-range and as many from near-native sampling, four modes each.
+void expect_equal_engines(const std::shared_ptr<const Molecule>& molecule, const std::string& spec, int count) {
+  const auto selection = molecule->select(select_torsions(*molecule, spec, true));
+  CheckOptions rules;
+  rules.exempt_reference = true;
+  Checker lazy(molecule, selection, rules);
+  rules.engine = "brute";
+  Checker brute(molecule, selection, rules);
+  std::size_t colliding[2] = {0, 0};
+  const Sampling samplings[2] = {{seed, {}}, {seed, std::numbers::pi / 180 * 0.2}};
+  for (int s = 0; s < 2; ++s)
+    for (int k = 0; k < count; ++k) {
+      const auto q = sample_configuration(samplings[s], static_cast<std::uint64_t>(k), lazy.dof_count());
+      for (const char* text : {"any", "all", "within:0.5", "closest"}) {
+        const Mode mode = Mode::parse(text);
+        const Verdict a = lazy.check(q, mode), b = brute.check(q, mode);
+        ASSERT_EQ(a.collides, b.collides) << text << " sample " << k;
+        ASSERT_EQ(a.pairs, b.pairs) << text << " sample " << k;
+        ASSERT_EQ(a.closest, b.closest) << text << " sample " << k;
+        if (mode.kind == Mode::Kind::any) colliding[s] += a.collides ? 1 : 0;
+      }
+      // Coordinates as from elsewhere: every admitted pair.
+      if (k % 50 != 0) continue;
+      const auto positions = lazy.positions();
+      const Verdict a = lazy.check_coordinates(positions, Mode::parse("all"));
+      const Verdict b = brute.check_coordinates(positions, Mode::parse("all"));
+      ASSERT_EQ(a.pairs, b.pairs);
+    }
+  std::printf("seed %d: %zu of %d random and %zu of %d near-native conformations collide\n", static_cast<int>(seed),
+              colliding[0], count, colliding[1], count);
+}
+
+TEST(Engines, EqualBruteForceOnUbiquitin) {
+  const auto molecule = std::make_shared<const Molecule>(read_structure(test::ubiquitin()));
+  expect_equal_engines(molecule, "all", 500);
+  expect_equal_engines(molecule, "count:5", 500);
+  expect_equal_engines(molecule, "loops", 100);
+}
+
+TEST(Engines, EqualBruteForceOnBuiltProteins) {
+  for (const auto& [sequence, structure] :
+       {std::pair("ACDEFGHIKLMNPQRSTVWYACDEFGHIKLMNPQRSTVWY", "CCHHHHHHHHHHCCCCEEEEEEECCCHHHHHHHHHHCCCC"),
+        std::pair("GGGGG", "CCCCC"), std::pair("A", "C"), std::pair("WP", "EE")}) {
+    const auto molecule = std::make_shared<const Molecule>(build_ideal_protein(sequence, structure));
+    expect_equal_engines(molecule, "all", 1000);
+  }
+}
+
+struct Case {
+  const char* file;
+  bool hydrogens;
+};
+
+class SharedProteins : public testing::TestWithParam<Case> {};
+
+TEST_P(SharedProteins, GiveEqualAnswersOnAllEngines) {
+  const auto file = test::shared_molecules() / GetParam().file;
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
+  ReadOptions options;
+  options.keep_hydrogens = GetParam().hydrogens;
+  options.model = 1;
+  const auto molecule = std::make_shared<const Molecule>(read_structure(file, options));
+  expect_equal_engines(molecule, "count:7", 500);
+  expect_equal_engines(molecule, "all", 500);
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, SharedProteins,
+                         testing::Values(Case{"1ejg.pdb", false}, Case{"1ejg.pdb", true}, Case{"1l2y.pdb", false},
+                                         Case{"1l2y.pdb", true}, Case{"5pti.pdb", false}, Case{"5pti.pdb", true},
+                                         Case{"paper/1vii_3frames.pdb", false}, Case{"paper/1vii_3frames.pdb", true},
+                                         Case{"paper/nmr_neopetrosiamide.pdb", false},
+                                         Case{"paper/nmr_neopetrosiamide.pdb", true}),
+                         [](const auto& parameter) { return "n" + std::to_string(parameter.index); });
+
+std::size_t native_contacts(const std::filesystem::path& file, bool hydrogens, const CheckOptions& rules) {
+  ReadOptions options;
+  options.keep_hydrogens = hydrogens;
+  const auto molecule = std::make_shared<const Molecule>(read_structure(file, options));
+  return Checker(molecule, molecule->select({}), rules).reference_collisions().size();
+}
+
+TEST(NativeContacts, OfUbiquitinAreOne) {
+  const auto molecule = std::make_shared<const Molecule>(read_structure(test::ubiquitin()));
+  const CheckOptions rules;
+  const Checker checker(molecule, molecule->select({}), rules);
+  ASSERT_EQ(checker.reference_collisions().size(), 1U);
+  const Hit hit = checker.reference_collisions().front();
+  const auto name = [&](PrimitiveId i) { return label(molecule->structure(), static_cast<std::uint32_t>(index(i))); };
+  EXPECT_EQ(name(hit.first), "A:ARG72:O");
+  EXPECT_EQ(name(hit.second), "A:ARG72:CG");
+  EXPECT_NEAR(hit.distance, 2.380, 5e-4);
+  EXPECT_NEAR(hit.threshold, 2.576, 1e-12);
+}
+
+TEST(NativeContacts, AgreeWithIndependentCounts) {
+  const auto folder = test::shared_molecules();
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "shared data not found";
+  const CheckOptions rules;
+  for (const auto& [file, expected] : {std::pair("1ejg.pdb", 0U), std::pair("1crn.pdb", 0U), std::pair("5pti.pdb", 0U),
+                                       std::pair("paper/1be0.cif", 0U), std::pair("paper/1mbo.pdb", 0U),
+                                       std::pair("paper/2d0f.pdb", 1U), std::pair("paper/1mbn.pdb", 20U)})
+    EXPECT_EQ(native_contacts(folder / file, false, rules), expected) << file;
+  // 4HHB: with template bonds 10. Bonds by distance alone give 257, because 127 covalent bonds of this old refinement
+  // are longer than radii + 0.4 angstrom (docs/explanation/native_contacts.md).
+  EXPECT_EQ(native_contacts(folder / "4hhb.pdb.gz", false, rules), 10U);
+}
+
+TEST(NativeContacts, WithHydrogensNeedTheHydrogenBondRule) {
+  const auto folder = test::shared_molecules();
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "shared data not found";
+  CheckOptions rules;
+  EXPECT_EQ(native_contacts(folder / "1ejg.pdb", true, rules), 3U);
+  EXPECT_EQ(native_contacts(folder / "1l2y.pdb", true, rules), 1U);
+  rules.thresholds.hydrogen_bonds = false;
+  EXPECT_EQ(native_contacts(folder / "1ejg.pdb", true, rules), 33U);
+  EXPECT_EQ(native_contacts(folder / "1l2y.pdb", true, rules), 10U);
+}
+
+TEST(NativeContacts, OfEveryRadiiSetStayFewOnCrambin) {
+  const auto file = test::shared_molecules() / "1ejg.pdb";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
+  CheckOptions rules;
+  for (const auto& [set, expected] : {std::pair("bondi", 0U), std::pair("probe", 0U), std::pair("amber", 2U)}) {
+    rules.thresholds.radii = set;
+    EXPECT_EQ(native_contacts(file, false, rules), expected) << set;
+  }
+  rules.thresholds.radii = "amber";
+  rules.min_bonds = 4;  // with pairs four bonds apart, O(i)...C(i+1) above all
+  EXPECT_EQ(native_contacts(file, false, rules), 9U);
+}
+
+TEST(Thresholds, AreRhoTimesTheSumOfRadii) {
+  const auto structure = read_structure(test::ubiquitin());
+  ThresholdOptions options;
+  options.rho = 0.5;
+  const Thresholds t = make_thresholds(structure, options);
+  const auto atom = [&](const char* name) {
+    for (std::size_t i = 0; i < structure.atoms.size(); ++i)
+      if (structure.atoms[i].name == name) return id<PrimitiveId>(i);
+    throw std::runtime_error(name);
+  };
+  EXPECT_DOUBLE_EQ(t.matrix.threshold(atom("CA"), atom("N")), 0.5 * (1.70 + 1.55));
+  EXPECT_DOUBLE_EQ(t.matrix.threshold(atom("SD"), atom("O")), 0.5 * (1.80 + 1.52));
+  EXPECT_FALSE(t.hydrogen_bonds);
+}
+
+TEST(Thresholds, RefuseWhatIsOutOfRange) {
+  const auto structure = read_structure(test::ubiquitin());
+  ThresholdOptions options;
+  options.rho = 0.0;
+  EXPECT_THROW(make_thresholds(structure, options), ModelError);
+  options.rho = std::nan("");
+  EXPECT_THROW(make_thresholds(structure, options), ModelError);
+  options = {};
+  options.radii = "pauling";
+  EXPECT_THROW(make_thresholds(structure, options), ModelError);
+  options = {};
+  options.hydrogen_bond_allowance = -1;
+  EXPECT_THROW(make_thresholds(structure, options), ModelError);
+  EXPECT_THROW(BondExclusions(structure, 0), ModelError);
+  EXPECT_THROW(BondExclusions(structure, 17), ModelError);
+}
+
+TEST(BondExclusions, EqualsBondDistance) {
+  const auto structure = build_ideal_protein("ACPWK", "CCCCC");
+  for (const int k : {1, 2, 4, 5}) {
+    const BondExclusions filter(structure, k);
+    for (std::uint32_t i = 0; i < structure.atoms.size(); ++i)
+      for (std::uint32_t j = 0; j < structure.atoms.size(); ++j)
+        if (i != j) {
+          const int distance = bond_distance(structure, i, j, 20);
+          EXPECT_EQ(filter.admits(id<PrimitiveId>(i), id<PrimitiveId>(j)), distance < 0 || distance >= k);
+        }
+  }
+}
+
+TEST(Checker, ExemptsPairsOfTheReferenceOnRequest) {
+  const auto molecule = std::make_shared<const Molecule>(read_structure(test::ubiquitin()));
+  CheckOptions rules;
+  Checker strict(molecule, molecule->select({}), rules);
+  rules.exempt_reference = true;
+  Checker lenient(molecule, molecule->select({}), rules);
+  const auto& native = molecule->structure().models.front();
+  EXPECT_TRUE(strict.check_coordinates(native, Mode::parse("any")).collides);
+  EXPECT_FALSE(lenient.check_coordinates(native, Mode::parse("any")).collides);
+  EXPECT_EQ(strict.constant_contacts().size(), 1U) << "nothing is free, so the contact is constant";
+  EXPECT_TRUE(lenient.constant_contacts().empty());
+}
+
+TEST(Mode, RefusesUnknownWords) {
+  EXPECT_EQ(Mode::parse("within:0.25").text(), "within:0.25");
+  for (const char* word : {"", "some", "within", "within:", "within:-1", "within:nan", "within:1x"})
+    EXPECT_THROW(Mode::parse(word), ModelError) << word;
+}
+
+TEST(Sampler, IsAPureFunctionOfSeedAndIndex) {
+  const Sampling full{7, {}}, narrow{7, 0.1};
+  EXPECT_EQ(sample_configuration(full, 5, 20), sample_configuration(full, 5, 20));
+  EXPECT_NE(sample_configuration(full, 5, 20), sample_configuration(full, 6, 20));
+  EXPECT_NE(sample_configuration(full, 5, 20), sample_configuration({8, {}}, 5, 20));
+  double sum = 0.0, squares = 0.0;
+  const auto q = sample_configuration(narrow, 0, 100000);
+  for (const double value : q) {
+    sum += value;
+    squares += value * value;
+  }
+  EXPECT_NEAR(sum / 1e5, 0.0, 0.1 * 4 / std::sqrt(1e5));
+  EXPECT_NEAR(std::sqrt(squares / 1e5), 0.1, 0.1 * 4 / std::sqrt(2e5));
+  for (const double value : sample_configuration(full, 0, 1000)) EXPECT_LE(std::abs(value), std::numbers::pi);
+}
+
+}  // namespace
+}  // namespace hinge::molecular

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "hinge/molecular/read_structure.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <utility>
+
+#include "hinge/core/error.hpp"
+#include "molecular/test_files.hpp"
+
+namespace hinge::molecular {
+namespace {
+
+using test::TemporaryFile;
+
+/// ATOM records of one alanine and what follows; columns as in PDB format 3.3.
+std::string atom(int serial, const std::string& name, const std::string& residue, int number, double x, double y,
+                 double z, char altloc = ' ', double occupancy = 1.0, const std::string& element = "C",
+                 const std::string& record = "ATOM  ") {
+  char line[100];
+  std::snprintf(line, sizeof line, "%s%5d  %-3s%c%3s A%4d    %8.3f%8.3f%8.3f%6.2f%6.2f          %2s\n", record.c_str(),
+                serial, name.c_str(), altloc, residue.c_str(), number, x, y, z, occupancy, 0.0, element.c_str());
+  return line;
+}
+
+std::string alanine() {
+  return atom(1, "N", "ALA", 1, 0, 0, 0, ' ', 1, "N") + atom(2, "CA", "ALA", 1, 1.46, 0, 0) +
+         atom(3, "C", "ALA", 1, 2.0, 1.42, 0) + atom(4, "O", "ALA", 1, 1.25, 2.39, 0, ' ', 1, "O") +
+         atom(5, "CB", "ALA", 1, 1.99, -0.77, -1.2);
+}
+
+/// The message of the LoadError reading gives, empty when there is none.
+std::string refusal(const std::string& text, const ReadOptions& options = {}, const std::string& extension = ".pdb") {
+  const TemporaryFile file(text, extension);
+  try {
+    read_structure(file.path(), options);
+  } catch (const LoadError& error) {
+    const std::string what = error.what();
+    EXPECT_NE(what.find(file.path().string()), std::string::npos) << what;
+    EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+    return what.substr(std::min(what.size(), what.find(file.path().string()) + file.path().string().size()));
+  }
+  return "";
+}
+
+bool has_note(const Structure& s, const std::string& words) {
+  return std::any_of(s.notes.begin(), s.notes.end(),
+                     [&](const std::string& note) { return note.find(words) != std::string::npos; });
+}
+
+TEST(ReadStructure, ReadsAResidueWithItsTemplateBonds) {
+  const TemporaryFile file(alanine() + "END\n");
+  const Structure s = read_structure(file.path());
+  ASSERT_EQ(s.atoms.size(), 5U);
+  EXPECT_EQ(s.bonds.size(), 4U);
+  EXPECT_EQ(label(s, 4), "A:ALA1:CB");
+  EXPECT_EQ(s.models.front()[4], Vec3(1.99, -0.77, -1.2));
+}
+
+TEST(ReadStructure, RefusesABlankCoordinateNamingLineAtomAndColumns) {
+  std::string text = alanine();
+  text.replace(text.find("  -0.770"), 8, "        ");
+  EXPECT_EQ(refusal(text), ":5: atom 5 CB: coordinate y is blank, expected a number in columns 39-46");
+}
+
+TEST(ReadStructure, RefusesACoordinateThatIsNoNumber) {
+  std::string text = alanine();
+  text.replace(text.find("  -0.770"), 8, "     nan");
+  EXPECT_NE(refusal(text).find("coordinate y is 'nan'"), std::string::npos);
+}
+
+TEST(ReadStructure, RefusesEmptyMissingAndCutShortFiles) {
+  EXPECT_NE(refusal("").find("is empty"), std::string::npos);
+  EXPECT_NE(refusal(" \n\n").find("is empty"), std::string::npos);
+  EXPECT_NE(refusal("HEADER    NOTHING\nEND\n").find("no ATOM or HETATM record"), std::string::npos);
+  EXPECT_NE(refusal("MODEL        1\n" + alanine()).find("has no ENDMDL"), std::string::npos);
+  EXPECT_NE(refusal("ATOM      1  N   ALA\n").find("expected coordinates"), std::string::npos);
+  EXPECT_THROW(read_structure("/nonexistent/file.pdb"), LoadError);
+  EXPECT_THROW(read_structure("/tmp"), LoadError);
+  EXPECT_NE(refusal("data_x\nloop_\n_atom_site.id\n_atom_site.type_symbol\n1 C 2\n", {}, ".cif"), "");
+}
+
+TEST(ReadStructure, RefusesModelsThatDiffer) {
+  const std::string two = "MODEL        1\n" + alanine() + "ENDMDL\nMODEL        2\n" +
+                          alanine().substr(0, alanine().size() - 79) + "ENDMDL\n";
+  EXPECT_NE(refusal(two).find("model 2 has 4 atoms, expected 5"), std::string::npos);
+  ReadOptions options;
+  options.model = 2;
+  EXPECT_EQ(refusal(two, options), "");
+  options.model = 3;
+  EXPECT_NE(refusal(two, options).find("has no model 3"), std::string::npos);
+  EXPECT_NE(refusal("MODEL        1\n" + alanine() + "ENDMDL\nMODEL        1\n" + alanine() + "ENDMDL\n"), "");
+}
+
+TEST(ReadStructure, TakesTheMostOccupiedLocationThenTheFirst) {
+  const std::string text = alanine() + atom(6, "CG", "LEU", 2, 5, 5, 5, 'A', 0.3) +
+                           atom(7, "CG", "LEU", 2, 6, 5, 5, 'B', 0.7) + atom(8, "CG", "LEU", 3, 15, 5, 5, 'A', 0.5) +
+                           atom(9, "CG", "LEU", 3, 16, 5, 5, 'B', 0.5);
+  const TemporaryFile file(text);
+  Structure s = read_structure(file.path());
+  ASSERT_EQ(s.atoms.size(), 7U);
+  EXPECT_EQ(s.models.front()[5][0], 6.0);
+  EXPECT_EQ(s.models.front()[6][0], 15.0);
+  ReadOptions options;
+  options.altloc = 'A';
+  s = read_structure(file.path(), options);
+  EXPECT_EQ(s.models.front()[5][0], 5.0);
+}
+
+TEST(ReadStructure, LeavesOutWatersAndHeteroAtomsAndCountsThem) {
+  const std::string text = alanine() + atom(6, "O", "HOH", 2, 9, 9, 9, ' ', 1, "O", "HETATM") +
+                           atom(7, "ZN", "ZN", 3, 20, 9, 9, ' ', 1, "ZN", "HETATM");
+  const TemporaryFile file(text);
+  Structure s = read_structure(file.path());
+  EXPECT_EQ(s.atoms.size(), 5U);
+  EXPECT_EQ(s.waters_dropped, 1U);
+  EXPECT_EQ(s.hetero_dropped, 1U);
+  ReadOptions options;
+  options.hetero = true;
+  s = read_structure(file.path(), options);
+  ASSERT_EQ(s.atoms.size(), 6U);
+  EXPECT_EQ(s.atoms[5].element, "Zn");
+}
+
+TEST(ReadStructure, RepairsElementsThatContradictTheResidueAndSaysSo) {
+  std::string text = alanine();
+  text.replace(text.find("CA  ALA") - 1, 4, "CA  ");  // left-shifted: calcium by its columns
+  const std::size_t line = text.find("ATOM", 79);
+  text.replace(line + 76, 2, "  ");
+  const TemporaryFile file(text);
+  const Structure s = read_structure(file.path());
+  EXPECT_EQ(s.atoms[1].element, "C");
+  EXPECT_TRUE(has_note(s, "elements of 1 atoms taken from their names"));
+}
+
+TEST(ReadStructure, FindsChainBreaksAndBuildsNoBondAcross) {
+  std::string far = alanine();
+  for (std::size_t at = far.find(" A   1"); at != std::string::npos; at = far.find(" A   1"))
+    far.replace(at, 6, " A   9");
+  for (std::size_t at = far.find("   0.000   0.000   0.000"); at != std::string::npos; at = std::string::npos)
+    far.replace(at, 24, "  50.000   0.000   0.000");
+  const TemporaryFile file(alanine() + far);
+  const Structure s = read_structure(file.path());
+  EXPECT_TRUE(has_note(s, "chain A: break between ALA1 and ALA9, no bond across"));
+  EXPECT_TRUE(
+      std::none_of(s.bonds.begin(), s.bonds.end(), [](const Bond& b) { return b.origin == BondOrigin::peptide; }));
+}
+
+TEST(ReadStructure, ReadsUbiquitin) {
+  const Structure s = read_structure(test::ubiquitin());
+  EXPECT_EQ(s.atoms.size(), 602U);
+  EXPECT_EQ(s.residues.size(), 76U);
+  EXPECT_EQ(s.bonds.size(), 608U);
+  EXPECT_EQ(s.secondary_structure.size(), 7U);
+  EXPECT_TRUE(s.notes.empty());
+}
+
+TEST(ReadStructure, ReadsOrRefusesEverySharedFileInOneLine) {
+  if (!std::filesystem::exists(test::shared_molecules())) GTEST_SKIP() << "shared data not found";
+  int read = 0, refused = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(test::shared_molecules())) {
+    const std::string extension = entry.path().extension().string();
+    if (!entry.is_regular_file() || extension == ".md" || extension == ".dcd" || extension == ".xtc") continue;
+    SCOPED_TRACE(entry.path().string());
+    try {
+      const Structure s = read_structure(entry.path());
+      EXPECT_FALSE(s.atoms.empty());
+      ++read;
+    } catch (const LoadError& error) {
+      const std::string what = error.what();
+      EXPECT_NE(what.find(entry.path().filename().string()), std::string::npos) << what;
+      EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+      ++refused;
+    }
+  }
+  std::printf("read %d files, refused %d\n", read, refused);
+  EXPECT_GE(read, 35);
+  EXPECT_LE(refused, 10);
+}
+
+TEST(ReadStructure, GivesTheSameMoleculeFromPdbAndMmcif) {
+  if (!std::filesystem::exists(test::shared_molecules())) GTEST_SKIP() << "shared data not found";
+  for (const auto& [pdb, cif] : {std::pair("5pti.pdb", "5pti.cif"), std::pair("1a4w.pdb", "1a4w.cif"),
+                                 std::pair("4hhb.pdb.gz", "4hhb.cif.gz")}) {
+    SCOPED_TRACE(pdb);
+    const Structure a = read_structure(test::shared_molecules() / pdb),
+                    b = read_structure(test::shared_molecules() / cif);
+    ASSERT_EQ(a.atoms.size(), b.atoms.size());
+    EXPECT_EQ(a.models.front(), b.models.front());
+    EXPECT_EQ(a.bonds.size(), b.bonds.size());
+    EXPECT_EQ(a.residues.size(), b.residues.size());
+  }
+}
+
+}  // namespace
+}  // namespace hinge::molecular

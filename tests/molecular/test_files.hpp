@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where tests find structures: the committed 1UBQ, the shared data when it is there, temporary files.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "hinge/molecular/read_structure.hpp"
+
+namespace hinge::test {
+
+inline std::filesystem::path ubiquitin() { return std::filesystem::path(HINGE_SOURCE_DIR) / "molecular/data/1ubq.pdb"; }
+
+inline std::filesystem::path shared_molecules() { return std::filesystem::path(HINGE_SHARED_DATA) / "molecules"; }
+
+/// A file with this text, removed with the object.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::string& text, const std::string& extension = ".pdb") {
+    static int number = 0;
+    path_ = std::filesystem::temp_directory_path() /
+            ("hinge-test-" + std::to_string(getpid()) + "-" + std::to_string(number++) + extension);
+    std::ofstream(path_) << text;
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() { std::filesystem::remove(path_); }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline molecular::ReadOptions heavy_atoms() {
+  molecular::ReadOptions options;
+  options.keep_hydrogens = false;
+  return options;
+}
+
+}  // namespace hinge::test
