@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Particular cases of the stock primitives; their laws are in laws/laws_test.cpp.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <utility>
+
+#include "engine/random_mechanism.hpp"
+#include "hinge/primitive/capsule.hpp"
+#include "hinge/primitive/point.hpp"
+#include "hinge/primitive/sphere.hpp"
+#include "hinge/primitive/triangle.hpp"
+
+namespace hinge {
+namespace {
+
+using test::Random;
+
+TEST(Point, DecidesStrictlyAtAnyScale) {
+  for (const double scale : {1e-300, 1e-160, 1e-30, 1.0, 1e30, 1e155, 1e300}) {
+    const Point p{Vec3::Zero()}, q{Vec3(3 * scale, 4 * scale, 0)};
+    EXPECT_TRUE(closer_than(p, q, 5.1 * scale)) << scale;
+    EXPECT_FALSE(closer_than(p, q, 4.9 * scale)) << scale;
+  }
+  const Point p{Vec3(1, 2, 3)};
+  EXPECT_FALSE(closer_than(p, p, 0.0));
+  EXPECT_TRUE(closer_than(p, p, 1e-300));
+  EXPECT_FALSE(closer_than(Point{Vec3::Zero()}, Point{Vec3(1e300, 0, 0)}, 2.0));
+}
+
+TEST(Point, KnowsWhenItLiesOnAnAxis) {
+  Random random(3);
+  for (int k = 0; k < 1000; ++k) {
+    const Vec3 a = random.vector(50.0), b = a + random.vector(1.0);
+    const Vec3 axis = Vec3(b - a) / std::sqrt(squared_norm(Vec3(b - a)));
+    EXPECT_TRUE(Point{b}.fixed_on_axis(a, axis));
+    EXPECT_TRUE(Point{a}.fixed_on_axis(a, axis));
+    EXPECT_FALSE(Point{Vec3(b + axis.unitOrthogonal() * 1e-9)}.fixed_on_axis(a, axis));
+  }
+}
+
+TEST(Sphere, TouchesWhenClosed) {
+  const Sphere p{Vec3::Zero(), 1.0}, q{Vec3(3, 0, 0), 2.0};
+  EXPECT_EQ(squared_distance(p, q), 0.0);
+  EXPECT_TRUE(closer_than(p, q, 0.0));
+  EXPECT_FALSE(closer_than(p, Sphere{Vec3(3.0000001, 0, 0), 2.0}, 0.0));
+}
+
+TEST(Capsule, HandlesParallelCrossingAndDegenerateSegments) {
+  const Capsule x{Vec3(0, 0, 0), Vec3(10, 0, 0), 0.0};
+  EXPECT_DOUBLE_EQ(squared_distance(x, Capsule{Vec3(2, 3, 0), Vec3(8, 3, 0), 0.0}), 9.0);
+  EXPECT_DOUBLE_EQ(squared_distance(x, Capsule{Vec3(12, 0, 0), Vec3(20, 0, 0), 0.5}), 1.5 * 1.5);
+  EXPECT_DOUBLE_EQ(squared_distance(x, Capsule{Vec3(5, -1, 2), Vec3(5, 1, 2), 0.0}), 4.0);
+  EXPECT_DOUBLE_EQ(squared_distance(x, Capsule{Vec3(5, 4, 0), Vec3(5, 4, 0), 1.0}), 9.0);
+}
+
+TEST(Triangle, TouchesAtVertexEdgeAndFace) {
+  const Triangle t{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
+  EXPECT_TRUE(closer_than(t, Triangle{Vec3(1, 1, 0), Vec3(1, 1, 2), Vec3(2, 1, 2)}, 0.0)) << "vertex on face";
+  EXPECT_TRUE(closer_than(t, Triangle{Vec3(0, 0, 0), Vec3(-1, 0, 1), Vec3(-1, -1, 1)}, 0.0)) << "shared vertex";
+  EXPECT_TRUE(closer_than(t, Triangle{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, -4, 1)}, 0.0)) << "shared edge";
+  EXPECT_TRUE(closer_than(t, Triangle{Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(9, 9, 0)}, 0.0)) << "edge through face";
+  EXPECT_TRUE(closer_than(t, Triangle{Vec3(0.5, 0.5, 0), Vec3(1, 0.5, 0), Vec3(0.5, 1, 0)}, 0.0)) << "coplanar, inside";
+  EXPECT_FALSE(closer_than(t, Triangle{Vec3(0, 0, 1e-9), Vec3(4, 0, 1e-9), Vec3(0, 4, 1e-9)}, 0.0));
+}
+
+TEST(Triangle, TakesDegenerateOnesForWhatTheySpan) {
+  const Triangle point{Vec3(1, 1, 5), Vec3(1, 1, 5), Vec3(1, 1, 5)},
+      segment{Vec3(1, 1, 2), Vec3(1, 1, 9), Vec3(1, 1, 4)};
+  const Triangle t{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
+  EXPECT_DOUBLE_EQ(squared_distance(t, point), 25.0);
+  EXPECT_DOUBLE_EQ(squared_distance(t, segment), 4.0);
+  EXPECT_DOUBLE_EQ(squared_distance(point, segment), 0.0);
+}
+
+/// Alternating projection onto two convex sets, sampled starts: an independent, slow upper bound that converges.
+double projected_distance(const Triangle& p, const Triangle& q) {
+  const auto nearest_in = [](const Triangle& t, const Vec3& x) {
+    // Dense barycentric search with refinement, sharing nothing with the formula under test.
+    double u0 = 0.0, v0 = 0.0, step = 0.5;
+    Vec3 best = t.a;
+    double least = (x - best).squaredNorm();
+    for (int level = 0; level < 60; ++level, step *= 0.7)
+      for (int i = -2; i <= 2; ++i)
+        for (int j = -2; j <= 2; ++j) {
+          const double u = u0 + i * step / 2, v = v0 + j * step / 2;
+          if (u < 0 || v < 0 || u + v > 1) continue;
+          const Vec3 y = t.a + u * (t.b - t.a) + v * (t.c - t.a);
+          if ((x - y).squaredNorm() < least) {
+            least = (x - y).squaredNorm();
+            best = y;
+            u0 = u;
+            v0 = v;
+          }
+        }
+    return best;
+  };
+  Vec3 x = (p.a + p.b + p.c) / 3, y;
+  for (int k = 0; k < 40; ++k) {
+    y = nearest_in(q, x);
+    x = nearest_in(p, y);
+  }
+  return (x - y).norm();
+}
+
+TEST(Triangle, DistanceIsNeverAboveAnIndependentSearch) {
+  Random random(12);
+  int close = 0;
+  for (int k = 0; k < 60; ++k) {
+    const auto triangle = [&] { return Triangle{random.vector(2.0), random.vector(2.0), random.vector(2.0)}; };
+    const Triangle p = triangle(), q = triangle();
+    const double d = std::sqrt(squared_distance(p, q)), searched = projected_distance(p, q);
+    EXPECT_LE(d, searched + 1e-9);
+    close += std::abs(d - searched) < 0.05 ? 1 : 0;
+  }
+  EXPECT_GE(close, 50) << "the search converges for most";
+}
+
+}  // namespace
+}  // namespace hinge

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Models and non-models of every concept; to compile is to pass.
+#include <type_traits>
+
+#include "hinge/hierarchy.hpp"
+#include "hinge/policy/different_links.hpp"
+#include "hinge/primitive/capsule.hpp"
+#include "hinge/primitive/point.hpp"
+#include "hinge/primitive/sphere.hpp"
+#include "hinge/primitive/triangle.hpp"
+
+namespace hinge {
+namespace {
+
+static_assert(Primitive<Point> && Primitive<Sphere> && Primitive<Capsule> && Primitive<Triangle>);
+static_assert(!Primitive<int> && !Primitive<Vec3> && !Primitive<Aabb>);
+static_assert(!HasAxisInvariance<Triangle>);
+
+struct MayThrow : Point {
+  MayThrow placed(const Pose&) const { return *this; }  // not noexcept
+  friend double squared_distance(const MayThrow&, const MayThrow&) noexcept { return 0.0; }
+};
+static_assert(!Primitive<MayThrow>);
+
+struct SinglePrecision {
+  SinglePrecision placed(const Pose&) const noexcept { return *this; }
+  Aabb bounds() const noexcept { return {}; }
+  friend float squared_distance(const SinglePrecision&, const SinglePrecision&) noexcept { return 0.0F; }
+};
+static_assert(!Primitive<SinglePrecision>);
+
+struct NoBounds {
+  NoBounds placed(const Pose&) const noexcept { return *this; }
+  friend double squared_distance(const NoBounds&, const NoBounds&) noexcept { return 0.0; }
+};
+static_assert(!Primitive<NoBounds>);
+
+struct NoCopy {
+  NoCopy() = default;
+  NoCopy(NoCopy&&) = default;
+  NoCopy& operator=(NoCopy&&) = default;
+  NoCopy placed(const Pose&) const noexcept { return {}; }
+  Aabb bounds() const noexcept { return {}; }
+  friend double squared_distance(const NoCopy&, const NoCopy&) noexcept { return 0.0; }
+};
+static_assert(!Primitive<NoCopy>);
+
+static_assert(PairFilter<AdmitAll> && PairFilter<DifferentLinks> && !ListsExclusions<DifferentLinks>);
+struct TakesNumbers {
+  bool admits(int, int) const noexcept { return true; }
+};
+struct AnswersInt {
+  int admits(PrimitiveId, PrimitiveId) const noexcept { return 1; }
+};
+struct Mutates {
+  bool admits(PrimitiveId, PrimitiveId) noexcept { return true; }
+};
+static_assert(!PairFilter<TakesNumbers> && !PairFilter<AnswersInt> && !PairFilter<Mutates> && !PairFilter<Point>);
+
+static_assert(DistanceMatrix<UniformClearance> && CrossMatrix<TypedThresholds> && KnowsSize<TypedThresholds>);
+struct NoReach {
+  double threshold(PrimitiveId, PrimitiveId) const noexcept { return 1.0; }
+};
+struct OwnOnly : NoReach {
+  double reach(PrimitiveId) const noexcept { return 0.5; }
+};
+static_assert(!DistanceMatrix<NoReach> && DistanceMatrix<OwnOnly> && !CrossMatrix<OwnOnly> && !KnowsSize<OwnOnly>);
+
+static_assert(Collector<AnyHit> && Collector<HitsWithin> && Collector<Closest>);
+struct NeverDone {
+  static constexpr bool ranks = false;
+  void add(const Hit&) {}
+  double cutoff() const noexcept { return 0.0; }
+};
+static_assert(!Collector<NeverDone>);
+
+template <class E, class P>
+concept EngineFor = Engine<E, P, AdmitAll, UniformClearance>;
+static_assert(EngineFor<Brute<Point, AdmitAll, UniformClearance>, Point>);
+static_assert(EngineFor<Lazy<Triangle, AdmitAll, UniformClearance>, Triangle>);
+static_assert(!EngineFor<Lazy<Point, AdmitAll, UniformClearance>, Sphere>);
+static_assert(!EngineFor<LazyTree, Point>);
+static_assert(CrossEngine<Lazy<Point, AdmitAll, UniformClearance>, Point, AdmitAll, UniformClearance, AdmitAll>);
+static_assert(!CrossEngine<Lazy<Point, AdmitAll, OwnOnly>, Point, AdmitAll, OwnOnly, AdmitAll>);
+
+static_assert(Id<PrimitiveId> && !Id<int> && !std::is_convertible_v<LinkId, PrimitiveId>);
+
+}  // namespace
+}  // namespace hinge
