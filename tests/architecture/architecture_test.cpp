@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The floor table and the house rules, read off every file; and that a planted breach of each is caught.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "architecture/conventions.hpp"
+#include "architecture/floors.hpp"
+#include "architecture/source_tree.hpp"
+
+namespace {
+
+using architecture::SourceTree;
+
+const std::filesystem::path root = HINGE_SOURCE_DIR;
+
+SourceTree library() { return architecture::read_sources(root, {"include", "molecular", "robotics"}); }
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += "  " + line + "\n";
+  return text;
+}
+
+/// The real tree must be found, or every test below would pass on nothing.
+TEST(SourceTree, FindsTheLibrary) {
+  const SourceTree tree = library();
+  EXPECT_GE(tree.size(), 40U);
+  EXPECT_TRUE(tree.contains("include/hinge/hierarchy.hpp"));
+}
+
+TEST(Floors, NoIncludeClimbs) { EXPECT_EQ(joined(architecture::floor_violations(library())), ""); }
+
+TEST(Floors, IncludesMakeNoCircle) { EXPECT_EQ(joined(architecture::include_circle(library())), ""); }
+
+TEST(Floors, OraclesStayInTheirFolders) {
+  EXPECT_EQ(joined(architecture::oracle_violations(
+                architecture::read_sources(root, {"include", "molecular", "robotics", "tests", "bench", "docs"}))),
+            "");
+}
+
+TEST(Conventions, EveryFileKeepsThem) { EXPECT_EQ(joined(architecture::convention_violations(library())), ""); }
+
+TEST(Conventions, TopLevelHoldsNothingElse) { EXPECT_EQ(joined(architecture::strangers_at_top(root)), ""); }
+
+/// One file planted into a small sound tree, and how many breaches it makes.
+std::size_t floor_breaches(const std::string& path, const std::string& line) {
+  SourceTree tree = {{"include/hinge/version.hpp", {}},          {"include/hinge/core/vec3.hpp", {}},
+                     {"include/hinge/policy/primitive.hpp", {}}, {"include/hinge/kinematics/joint.hpp", {}},
+                     {"include/hinge/engine/engine.hpp", {}},    {"include/hinge/engine/lazy/lazy.hpp", {}},
+                     {"include/hinge/hierarchy.hpp", {}},        {"molecular/include/hinge/molecular/atom.hpp", {}},
+                     {"molecular/src/read_file.hpp", {}},        {"robotics/include/hinge/robotics/link.hpp", {}}};
+  tree[path] = {line};
+  return architecture::floor_violations(tree).size();
+}
+
+TEST(PlantedInclude, DownwardIsFine) {
+  EXPECT_EQ(floor_breaches("include/hinge/policy/x.hpp", "#include \"hinge/core/vec3.hpp\""), 0U);
+  EXPECT_EQ(floor_breaches("include/hinge/core/x.hpp", "#include \"hinge/version.hpp\""), 0U);
+  EXPECT_EQ(floor_breaches("include/hinge/policy/x.hpp", "#include \"hinge/policy/primitive.hpp\""), 0U);
+  EXPECT_EQ(floor_breaches("include/hinge/engine/brute/x.hpp", "#include \"hinge/engine/engine.hpp\""), 0U);
+  EXPECT_EQ(floor_breaches("include/hinge/core/x.hpp", "#include <Eigen/Core>"), 0U);
+  EXPECT_EQ(floor_breaches("include/hinge/simd/x.hpp", "#include <immintrin.h>"), 0U);
+  EXPECT_EQ(floor_breaches("molecular/src/x.cpp", "#include \"read_file.hpp\""), 0U);
+  EXPECT_EQ(floor_breaches("molecular/src/x.cpp", "#include \"hinge/hierarchy.hpp\""), 0U);
+}
+
+TEST(PlantedInclude, UpwardIsCaught) {
+  EXPECT_EQ(floor_breaches("include/hinge/core/x.hpp", "#include \"hinge/policy/primitive.hpp\""), 1U);
+  EXPECT_EQ(floor_breaches("include/hinge/engine/x.hpp", "#include \"hinge/engine/lazy/lazy.hpp\""), 1U);
+  EXPECT_EQ(floor_breaches("include/hinge/query/x.hpp", "  #  include \"hinge/hierarchy.hpp\"  // why not"), 1U);
+  EXPECT_EQ(floor_breaches("include/hinge/hierarchy.hpp", "#include \"hinge/molecular/atom.hpp\""), 1U);
+}
+
+TEST(PlantedInclude, SidewaysIsCaught) {
+  EXPECT_EQ(floor_breaches("include/hinge/policy/x.hpp", "#include \"hinge/kinematics/joint.hpp\""), 1U);
+  EXPECT_EQ(floor_breaches("include/hinge/engine/wide/x.hpp", "#include \"hinge/engine/lazy/lazy.hpp\""), 1U);
+  EXPECT_EQ(floor_breaches("molecular/src/x.cpp", "#include \"hinge/robotics/link.hpp\""), 1U);
+}
+
+TEST(PlantedInclude, StrangersAreCaught) {
+  EXPECT_EQ(floor_breaches("include/hinge/gadgets/x.hpp", ""), 1U);
+  EXPECT_EQ(floor_breaches("include/hinge/x.hpp", ""), 1U);
+  EXPECT_EQ(floor_breaches("include/hinge/core/x.hpp", "#include \"vec3.hpp\""), 1U);
+  EXPECT_EQ(floor_breaches("include/hinge/core/x.hpp", "#include \"hinge/core/absent.hpp\""), 1U);
+  EXPECT_EQ(floor_breaches("include/hinge/core/x.hpp", "#include <fmt/format.h>"), 1U);
+  EXPECT_EQ(floor_breaches("include/hinge/bounds/x.hpp", "#include <immintrin.h>"), 1U);
+}
+
+TEST(PlantedInclude, CircleIsCaught) {
+  const SourceTree tree = {{"include/hinge/core/a.hpp", {"#include \"hinge/core/b.hpp\""}},
+                           {"include/hinge/core/b.hpp", {"#include \"hinge/core/c.hpp\""}},
+                           {"include/hinge/core/c.hpp", {"#include \"hinge/core/a.hpp\""}}};
+  EXPECT_EQ(architecture::include_circle(tree).size(), 3U);
+}
+
+TEST(PlantedInclude, OracleOutsideItsFolderIsCaught) {
+  const std::vector<std::string> lines = {"#include <fcl/fcl.h>"};
+  EXPECT_EQ(architecture::oracle_violations({{"tests/engine/x.cpp", lines}}).size(), 1U);
+  EXPECT_EQ(architecture::oracle_violations({{"tests/oracle/x.cpp", lines}}).size(), 0U);
+}
+
+/// Breaches of a header that is sound but for its name and the lines added.
+std::size_t convention_breaches(const std::string& path, const std::vector<std::string>& more) {
+  std::vector<std::string> lines = {"// SPDX-License-Identifier: BSD-3-Clause", "// A pin.", "#pragma once"};
+  lines.insert(lines.end(), more.begin(), more.end());
+  return architecture::convention_violations({{path, lines}}).size();
+}
+
+TEST(PlantedBreach, IsCaught) {
+  const std::string path = "include/hinge/core/pin.hpp";
+  EXPECT_EQ(convention_breaches(path, {"#define HINGE_ASSERT(x)", "// virtual, in words", "#include <cmath>"}), 0U);
+  EXPECT_EQ(convention_breaches(path, {"#define PIN 1"}), 1U);
+  EXPECT_EQ(convention_breaches(path, {"#ifdef __AVX2__"}), 1U);
+  EXPECT_EQ(convention_breaches("include/hinge/simd/pin.hpp", {"#ifdef __AVX2__"}), 0U);
+  EXPECT_EQ(convention_breaches(path, {"using namespace hinge;"}), 1U);
+  EXPECT_EQ(convention_breaches(path, {"  virtual ~Pin();"}), 1U);
+  EXPECT_EQ(convention_breaches(path, std::vector<std::string>(architecture::longest_file, "")), 1U);
+  EXPECT_EQ(convention_breaches("include/hinge/core/pin_utils.hpp", {}), 1U);
+  EXPECT_EQ(convention_breaches("include/hinge/common/pin.hpp", {}), 1U);
+  EXPECT_EQ(architecture::convention_violations({{path, {}}}).size(), 3U);
+}
+
+}  // namespace

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The floor table: which folder may include which. A folder sees only folders on lower floors, and itself.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "architecture/source_tree.hpp"
+
+namespace architecture {
+
+/// Folder or file under include/hinge, or module beside it, to its floor. Folders on one floor are blind to each other;
+/// the engines see what they share in engine/ itself. version.hpp is free: seen by all, seeing none.
+inline const std::map<std::string, int>& floors() {
+  static const std::map<std::string, int> table = [] {
+    const std::vector<std::vector<std::string>> by_floor = {{"core"},
+                                                            {"simd", "exact"},
+                                                            {"bounds"},
+                                                            {"policy", "kinematics"},
+                                                            {"primitive"},
+                                                            {"model"},
+                                                            {"query"},
+                                                            {"engine", "engine/brute", "engine/lazy", "engine/wide"},
+                                                            {"hierarchy.hpp"},
+                                                            {"motion", "ensemble"},
+                                                            {"molecular", "robotics"}};
+    std::map<std::string, int> rows = {{"version.hpp", -1}};
+    for (std::size_t floor = 0; floor < by_floor.size(); ++floor) {
+      for (const std::string& row : by_floor[floor]) rows[row] = static_cast<int>(floor);
+    }
+    return rows;
+  }();
+  return table;
+}
+
+/// The row of the table a file belongs to, or "" when it has none. `path` is from the root of the repository.
+inline std::string row_of(const std::string& path) {
+  for (const char* module : {"molecular", "robotics"}) {
+    if (path.starts_with(std::string(module) + "/")) return module;
+  }
+  static const std::string root = "include/hinge/";
+  if (!path.starts_with(root)) return "";
+  std::string row = path.substr(root.size());
+  if (!floors().contains(row)) row = row.substr(0, row.rfind('/'));
+  return floors().contains(row) ? row : "";
+}
+
+/// The path from the root of the repository that a quoted include names, or "" when no such file is in the tree.
+inline std::string resolve(const SourceTree& tree, const std::string& from, const std::string& name) {
+  for (const char* root : {"include/", "molecular/include/", "robotics/include/"}) {
+    if (tree.contains(root + name)) return root + name;
+  }
+  const std::string beside = from.substr(0, from.rfind('/') + 1) + name;
+  const bool is_public = from.find("include/hinge/") != std::string::npos;
+  return !is_public && tree.contains(beside) ? beside : "";
+}
+
+/// Every include that climbs, crosses a floor, names a foreign library out of place or leads nowhere; one sentence
+/// each.
+inline std::vector<std::string> floor_violations(const SourceTree& tree) {
+  std::vector<std::string> violations;
+  for (const auto& [path, lines] : tree) {
+    const std::string row = row_of(path);
+    if (row.empty()) {
+      violations.push_back(path + " is in a folder the floor table does not know");
+      continue;
+    }
+    for (const Include& include : includes(lines)) {
+      if (!include.quoted) {
+        const bool is_core = path.starts_with("include/");
+        const bool is_standard = include.name.find_first_of("/.") == std::string::npos;
+        const bool is_isa = row == "simd" && include.name.ends_with("intrin.h");
+        if (is_core && !is_standard && !is_isa && !include.name.starts_with("Eigen/")) {
+          violations.push_back(path + " includes <" + include.name +
+                               ">: the core knows the standard library and Eigen");
+        }
+        continue;
+      }
+      const std::string target = resolve(tree, path, include.name);
+      const std::string target_row = row_of(target);
+      if (target_row.empty()) {
+        violations.push_back(path + " includes \"" + include.name + "\", which is none of ours");
+      } else if (target_row != row && !row.starts_with(target_row + "/") &&
+                 floors().at(target_row) >= floors().at(row)) {
+        violations.push_back(path + " includes " + target + ", which is not on a lower floor");
+      }
+    }
+  }
+  return violations;
+}
+
+/// The files on a circle of includes, empty when there is none.
+inline std::vector<std::string> include_circle(const SourceTree& tree) {
+  std::set<std::string> finished;
+  std::vector<std::string> open;
+  const auto visit = [&](const auto& self, const std::string& path) -> bool {
+    if (finished.contains(path)) return false;
+    for (const std::string& ancestor : open) {
+      if (ancestor == path) return true;
+    }
+    open.push_back(path);
+    for (const Include& include : includes(tree.at(path))) {
+      const std::string target = include.quoted ? resolve(tree, path, include.name) : "";
+      if (!target.empty() && self(self, target)) return true;
+    }
+    open.pop_back();
+    finished.insert(path);
+    return false;
+  };
+  for (const auto& [path, lines] : tree) {
+    if (visit(visit, path)) return open;
+  }
+  return {};
+}
+
+}  // namespace architecture

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The repository's sources as the architecture tests see them: path, lines, and what each file includes.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace architecture {
+
+/// Path from the root of the repository, with '/', to the file's lines. Tests plant files that are not there.
+using SourceTree = std::map<std::string, std::vector<std::string>>;
+
+/// An #include as written: the name, and whether it stood in quotes.
+struct Include {
+  std::string name;
+  bool quoted = false;
+};
+
+inline SourceTree read_sources(const std::filesystem::path& root, const std::vector<std::string>& folders) {
+  namespace fs = std::filesystem;
+  SourceTree tree;
+  for (const std::string& folder : folders) {
+    if (!fs::exists(root / folder)) continue;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
+      const std::string extension = entry.path().extension().string();
+      if (!entry.is_regular_file() || (extension != ".hpp" && extension != ".cpp")) continue;
+      std::ifstream in(entry.path());
+      std::vector<std::string>& lines = tree[fs::relative(entry.path(), root).generic_string()];
+      for (std::string line; std::getline(in, line);) lines.push_back(line);
+    }
+  }
+  return tree;
+}
+
+inline std::vector<Include> includes(const std::vector<std::string>& lines) {
+  static const std::regex pattern(R"re(^\s*#\s*include\s*([<"])([^>"]+)[>"])re");
+  std::vector<Include> found;
+  for (const std::string& line : lines) {
+    if (std::smatch match; std::regex_search(line, match, pattern)) found.push_back({match[2], match[1] == "\""});
+  }
+  return found;
+}
+
+inline bool starts_with_any(const std::string& text, const std::vector<std::string>& prefixes) {
+  for (const std::string& prefix : prefixes) {
+    if (text.starts_with(prefix)) return true;
+  }
+  return false;
+}
+
+}  // namespace architecture

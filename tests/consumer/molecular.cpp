@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a project that uses the component does: include its headers and call into its library.
+#include "hinge/bounds/aabb.hpp"
+#include "hinge/molecular/structure.hpp"
+
+int main() {
+  hinge::molecular::Structure structure;
+  structure.chains.push_back({"A", 0, 1});
+  structure.residues.push_back({"LYS", 77, '\0', 0, 0, 1, hinge::molecular::ResidueKind::amino_acid});
+  structure.atoms.push_back({"NZ", "N", 0, '\0', 1});
+  return hinge::molecular::label(structure, 0) == "A:LYS77:NZ" ? 0 : 1;
+}
