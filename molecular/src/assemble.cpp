@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From raw records to a Structure: one conformer, kinds, elements, equal models, records resolved.
+// From raw records to a Structure: one conformer, equal models, records resolved.
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -15,23 +15,6 @@
 namespace hinge::molecular {
 
 namespace {
-
-bool has_atom(const RawResidue& residue, std::string_view name) {
-  return std::any_of(residue.atoms.begin(), residue.atoms.end(), [&](const RawAtom& a) { return a.name == name; });
-}
-
-/// By name where the name is known, else by the backbone atoms it has.
-ResidueKind kind_of(const RawResidue& residue) {
-  if (residue.kind == ResidueKind::water || is_cap(residue.name))
-    return is_cap(residue.name) ? ResidueKind::other : ResidueKind::water;
-  if (find_residue_template(residue.name) != nullptr) return ResidueKind::amino_acid;
-  const bool peptide =
-      has_atom(residue, "N") && has_atom(residue, "CA") && has_atom(residue, "C") && has_atom(residue, "O");
-  if (peptide) return ResidueKind::amino_acid;
-  const bool sugar = has_atom(residue, "C1'") && has_atom(residue, "O3'") && has_atom(residue, "C4'");
-  if (residue.kind == ResidueKind::nucleotide || (sugar && has_atom(residue, "P"))) return ResidueKind::nucleotide;
-  return ResidueKind::other;
-}
 
 class Assembler {
  public:
@@ -61,6 +44,7 @@ class Assembler {
   /// Atoms of one model in order, of the conformer chosen; topology is taken from the first.
   void add_model(const RawModel& model, bool first) {
     std::vector<Vec3> positions;
+    difference_.clear();
     const auto& residues = model.residues;
     for (std::size_t begin = 0; begin < residues.size();) {
       std::size_t end = begin + 1;  // residue types that share one position
@@ -75,12 +59,13 @@ class Assembler {
       if (first && end > begin + 1)
         s_.notes.push_back(name_of(residues[begin]) + ": " + std::to_string(end - begin) +
                            " residue types share the position, " + residues[best].name + " is used");
-      add_residue(residues[best], first, positions);
+      add_residue(residues[best], residue_kind(residues, best), first, positions);
       begin = end;
     }
-    if (!first && positions.size() != s_.atoms.size())
+    if (!difference_.empty() || (!first && positions.size() != s_.atoms.size()))
       throw LoadError(path_ + ": model " + std::to_string(model.number) + " has " + std::to_string(positions.size()) +
-                      " atoms, expected " + std::to_string(s_.atoms.size()) + " as in the first; choose one model");
+                      " atoms, expected " + std::to_string(s_.atoms.size()) + " as in the first" +
+                      (difference_.empty() ? "" : " (they differ at " + difference_ + ")") + "; choose one model");
     s_.models.push_back(std::move(positions));
     s_.model_numbers.push_back(model.number);
   }
@@ -123,13 +108,17 @@ class Assembler {
     return best;
   }
 
-  void add_residue(const RawResidue& raw, bool first, std::vector<Vec3>& positions) {
-    const ResidueKind kind = kind_of(raw);
+  void add_residue(const RawResidue& raw, ResidueKind kind, bool first, std::vector<Vec3>& positions) {
     if (kind == ResidueKind::water) {
       if (first) ++s_.waters_dropped;
       return;
     }
     if (kind == ResidueKind::other && !options_.hetero && !is_cap(raw.name)) {
+      if (first) s_.hetero_dropped += raw.atoms.size();
+      return;
+    }
+    if (is_dummy(raw)) {
+      if (first) s_.notes.push_back(name_of(raw) + ": an atom of unknown kind, left out");
       if (first) s_.hetero_dropped += raw.atoms.size();
       return;
     }
@@ -147,7 +136,8 @@ class Assembler {
           s_.notes.push_back(name_of(raw) + ": atom " + atom.name + " is there more than once, the first is used");
         continue;
       }
-      check_same(positions.size(), atom, raw, first, where);
+      if (!first && difference_.empty() && !is_same(positions.size(), atom, raw))
+        difference_ = name_of(raw) + ":" + atom.name;
       positions.push_back(atom.position);
       if (!first) continue;
       s_.atoms.push_back(
@@ -162,48 +152,22 @@ class Assembler {
     s_.chains.back().last_residue = static_cast<std::uint32_t>(s_.residues.size());
   }
 
-  void check_same(std::size_t position, const RawAtom& atom, const RawResidue& raw, bool first,
-                  const std::string& where) const {
-    if (first) return;
-    bool same = position < s_.atoms.size() && s_.atoms[position].name == atom.name;
-    if (same) {
-      const Residue& residue = s_.residues[s_.atoms[position].residue];
-      same = residue.sequence_number == raw.number && residue.insertion_code == raw.insertion_code;
-    }
-    if (!same) throw LoadError(where + ": this model's atoms differ from the first model's; choose one model");
+  /// Does this atom of a later model have the name and residue of the first model's at this position?
+  bool is_same(std::size_t position, const RawAtom& atom, const RawResidue& raw) const {
+    if (position >= s_.atoms.size() || s_.atoms[position].name != atom.name) return false;
+    const Residue& residue = s_.residues[s_.atoms[position].residue];
+    return residue.sequence_number == raw.number && residue.insertion_code == raw.insertion_code;
   }
 
-  /// What the element must be by the residue's table, or what the name suggests where the file says nothing.
+  /// The atom's element; counts those that differ from what the file says.
   std::string element_of(const RawAtom& atom, const RawResidue& residue, const std::string& where, bool first) {
-    std::string expected;
-    const std::string_view name = atom.name;
-    const std::size_t letter = name.find_first_not_of("0123456789");
-    const ResidueTemplate* known = find_residue_template(residue.name);
-    if (known != nullptr && letter != std::string_view::npos) {
-      const char c = name[letter];
-      if (residue.name == "MSE" && name == "SE") {
-        expected = "Se";
-      } else if (c == 'D' && atom.element == "H") {
-        expected = "H";
-      } else if (c == 'C' || c == 'N' || c == 'O' || c == 'S' || c == 'H') {
-        expected = std::string(1, c);
-      }
-    }
-    if (expected.empty()) expected = atom.element;
-    if (expected.empty() && letter != std::string_view::npos &&
-        std::string_view("CNOSPHF").find(name[letter]) != std::string_view::npos)
-      expected = std::string(1, name[letter]);
-    if (expected.empty() && letter != std::string_view::npos && name[letter] == 'D') expected = "H";
-    if (expected.empty())
-      throw LoadError(where +
-                      ": the element is unknown and cannot be told from the name, expected one in columns 77-78");
-    if (expected != atom.element && first) {
-      ++repaired_;
-      if (repaired_ == 1)
-        first_repair_ =
-            name_of(residue) + ":" + atom.name + " read as " + (atom.element.empty() ? "nothing" : atom.element);
-    }
-    return expected;
+    std::string element = element_by_name(atom, residue);
+    if (element.empty())
+      throw LoadError(where + ": the element is unknown and cannot be told from the name, expected the file to say it");
+    if (element != atom.element && first && ++repaired_ == 1)
+      first_repair_ =
+          name_of(residue) + ":" + atom.name + " read as " + (atom.element.empty() ? "nothing" : atom.element);
+    return element;
   }
 
   void say_repairs() {
@@ -253,6 +217,7 @@ class Assembler {
   const std::string& path_;
   const ReadOptions& options_;
   Structure s_;
+  std::string difference_;  ///< first atom of the model being added that the first model does not have there
   std::size_t repaired_ = 0;
   std::string first_repair_;
 };

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdio>
 #include <map>
 #include <optional>
 #include <set>
@@ -24,8 +26,20 @@ constexpr double bond_tolerance = 0.4;
 constexpr double disulphide_min = 1.8, disulphide_max = 2.3;
 /// A recorded disulphide or link longer than this is not there in these coordinates.
 constexpr double recorded_disulphide_max = 2.5;
+/// Atoms closer than this are two copies of one, as in doubled files (the bound of Open Babel, angstrom).
+constexpr double coincident_max = 0.4;
 /// X-H is at most 1.35 A (S-H); a hydrogen farther than this from every heavy atom of its residue is left unbonded.
 constexpr double hydrogen_bond_max = 1.6;
+
+/// Pairs that the radii call bonded but are contacts over a ligand's oxygen: a metal ion and phosphorus, an alkali or
+/// alkaline earth ion and the carbon of a carboxylate.
+bool is_contact(std::string_view ion, std::string_view other) {
+  static constexpr std::array<std::string_view, 16> ions{"Li", "Na", "K",  "Rb", "Cs", "Mg", "Ca", "Sr",
+                                                         "Ba", "Mn", "Fe", "Co", "Ni", "Cu", "Zn", "Cd"};
+  constexpr std::ptrdiff_t alkaline = 9;  // the first of them
+  const auto last = other == "C" ? ions.begin() + alkaline : ions.end();
+  return (other == "C" || other == "P") && std::find(ions.begin(), last, ion) != last;
+}
 
 class Perception {
  public:
@@ -41,12 +55,18 @@ class Perception {
   }
 
  private:
+  static std::string& append(std::string& list, const std::string& word) {
+    if (!list.empty()) list += ", ";
+    return list += word;
+  }
   bool hydrogen(std::uint32_t i) const { return s_.atoms[i].element == "H"; }
   const Residue& residue_of(std::uint32_t i) const { return s_.residues[s_.atoms[i].residue]; }
   double distance(std::uint32_t i, std::uint32_t j) const { return std::sqrt(squared_norm(Vec3(x_[i] - x_[j]))); }
   bool within_radii(std::uint32_t i, std::uint32_t j) const {
-    return distance(i, j) <
-           covalent_radius(s_.atoms[i].element) + covalent_radius(s_.atoms[j].element) + bond_tolerance;
+    const std::string &a = s_.atoms[i].element, &b = s_.atoms[j].element;
+    if (is_contact(a, b) || is_contact(b, a)) return false;
+    const double d = distance(i, j);
+    return d > coincident_max && d < covalent_radius(a) + covalent_radius(b) + bond_tolerance;
   }
   std::optional<std::uint32_t> find(std::uint32_t r, std::string_view name) const {
     for (std::uint32_t i = s_.residues[r].first_atom; i < s_.residues[r].last_atom; ++i)
@@ -84,8 +104,13 @@ class Perception {
       }
       for (std::uint32_t j = residue.first_atom; j < i; ++j)
         if (!hydrogen(j) && !(in_template.contains(i) && in_template.contains(j)) && within_radii(i, j))
-          add(j, i, BondOrigin::covalent_radii);
+          add_by_radii(j, i, known != nullptr);
     }
+  }
+  void add_by_radii(std::uint32_t i, std::uint32_t j, bool beyond_template) {
+    const std::size_t before = s_.bonds.size();
+    add(i, j, BondOrigin::covalent_radii);
+    if (beyond_template && s_.bonds.size() > before) extended_.insert(residue_of(j).name);
   }
 
   /// A hydrogen has exactly one bond, to the nearest heavy atom of its residue.
@@ -144,16 +169,24 @@ class Perception {
   }
 
   void bond_recorded() {
+    std::size_t ignored = 0;
+    std::string first_ignored;
     for (const Link& link : s_.links) {
       const double d = distance(link.first, link.second);
       const bool holds = link.disulphide ? d <= recorded_disulphide_max : within_radii(link.first, link.second);
       if (!holds) {
-        s_.notes.push_back("recorded bond " + label(s_, link.first) + " - " + label(s_, link.second) + " is " +
-                           std::to_string(d) + " angstrom long, ignored");
+        if (++ignored == 1) {
+          std::array<char, 32> length{};
+          std::snprintf(length.data(), length.size(), "%.2f", d);
+          first_ignored = label(s_, link.first) + " - " + label(s_, link.second) + " is " + length.data();
+        }
         continue;
       }
       add(link.first, link.second, link.disulphide ? BondOrigin::disulphide : BondOrigin::record);
     }
+    if (ignored > 0)
+      s_.notes.push_back("recorded bonds too long to hold, ignored: " + std::to_string(ignored) +
+                         " (first: " + first_ignored + " angstrom)");
   }
 
   void bond_disulphides() {
@@ -185,10 +218,12 @@ class Perception {
             if (s_.atoms[i].residue != s_.atoms[j].residue && within_radii(i, j)) add(i, j, BondOrigin::covalent_radii);
           });
     }
-    if (untabled_.empty()) return;
     std::string names;
-    for (const auto& [name, count] : untabled_)
-      names += (names.empty() ? "" : ", ") + name + " x" + std::to_string(count);
+    for (const std::string& name : extended_) append(names, name);
+    if (!names.empty()) s_.notes.push_back("bonds by covalent radii for atoms beyond the template of: " + names);
+    if (untabled_.empty()) return;
+    names.clear();
+    for (const auto& [name, count] : untabled_) append(names, name).append(" x").append(std::to_string(count));
     s_.notes.push_back("bonds by covalent radii, no template for: " + names);
   }
   bool unknown(std::uint32_t i) const { return residue_of(i).kind == ResidueKind::other; }
@@ -202,6 +237,7 @@ class Perception {
   const std::vector<Vec3>& x_;
   std::set<std::uint64_t> seen_;
   std::map<std::string, int> untabled_;
+  std::set<std::string> extended_;  // residues with atoms their template does not have
 };
 
 }  // namespace

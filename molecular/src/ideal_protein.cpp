@@ -27,6 +27,7 @@ struct Internal {
   double length, angle, dihedral;
 };
 
+// Rotamers that meet the backbone of neither helix nor strand: chi1 is 180 for aromatic side chains and valine.
 constexpr std::array<Internal, 62> side_chains{{
     {"ARG", "CG", "CB", "CA", "N", 1.520, 114.1, -65},
     {"ARG", "CD", "CG", "CB", "CA", 1.520, 111.3, 180},
@@ -67,9 +68,9 @@ constexpr std::array<Internal, 62> side_chains{{
     {"MET", "CG", "CB", "CA", "N", 1.520, 114.1, -65},
     {"MET", "SD", "CG", "CB", "CA", 1.803, 112.7, 180},
     {"MET", "CE", "SD", "CG", "CB", 1.791, 100.9, 75},
-    {"PHE", "CG", "CB", "CA", "N", 1.502, 113.8, -65},
-    {"PHE", "CD1", "CG", "CB", "CA", 1.384, 120.7, -85},
-    {"PHE", "CD2", "CG", "CB", "CA", 1.384, 120.7, 95},
+    {"PHE", "CG", "CB", "CA", "N", 1.502, 113.8, 180},
+    {"PHE", "CD1", "CG", "CB", "CA", 1.384, 120.7, 80},
+    {"PHE", "CD2", "CG", "CB", "CA", 1.384, 120.7, -100},
     {"PHE", "CE1", "CD1", "CG", "CB", 1.382, 120.7, 180},
     {"PHE", "CE2", "CD2", "CG", "CB", 1.382, 120.7, 180},
     {"PHE", "CZ", "CE1", "CD1", "CG", 1.382, 120.0, 0},
@@ -78,9 +79,9 @@ constexpr std::array<Internal, 62> side_chains{{
     {"SER", "OG", "CB", "CA", "N", 1.417, 111.1, -65},
     {"THR", "OG1", "CB", "CA", "N", 1.433, 109.6, -60},
     {"THR", "CG2", "CB", "CA", "N", 1.521, 110.5, 179},
-    {"TRP", "CG", "CB", "CA", "N", 1.498, 113.6, -65},
-    {"TRP", "CD1", "CG", "CB", "CA", 1.365, 126.9, -85},
-    {"TRP", "CD2", "CG", "CB", "CA", 1.433, 126.8, 95},
+    {"TRP", "CG", "CB", "CA", "N", 1.498, 113.6, 180},
+    {"TRP", "CD1", "CG", "CB", "CA", 1.365, 126.9, -105},
+    {"TRP", "CD2", "CG", "CB", "CA", 1.433, 126.8, 75},
     {"TRP", "NE1", "CD1", "CG", "CB", 1.374, 110.2, 180},
     {"TRP", "CE2", "CD2", "CG", "CB", 1.409, 107.2, 180},
     {"TRP", "CE3", "CD2", "CG", "CB", 1.398, 133.9, 0},

@@ -71,6 +71,16 @@ struct RawFile {
 /// Parses the bytes with gemmi (PDB or mmCIF). LoadError carries the parser's message.
 RawFile parse_with_gemmi(const std::string& bytes, const std::string& path, bool cif);
 
+/// Kind of residues[r], by its name, else by the backbone atoms it has. A HETATM residue that could be a polymer's but
+/// is bonded to no neighbour and has no ATOM residue behind it in its chain (SAH, AMP) is a ligand: other.
+ResidueKind residue_kind(const std::vector<RawResidue>& residues, std::size_t r);
+
+/// An unidentified atom or ion: residue UNX, or one atom named UNK, UNX or DUM.
+bool is_dummy(const RawResidue& residue);
+
+/// The element the residue's table demands, else the file's, else the name's; empty when none of them tells.
+std::string element_by_name(const RawAtom& atom, const RawResidue& residue);
+
 /// Chooses conformers, kinds and elements and leaves out what was not asked for.
 Structure assemble(RawFile raw, const std::string& path, const ReadOptions& options);
 

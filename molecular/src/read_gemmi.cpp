@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The only file that includes gemmi, which takes long to compile.
+#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <stdexcept>
@@ -87,7 +88,8 @@ RawFile parse_with_gemmi(const std::string& bytes, const std::string& path, bool
   try {
     st = parse(bytes, path, cif, raw.notes);
   } catch (const std::exception& error) {
-    const std::string what = error.what();
+    std::string what = error.what();
+    std::replace(what.begin(), what.end(), '\n', ' ');  // some messages quote a line with its end
     throw LoadError(what.find(path) != std::string::npos ? what : path + ": " + what);
   }
   st.merge_chain_parts();

@@ -35,23 +35,17 @@ constexpr std::array<ResidueTemplate, 21> templates{{
     {"VAL", 'V', "CA-CB CB-CG1 CB-CG2", "N-CA-CB-CG1"},
 }};
 
-/// Other names of the same heavy atoms: protonation states of AMBER and CHARMM, disulphide-bonded cysteine.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 15> variants{{
-    {"HID", "HIS"},
-    {"HIE", "HIS"},
-    {"HIP", "HIS"},
-    {"HSD", "HIS"},
-    {"HSE", "HIS"},
-    {"HSP", "HIS"},
-    {"ASH", "ASP"},
-    {"ASPP", "ASP"},
-    {"GLH", "GLU"},
-    {"GLUP", "GLU"},
-    {"LYN", "LYS"},
-    {"LSN", "LYS"},
-    {"CYX", "CYS"},
-    {"CYM", "CYS"},
-    {"CYS2", "CYS"},
+/// Residues whose backbone and side chain have the names and bonds of another: protonation states of AMBER and CHARMM,
+/// disulphide-bonded cysteine, D residues, modified residues (their further atoms are bonded by distance).
+constexpr std::array<std::pair<std::string_view, std::string_view>, 52> variants{{
+    {"HID", "HIS"},  {"HIE", "HIS"}, {"HIP", "HIS"},  {"HSD", "HIS"}, {"HSE", "HIS"}, {"HSP", "HIS"}, {"ASH", "ASP"},
+    {"ASPP", "ASP"}, {"GLH", "GLU"}, {"GLUP", "GLU"}, {"LYN", "LYS"}, {"LSN", "LYS"}, {"CYX", "CYS"}, {"CYM", "CYS"},
+    {"CYS2", "CYS"}, {"DAL", "ALA"}, {"DAR", "ARG"},  {"DSG", "ASN"}, {"DAS", "ASP"}, {"DCY", "CYS"}, {"DGN", "GLN"},
+    {"DGL", "GLU"},  {"DHI", "HIS"}, {"DIL", "ILE"},  {"DLE", "LEU"}, {"DLY", "LYS"}, {"MED", "MET"}, {"DPN", "PHE"},
+    {"DPR", "PRO"},  {"DSN", "SER"}, {"DTH", "THR"},  {"DTR", "TRP"}, {"DTY", "TYR"}, {"DVA", "VAL"}, {"SEP", "SER"},
+    {"TPO", "THR"},  {"PTR", "TYR"}, {"TYS", "TYR"},  {"HYP", "PRO"}, {"MLY", "LYS"}, {"MLZ", "LYS"}, {"M3L", "LYS"},
+    {"ALY", "LYS"},  {"KCX", "LYS"}, {"CSO", "CYS"},  {"CSD", "CYS"}, {"CSX", "CYS"}, {"OCS", "CYS"}, {"CME", "CYS"},
+    {"SMC", "CYS"},  {"SME", "MET"}, {"HIC", "HIS"},
 }};
 
 }  // namespace

@@ -18,7 +18,8 @@ struct ResidueTemplate {
 /// Backbone bonds of every amino acid, terminal atoms in PDB and CHARMM names included.
 inline constexpr std::string_view backbone_bonds = "N-CA CA-C C-O C-OXT C-OT1 C-OT2 C-O1 C-O2";
 
-/// The template of a residue name, protonation variants included; null when there is none.
+/// The template of a residue name, protonation variants, D and modified residues included; null when there is none.
+/// A modified residue has atoms beyond its template.
 const ResidueTemplate* find_residue_template(std::string_view name) noexcept;
 
 /// The template of a one-letter code; null when there is none.

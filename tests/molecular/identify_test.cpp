@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What residues and atoms are taken for, and the bonds that follow.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "hinge/molecular/bond_exclusions.hpp"
+#include "hinge/molecular/bonds.hpp"
+#include "hinge/molecular/ideal_protein.hpp"
+#include "hinge/molecular/residue_table.hpp"
+#include "hinge/molecular/torsions.hpp"
+#include "molecular/test_files.hpp"
+
+namespace hinge::molecular {
+namespace {
+
+using test::TemporaryFile;
+
+std::string atom(const std::string& name, const std::string& residue, int number, const Vec3& x,
+                 const std::string& element, const std::string& record = "ATOM  ") {
+  std::array<char, 100> line{};
+  std::snprintf(line.data(), line.size(), "%s%5d %-4s %3s A%4d    %8.3f%8.3f%8.3f%6.2f%6.2f          %2s\n",
+                record.c_str(), 1, name.c_str(), residue.c_str(), number, x[0], x[1], x[2], 1.0, 0.0, element.c_str());
+  return line.data();
+}
+
+/// Residues of an ideal protein as PDB records, some of them renamed to HETATM residues and moved.
+std::string records(const Structure& s, std::uint32_t residue, const std::string& name, const Vec3& shift = {0, 0, 0}) {
+  std::string text;
+  for (std::uint32_t i = s.residues[residue].first_atom; i < s.residues[residue].last_atom; ++i)
+    text += atom(" " + s.atoms[i].name, name.empty() ? s.residues[residue].name : name, static_cast<int>(residue) + 1,
+                 s.models.front()[i] + shift, s.atoms[i].element, name.empty() ? "ATOM  " : "HETATM");
+  return text;
+}
+
+bool has_note(const Structure& s, const std::string& words) {
+  return std::any_of(s.notes.begin(), s.notes.end(),
+                     [&](const std::string& note) { return note.find(words) != std::string::npos; });
+}
+
+Structure read(const std::string& text, bool hetero = false) {
+  const TemporaryFile file(text);
+  ReadOptions options;
+  options.hetero = hetero;
+  return read_structure(file.path(), options);
+}
+
+bool bonded(const Structure& s, const std::string& a, const std::string& b) {
+  return std::any_of(s.bonds.begin(), s.bonds.end(), [&](const Bond& bond) {
+    const std::string first = label(s, bond.first), second = label(s, bond.second);
+    return (first == a && second == b) || (first == b && second == a);
+  });
+}
+
+TEST(ResidueKind, KeepsAModifiedResidueThatIsBondedIntoTheChain) {
+  const Structure ideal = build_ideal_protein("AYA", "CCC");
+  const Structure s = read(records(ideal, 0, "") + records(ideal, 1, "PTR") + records(ideal, 2, ""));
+  ASSERT_EQ(s.residues.size(), 3U);
+  EXPECT_EQ(s.residues[1].kind, ResidueKind::amino_acid);
+  EXPECT_TRUE(bonded(s, "A:ALA1:C", "A:PTR2:N"));
+  std::vector<std::string> notes;
+  const auto torsions = find_torsions(s, notes);
+  EXPECT_TRUE(std::any_of(torsions.begin(), torsions.end(), [](const Torsion& t) { return t.name == "chi2"; }));
+}
+
+TEST(ResidueKind, TakesAnAminoAcidBesideTheChainForALigand) {
+  const Structure ideal = build_ideal_protein("AAA", "CCC");
+  const std::string text = records(ideal, 0, "") + records(ideal, 1, "") + records(ideal, 2, "SAH", {30, 0, 0});
+  EXPECT_EQ(read(text).residues.size(), 2U);
+  EXPECT_EQ(read(text).hetero_dropped, 6U);
+  const Structure kept = read(text, true);
+  ASSERT_EQ(kept.residues.size(), 3U);
+  EXPECT_EQ(kept.residues[2].kind, ResidueKind::other);
+  EXPECT_FALSE(has_note(kept, "break"));
+}
+
+TEST(ResidueKind, KeepsAModifiedResidueBetweenTwoBreaks) {
+  const Structure ideal = build_ideal_protein("ASA", "CCC");
+  const Structure s =
+      read(records(ideal, 0, "") + records(ideal, 1, "SEP", {0, 30, 0}) + records(ideal, 2, "", {0, 60, 0}));
+  ASSERT_EQ(s.residues.size(), 3U);
+  EXPECT_TRUE(has_note(s, "break between ALA1 and SEP2"));
+}
+
+TEST(ResidueKind, LeavesOutAnAtomOfUnknownKindAndSaysSo) {
+  const Structure ideal = build_ideal_protein("AA", "CC");
+  const Structure s =
+      read(records(ideal, 0, "") + records(ideal, 1, "") + atom("UNK", "UNX", 9, {20, 0, 0}, "X", "HETATM"), true);
+  EXPECT_EQ(s.residues.size(), 2U);
+  EXPECT_TRUE(has_note(s, "A:UNX9: an atom of unknown kind, left out"));
+}
+
+TEST(Elements, OfCharmmIonsComeFromTheirNames) {
+  const Structure ideal = build_ideal_protein("A", "C");
+  const Structure s =
+      read(records(ideal, 0, "") + atom(" CLA", "CLA", 2, {20, 0, 0}, "", "HETATM") +
+               atom(" SOD", "SOD", 3, {30, 0, 0}, "", "HETATM") + atom(" CAL", "CAL", 4, {40, 0, 0}, "", "HETATM"),
+           true);
+  ASSERT_EQ(s.residues.size(), 4U);
+  EXPECT_EQ(s.atoms[s.residues[1].first_atom].element, "Cl");
+  EXPECT_EQ(s.atoms[s.residues[2].first_atom].element, "Na");
+  EXPECT_EQ(s.atoms[s.residues[3].first_atom].element, "Ca");
+}
+
+TEST(Bonds, JoinAMetalToItsDonorsOnly) {
+  // Calcium beside a bidentate carboxylate: 2.4 from the oxygens, 2.75 from the carbon.
+  const std::string ligand = atom(" C", "ACT", 2, {20, 0, 0}, "C", "HETATM") +
+                             atom(" O", "ACT", 2, {20.59, 1.10, 0}, "O", "HETATM") +
+                             atom(" OXT", "ACT", 2, {20.59, -1.10, 0}, "O", "HETATM");
+  const Structure s =
+      read(records(build_ideal_protein("A", "C"), 0, "") + ligand + atom("CA", "CA", 3, {22.75, 0, 0}, "CA", "HETATM"),
+           true);
+  EXPECT_TRUE(bonded(s, "A:ACT2:O", "A:CA3:CA"));
+  EXPECT_TRUE(bonded(s, "A:ACT2:OXT", "A:CA3:CA"));
+  EXPECT_FALSE(bonded(s, "A:ACT2:C", "A:CA3:CA"));
+}
+
+TEST(Bonds, JoinNoTwoCopiesOfAnAtom) {
+  const Structure s =
+      read(records(build_ideal_protein("A", "C"), 0, "") + atom("CL", "CL", 2, {20, 0, 0}, "CL", "HETATM") +
+               atom("CL", "CL", 3, {20, 0, 0}, "CL", "HETATM"),
+           true);
+  EXPECT_FALSE(bonded(s, "A:CL2:CL", "A:CL3:CL"));
+}
+
+TEST(Bonds, CloseABackboneRing) {
+  const auto file = test::shared_molecules() / "1sfi.cif";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
+  const Structure s = read_structure(file);
+  EXPECT_TRUE(bonded(s, "I:GLY1:N", "I:ASP14:C"));
+  EXPECT_EQ(
+      std::count_if(s.bonds.begin(), s.bonds.end(), [](const Bond& b) { return b.origin == BondOrigin::disulphide; }),
+      7);
+}
+
+TEST(Bonds, GiveEveryHydrogenExactlyOne) {
+  for (const char* name : {"1ejg.pdb", "5pti_old.pdb", "adk_closed.pdb", "paper/1vii_3frames.pdb"}) {
+    const auto file = test::shared_molecules() / name;
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
+    const Structure s = read_structure(file);
+    const auto neighbours = bonded_neighbours(s);
+    for (std::uint32_t i = 0; i < s.atoms.size(); ++i)
+      if (s.atoms[i].element == "H") {
+        EXPECT_EQ(neighbours[i].size(), 1U) << name << " " << label(s, i);
+      }
+  }
+}
+
+TEST(Models, ThatDifferAreNamedWithBothCounts) {
+  const auto file = test::shared_molecules() / "paper/2axd.pdb.gz";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
+  try {
+    read_structure(file);
+    FAIL() << "expected a LoadError";
+  } catch (const LoadError& error) {
+    EXPECT_NE(std::string(error.what()).find("model 2 has 1277 atoms, expected 1276"), std::string::npos)
+        << error.what();
+  }
+}
+
+/// Heavy-atom bonds of a monomer in the dictionary's CIF.
+std::set<std::set<std::string>> dictionary_bonds(const std::filesystem::path& path) {
+  std::set<std::string> hydrogens;
+  std::set<std::set<std::string>> bonds;
+  std::ifstream in(path);
+  std::string line, category;
+  while (std::getline(in, line)) {
+    if (line.starts_with("loop_")) category.clear();
+    if (line.starts_with("_")) category = line.substr(0, line.find('.'));
+    std::istringstream words(line);
+    std::string residue, a, b;
+    words >> residue >> a >> b;
+    if (line.empty() || line[0] == '_' || line[0] == '#' || line.starts_with("loop_")) continue;
+    if (category == "_chem_comp_atom" && b == "H") hydrogens.insert(a);
+    if (category == "_chem_comp_bond" && !hydrogens.contains(a) && !hydrogens.contains(b)) bonds.insert({a, b});
+  }
+  return bonds;
+}
+
+TEST(ResidueTable, HasTheBondsOfTheMonomerDictionary) {
+  const std::filesystem::path dictionary = "/usr/share/refmac/monomers";
+  if (!std::filesystem::exists(dictionary)) GTEST_SKIP() << "refmac-dictionary is not installed";
+  for (const char c : std::string_view("ARNDCQEGHILKMFPSTWYV")) {
+    const ResidueTemplate& known = *find_residue_template(c);
+    std::set<std::set<std::string>> expected, own;
+    for (const auto& bond : dictionary_bonds(dictionary / std::string(1, static_cast<char>(known.name[0] - 'A' + 'a')) /
+                                             (std::string(known.name) + ".cif")))
+      if (!bond.contains("OXT")) expected.insert(bond);
+    ASSERT_FALSE(expected.empty()) << known.name;
+    const auto add = [&](std::string_view a, std::string_view b) { own.insert({std::string(a), std::string(b)}); };
+    for_each_bond("N-CA CA-C C-O", add);
+    for_each_bond(known.side_chain, add);
+    own.erase({"CG1", "CD"});  // CHARMM's name of isoleucine's CD1
+    EXPECT_EQ(own, expected) << known.name;
+  }
+}
+
+TEST(IdealProtein, HasNoCloseContactsWhateverTheSideChain) {
+  const auto radius = [](const std::string& element) {  // Bondi
+    return element == "C" ? 1.70 : element == "N" ? 1.55 : element == "O" ? 1.52 : 1.80;
+  };
+  for (const char element : std::string_view("HEC"))
+    for (const char letter : std::string_view("ARNDCQEGHILKMFPSTWYV")) {
+      if (element == 'H' && letter == 'P') continue;  // proline breaks helices
+      const Structure s = build_ideal_protein(std::string(12, letter), std::string(12, element));
+      const BondExclusions exclusions(s, 4);
+      const auto& x = s.models.front();
+      int close = 0;
+      for (std::uint32_t i = 0; i < x.size(); ++i)
+        for (std::uint32_t j = i + 1; j < x.size(); ++j)
+          if (exclusions.admits(id<PrimitiveId>(i), id<PrimitiveId>(j)) &&
+              (x[i] - x[j]).norm() < 0.8 * (radius(s.atoms[i].element) + radius(s.atoms[j].element)))
+            ++close;
+      EXPECT_EQ(close, 0) << letter << " in " << element;
+    }
+}
+
+}  // namespace
+}  // namespace hinge::molecular
