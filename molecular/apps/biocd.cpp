@@ -62,14 +62,22 @@ void add_model_options(CLI::App& command, Options& o) {
   command.add_option("--explain", o.explain, "say which rule keeps or drops the pair of atoms i,j (numbers from 0)");
 }
 
-void add_output_options(CLI::App& command, Options& o, bool csv) {
-  auto* json = command.add_flag_callback(
+void add_json_option(CLI::App& command, Options& o) {
+  command.add_flag_callback(
       "--json", [&o] { o.output = biocd::Output::json; }, "JSON on standard output");
-  if (csv)
-    command
-        .add_flag_callback(
-            "--csv", [&o] { o.output = biocd::Output::csv; }, "CSV on standard output")
-        ->excludes(json);
+}
+
+/// What check and sample share beyond the model.
+void add_check_options(CLI::App& command, Options& o) {
+  add_json_option(command, o);
+  command
+      .add_flag_callback(
+          "--csv", [&o] { o.output = biocd::Output::csv; }, "CSV on standard output")
+      ->excludes("--json");
+  command.add_option("--mode", o.mode, "any, all, within:D (angstrom) or closest")->capture_default_str();
+  command.add_option("--threads", o.threads, "worker threads; the output does not depend on them")
+      ->check(CLI::Range(1U, 1024U))
+      ->capture_default_str();
 }
 
 int run(int argc, char** argv) {
@@ -82,27 +90,22 @@ int run(int argc, char** argv) {
 
   CLI::App* info = app.add_subcommand("info", "what the file holds, its degrees of freedom and rigid groups");
   add_model_options(*info, o);
-  add_output_options(*info, o, false);
+  add_json_option(*info, o);
   info->add_flag("--atoms", o.atoms, "list atoms, bonds, thresholds and constant contacts (with --json)");
   info->callback([&] { command = biocd::run_info; });
 
   CLI::App* check = app.add_subcommand("check", "verdict and pairs for each model of the file");
   add_model_options(*check, o);
-  add_output_options(*check, o, true);
-  check->add_option("--mode", o.mode, "any, all, within:D (angstrom) or closest")->capture_default_str();
+  add_check_options(*check, o);
   check->callback([&] { command = biocd::run_check; });
 
   CLI::App* sample = app.add_subcommand("sample", "random conformations of the free torsions, each checked");
   add_model_options(*sample, o);
-  add_output_options(*sample, o, true);
-  sample->add_option("--mode", o.mode, "any, all, within:D (angstrom) or closest")->capture_default_str();
+  add_check_options(*sample, o);
   sample->add_option("-n,--count", o.count, "number of conformations")->capture_default_str();
   sample->add_option("--seed", o.seed, "seed; conformation k is a function of (seed, k) alone")->capture_default_str();
   sample->add_option("--sigma", o.sigma_degrees, "Gaussian about the reference, degrees (default: full range)")
       ->check(CLI::PositiveNumber);
-  sample->add_option("--threads", o.threads, "worker threads; the output does not depend on them")
-      ->check(CLI::Range(1U, 1024U))
-      ->capture_default_str();
   sample->add_option("--out", o.out, "write the conformations as a multi-model PDB file");
   sample->callback([&] { command = biocd::run_sample; });
 

@@ -4,8 +4,10 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "options.hpp"
+#include "parallel_check.hpp"
 #include "report.hpp"
 
 namespace biocd {
@@ -13,7 +15,7 @@ namespace biocd {
 using namespace hinge::molecular;
 
 int run_check(const Options& options) {
-  Job job = load(options);
+  const Job job = load(options);
   const Mode mode = Mode::parse(options.mode);
   print_notes(job);
   if (!options.explain.empty()) {
@@ -26,8 +28,12 @@ int run_check(const Options& options) {
   json["conformations"] = Json::array();
   std::string table = heading(options, job), csv = csv_header();
   std::size_t colliding = 0;
+  std::vector<Checker> workers(options.threads, job.checker);
+  std::vector<Verdict> verdicts(s.models.size());
+  check_parallel(workers, verdicts.size(),
+                 [&](Checker& checker, std::size_t m) { verdicts[m] = checker.check_coordinates(s.models[m], mode); });
   for (std::size_t m = 0; m < s.models.size(); ++m) {
-    const Verdict verdict = job.checker.check_coordinates(s.models[m], mode);
+    const Verdict& verdict = verdicts[m];
     colliding += verdict.collides ? 1 : 0;
     if (options.output == Output::json) {
       Json row = verdict_json(s, m, verdict, mode);
@@ -45,7 +51,10 @@ int run_check(const Options& options) {
     if (verdict.closest) table += hit_line(s, *verdict.closest) + "  (closest)\n";
   }
   if (options.output == Output::json) fmt::print("{}\n", json.dump(1));
-  if (options.output == Output::csv) fmt::print("{}", csv);
+  if (options.output == Output::csv) {
+    print_constant_contacts(job);
+    fmt::print("{}", csv);
+  }
   if (options.output == Output::table) fmt::print("{}{} of {} models collide\n", table, colliding, s.models.size());
   return static_cast<int>(colliding > 0 ? Exit::collision : Exit::free);
 }

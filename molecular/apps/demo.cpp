@@ -121,18 +121,22 @@ int run_demo(const Options& options) {
       for (std::size_t m = 0; m < plots[n].curves.size(); ++m) {
         std::vector<Checker> workers(threads, lazy);
         const auto start = std::chrono::steady_clock::now();
-        const auto samples =
-            check_samples(workers, samplings[n].sampling, Mode::parse(modes[m]), 0, options.count, false);
+        std::vector<Verdict> verdicts(static_cast<std::size_t>(options.count));
+        const Mode mode = Mode::parse(modes[m]);
+        const Sampling& sampling = samplings[n].sampling;
+        check_parallel(workers, verdicts.size(), [&](Checker& checker, std::size_t k) {
+          verdicts[k] = checker.check(sample_configuration(sampling, k, checker.dof_count()), mode);
+        });
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
         const double rate = static_cast<double>(options.count) / seconds.count();
         plots[n].curves[m].values.push_back(rate);
         colliding = 0;
-        for (std::size_t k = 0; k < samples.size(); ++k) {
-          const Verdict& verdict = samples[k].verdict;
+        for (std::size_t k = 0; k < verdicts.size(); ++k) {
+          const Verdict& verdict = verdicts[k];
           colliding += verdict.collides ? 1 : 0;
           // A conformation near the native one is a picture a person can read.
           if (m != 1 || n != 1 || verdict.pairs.size() <= worst.pairs.size()) continue;
-          lazy.check(sample_configuration(samplings[n].sampling, k, lazy.dof_count()), Mode::parse("all"));
+          lazy.check(sample_configuration(sampling, k, lazy.dof_count()), mode);
           worst = {verdict.pairs, lazy.positions()};
         }
         fmt::print(" {:>14.0f}", rate);

@@ -123,6 +123,11 @@ std::string heading(const Options& options, const Job& job) {
   return text;
 }
 
+void print_constant_contacts(const Job& job) {
+  for (const hinge::Hit& hit : job.checker.constant_contacts())
+    std::fprintf(stderr, "constant contact: %s\n", hit_line(job.molecule->structure(), hit).c_str());
+}
+
 void print_notes(const Job& job) {
   for (const std::string& note : job.molecule->structure().notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   for (const std::string& note : job.molecule->notes()) std::fprintf(stderr, "note: %s\n", note.c_str());

@@ -33,6 +33,9 @@ std::string hit_line(const hinge::molecular::Structure& structure, const hinge::
 /// The rules of the check, the selection and its constant contacts, for people.
 std::string heading(const Options& options, const Job& job);
 
+/// Constant contacts on standard error, for outputs whose format has no place for them.
+void print_constant_contacts(const Job& job);
+
 /// Notes of loader and builder, on standard error.
 void print_notes(const Job& job);
 

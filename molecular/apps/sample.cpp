@@ -30,6 +30,11 @@ namespace {
 
 using namespace hinge::molecular;
 
+struct Sample {
+  Verdict verdict;
+  std::vector<hinge::Vec3> positions;  // only when they are to be written
+};
+
 /// Writes beside the wanted file and takes its name only when complete, so that nothing half-written is left.
 class ConformationFile {
  public:
@@ -136,7 +141,10 @@ int run_sample(const Options& options) {
     text.resize(text.rfind('\n'));  // the closing brace comes with the summary
     fmt::print("{},\n\"conformations\": [", text);
   }
-  if (options.output == Output::csv) fmt::print("{}", csv_header());
+  if (options.output == Output::csv) {
+    print_constant_contacts(job);
+    fmt::print("{}", csv_header());
+  }
   if (options.output == Output::table) fmt::print("{}", heading(options, job));
 
   // A block bounds the memory; its rows are printed in index order whatever thread made them.
@@ -146,8 +154,11 @@ int run_sample(const Options& options) {
   std::chrono::duration<double> checking{};
   for (std::uint64_t first = 0; first < options.count; first += block) {
     const auto start = std::chrono::steady_clock::now();
-    const auto samples =
-        check_samples(workers, sampling, mode, first, std::min(block, options.count - first), file.wanted());
+    std::vector<Sample> samples(static_cast<std::size_t>(std::min(block, options.count - first)));
+    check_parallel(workers, samples.size(), [&](Checker& checker, std::size_t k) {
+      samples[k].verdict = checker.check(sample_configuration(sampling, first + k, checker.dof_count()), mode);
+      if (file.wanted()) samples[k].positions = checker.positions();
+    });
     checking += std::chrono::steady_clock::now() - start;
     for (std::size_t k = 0; k < samples.size(); ++k) {
       const Verdict& verdict = samples[k].verdict;

@@ -207,7 +207,7 @@ class Assembler {
     for (const RawElement& element : raw_.elements) {
       const auto a = residue(element.first), b = residue(element.last);
       if (a && b && *a <= *b)
-        s_.secondary_structure.push_back({element.kind, *a, *b});
+        s_.secondary_structure.push_back(SecondaryStructure{element.kind, *a, *b});
       else
         s_.notes.push_back("a helix or strand record names residues that are not there or out of order, ignored");
     }

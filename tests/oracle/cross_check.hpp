@@ -112,9 +112,10 @@ class TriangleOracle {
   }
   static Placement placement(const Pose& pose) {
     Placement p{};
-    for (int r = 0; r < 3; ++r) {
-      for (int c = 0; c < 3; ++c) p[static_cast<std::size_t>(3 * r + c)] = pose.rotation(r, c);
-      p[static_cast<std::size_t>(9 + r)] = pose.translation[r];
+    for (std::size_t r = 0; r < 3; ++r) {
+      const auto row = static_cast<Eigen::Index>(r);
+      for (std::size_t c = 0; c < 3; ++c) p[3 * r + c] = pose.rotation(row, static_cast<Eigen::Index>(c));
+      p[9 + r] = pose.translation[row];
     }
     return p;
   }

@@ -18,13 +18,15 @@ namespace {
 using Object = fcl::CollisionObject<double>;
 using Mesh = fcl::BVHModel<fcl::OBBRSS<double>>;
 
-std::size_t number(const Object* object) { return reinterpret_cast<std::size_t>(object->getUserData()); }
+/// FCL hands back a pointer of ours with each object: to its number.
+std::size_t number(const Object* object) { return *static_cast<const std::size_t*>(object->getUserData()); }
 
 fcl::Transform3d transform(const Placement& p) {
   fcl::Transform3d x = fcl::Transform3d::Identity();
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) x.linear()(r, c) = p[static_cast<std::size_t>(3 * r + c)];
-    x.translation()[r] = p[static_cast<std::size_t>(9 + r)];
+  for (std::size_t r = 0; r < 3; ++r) {
+    const auto row = static_cast<Eigen::Index>(r);
+    for (std::size_t c = 0; c < 3; ++c) x.linear()(row, static_cast<Eigen::Index>(c)) = p[3 * r + c];
+    x.translation()[row] = p[9 + r];
   }
   return x;
 }
@@ -33,6 +35,7 @@ fcl::Transform3d transform(const Placement& p) {
 
 struct FclSpheres::Impl {
   std::vector<std::unique_ptr<Object>> objects;
+  std::vector<std::size_t> numbers;  // what the objects' user data points to
   std::vector<double> radii;
   std::function<bool(std::size_t, std::size_t)> admits;
   fcl::DynamicAABBTreeCollisionManager<double> manager;
@@ -74,9 +77,10 @@ FclSpheres::FclSpheres(std::span<const double> radii, std::function<bool(std::si
     : impl_(std::make_unique<Impl>()) {
   impl_->radii.assign(radii.begin(), radii.end());
   impl_->admits = std::move(admits);
+  for (std::size_t i = 0; i < radii.size(); ++i) impl_->numbers.push_back(i);
   for (std::size_t i = 0; i < radii.size(); ++i) {
     impl_->objects.push_back(std::make_unique<Object>(std::make_shared<fcl::Sphere<double>>(radii[i])));
-    impl_->objects.back()->setUserData(reinterpret_cast<void*>(i));
+    impl_->objects.back()->setUserData(&impl_->numbers[i]);
   }
 }
 FclSpheres::FclSpheres(FclSpheres&&) noexcept = default;

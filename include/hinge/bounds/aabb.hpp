@@ -79,10 +79,14 @@ inline double separation(const Aabb& a, const Aabb& b) noexcept {
   return largest > 0.0 ? std::max(largest, std::sqrt(squared) * down) : largest;
 }
 
-/// Do the closed boxes share a point?
+/// Do the closed boxes share a point? Without branches: in a sweep the answer cannot be foretold.
 inline bool overlap(const Aabb& a, const Aabb& b) noexcept {
-  return (a.lower[0] <= b.upper[0]) & (b.lower[0] <= a.upper[0]) & (a.lower[1] <= b.upper[1]) &
-         (b.lower[1] <= a.upper[1]) & (a.lower[2] <= b.upper[2]) & (b.lower[2] <= a.upper[2]);
+  bool touching = true;
+  for (int k = 0; k < 3; ++k) {
+    touching &= a.lower[k] <= b.upper[k];
+    touching &= b.lower[k] <= a.upper[k];
+  }
+  return touching;
 }
 
 }  // namespace hinge
