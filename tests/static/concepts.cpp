@@ -9,8 +9,7 @@
 #include "hinge/primitive/sphere.hpp"
 #include "hinge/primitive/triangle.hpp"
 
-namespace hinge {
-namespace {
+namespace hinge::static_test {
 
 static_assert(Primitive<Point> && Primitive<Sphere> && Primitive<Capsule> && Primitive<Triangle>);
 static_assert(!Primitive<int> && !Primitive<Vec3> && !Primitive<Aabb>);
@@ -85,5 +84,4 @@ static_assert(!CrossEngine<Lazy<Point, AdmitAll, OwnOnly>, Point, AdmitAll, OwnO
 
 static_assert(Id<PrimitiveId> && !Id<int> && !std::is_convertible_v<LinkId, PrimitiveId>);
 
-}  // namespace
-}  // namespace hinge
+}  // namespace hinge::static_test
