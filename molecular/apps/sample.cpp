@@ -167,7 +167,7 @@ int run_sample(const Options& options) {
       if (options.output == Output::json)
         fmt::print("{}\n{}", number == 0 ? "" : ",", verdict_json(s, number, verdict, mode).dump());
       if (options.output == Output::csv) fmt::print("{}", csv_rows(s, number, verdict));
-      if (file.wanted()) write_pdb_model(file.stream(), s, samples[k].positions, static_cast<int>(number % 9999) + 1);
+      if (file.wanted()) write_pdb_model(file.stream(), s, samples[k].positions, static_cast<int>(number) + 1);
     }
     bar.show(first + samples.size());
   }

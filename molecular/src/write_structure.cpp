@@ -56,7 +56,7 @@ std::string pymol_spec(const Structure& s, PrimitiveId i) {
 
 void write_pdb_model(std::ostream& out, const Structure& structure, std::span<const Vec3> positions, int number) {
   std::array<char, 96> line{};
-  std::snprintf(line.data(), line.size(), "MODEL     %4d\n", number);
+  std::snprintf(line.data(), line.size(), "MODEL %8d\n", number);
   out << line.data();
   for (std::size_t i = 0; i < structure.atoms.size(); ++i) {
     const Atom& atom = structure.atoms[i];

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -152,6 +153,22 @@ TEST(Biocd, WritesConformationsThatCheckTheSame) {
 TEST(Biocd, LeavesNothingHalfWritten) {
   EXPECT_EQ(biocd("sample " + file() + " -n 1 --out /nonexistent/x.pdb 2>&1").status, 3);
   EXPECT_FALSE(std::filesystem::exists("/nonexistent/x.pdb.partial"));
+}
+
+TEST(Biocd, InformsAboutOrRefusesEverySharedFile) {
+  if (!std::filesystem::exists(test::shared_molecules())) GTEST_SKIP() << "shared data not found";
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(test::shared_molecules())) {
+    const std::string extension = entry.path().extension().string();
+    if (!entry.is_regular_file() || extension == ".md" || extension == ".dcd" || extension == ".xtc") continue;
+    SCOPED_TRACE(entry.path().string());
+    const Outcome outcome = biocd("info " + entry.path().string() + " --free none 2>&1 >/dev/null");
+    if (outcome.status == 3) {
+      EXPECT_TRUE(outcome.out.starts_with("biocd: ")) << outcome.out;
+      EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 1) << outcome.out;
+    } else {
+      EXPECT_EQ(outcome.status, 0) << outcome.out;
+    }
+  }
 }
 
 TEST(Biocd, ExplainsAPair) {

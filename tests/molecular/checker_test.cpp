@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <memory>
 #include <numbers>
+#include <ostream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -77,6 +78,7 @@ TEST(Engines, EqualBruteForceOnBuiltProteins) {
 struct Case {
   const char* file;
   bool hydrogens;
+  friend void PrintTo(const Case& c, std::ostream* out) { *out << c.file << (c.hydrogens ? " with hydrogens" : ""); }
 };
 
 class SharedProteins : public testing::TestWithParam<Case> {};
