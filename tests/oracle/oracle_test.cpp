@@ -6,10 +6,16 @@
 #include <cstdint>
 #include <cstdio>
 #include <numbers>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "engine/random_mechanism.hpp"
+#include "hinge/molecular/bond_exclusions.hpp"
+#include "hinge/molecular/molecule.hpp"
+#include "hinge/molecular/read_structure.hpp"
+#include "hinge/molecular/sampler.hpp"
+#include "hinge/molecular/selection.hpp"
 #include "hinge/policy/different_links.hpp"
 #include "oracle/cross_check.hpp"
 
@@ -101,6 +107,32 @@ TEST(FclOracle, AgreesOnPointModels) {
   std::printf("compared %zu configurations, %zu colliding\n", compared, colliding);
   EXPECT_GE(compared, 990U);
   EXPECT_GE(colliding, 100U);
+}
+
+TEST(FclOracle, AgreesOnAProteinOfOneType) {
+  const molecular::Molecule protein(
+      molecular::read_structure(std::string(HINGE_SOURCE_DIR) + "/molecular/data/1ubq.pdb"));
+  const molecular::BondExclusions filter(protein.structure(), 4);
+  const double m = 2.5;
+  const auto selection = protein.select(molecular::select_torsions(protein, "count:5", false));
+  Hierarchy lazy(protein.model(), selection, filter, UniformClearance{m});
+  Hierarchy<Point, molecular::BondExclusions, UniformClearance, Brute> brute(protein.model(), selection, filter,
+                                                                             UniformClearance{m});
+  oracle::PointOracle oracle(lazy.model(), filter, m);
+  std::size_t compared = 0, colliding = 0;
+  for (std::uint64_t k = 0; k < 1000; ++k) {
+    const auto q = molecular::sample_configuration({1, k % 2 == 0 ? 0.02 : 1.0}, k, lazy.dof_count());
+    lazy.update(q);
+    brute.update(q);
+    compared += oracle.check(lazy, 1e-9) ? 1 : 0;
+    if (k % 10 == 0) oracle.check(brute, 1e-9);
+    colliding += lazy.self_collides() ? 1 : 0;
+    if (HasFailure()) return;
+  }
+  std::printf("seed 1: compared %zu configurations, %zu colliding\n", compared, colliding);
+  EXPECT_GE(compared, 990U);
+  EXPECT_GE(colliding, 400U);
+  EXPECT_LT(colliding, 1000U);
 }
 
 }  // namespace
