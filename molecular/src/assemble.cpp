@@ -209,7 +209,7 @@ class Assembler {
       if (a && b && *a <= *b)
         s_.secondary_structure.push_back(SecondaryStructure{element.kind, *a, *b});
       else
-        s_.notes.push_back("a helix or strand record names residues that are not there or out of order, ignored");
+        s_.notes.emplace_back("a helix or strand record names residues that are not there or out of order, ignored");
     }
   }
 
