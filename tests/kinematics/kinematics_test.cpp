@@ -130,6 +130,21 @@ TEST(PoseSource, KnowsWhatMovedAndWhatMovedTogether) {
   EXPECT_NE(source.component(id<GroupId>(1)), source.component(id<GroupId>(2)));
 }
 
+TEST(PoseSource, CallsEverythingMovedOnceItWasToldToForget) {
+  KinematicTree tree;
+  tree.add_link(world, Revolute{});
+  const DofSelection all = DofSelection::all(tree);
+  PoseSource source(std::make_shared<const RigidGroups>(tree, all), 1);
+  const std::vector<Pose> poses(2);
+  source.set_poses(poses);
+  source.set_poses(poses);
+  EXPECT_FALSE(source.moved(id<GroupId>(1)));
+  source.forget();
+  source.set_poses(poses);
+  EXPECT_TRUE(source.moved(id<GroupId>(1)));
+  EXPECT_NE(source.component(id<GroupId>(0)), source.component(id<GroupId>(1)));
+}
+
 TEST(PoseSource, RefusesBadInputAndKeepsItsState) {
   KinematicTree tree;
   tree.add_link(world, Revolute{});

@@ -127,7 +127,6 @@ TEST(Molecule, ReportsDisulphidesAsClosures) {
   Checker checker(molecule, molecule->select(all), rules);
   std::vector<double> q(all.size(), 0.0);
   EXPECT_EQ(checker.check(q, Mode::parse("any")).closure_residual, 0.0);
-  q[all.size() / 2] = 1.0;
   double worst = 0.0;
   for (double& value : q) {
     value = 0.5;

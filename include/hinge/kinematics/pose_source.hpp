@@ -51,7 +51,10 @@ class PoseSource {
   std::size_t component(GroupId group) const noexcept { return component_[index(group)]; }
 
   /// Makes everything count as moved in the next set_...(): what engines hold was not placed by these poses.
-  void forget() noexcept { given_ = true; }
+  void forget() noexcept {
+    given_ = true;
+    moved_.clear();
+  }
 
   std::size_t dof_count() const noexcept { return q_.size(); }
 
@@ -101,7 +104,7 @@ inline void PoseSource::set_poses(std::span<const Pose> poses) {
     if (!is_rigid(poses[g]) || (g == 0 && !(poses[0] == Pose{})))
       throw ConfigurationError("pose of rigid group " + std::to_string(g) +
                                (g == 0 ? ": the world's must be the identity" : ": not a rigid placement"));
-  const bool first = given_ && moved_.empty();
+  const bool first = moved_.empty();
   while (computed_ < groups_->size()) compute_next();
   moved_.resize(groups_->size());
   for (std::size_t g = 0; g < poses.size(); ++g) {
