@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lanes<T, N>: N numbers worked on together, the same N on every instruction set: as many native registers as it takes.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <experimental/simd>
+
+namespace hinge::simd {
+
+/// One bit per lane, lane 0 lowest.
+using Bits = std::uint32_t;
+
+/// Plain arithmetic, lane by lane, without fused multiply-add: a lane holds the bits that scalar code in the same order
+/// would. Memory need not be aligned.
+template <class T, std::size_t N>
+class Lanes {
+  using Part = std::experimental::native_simd<T>;
+  static constexpr std::size_t part_size = Part::size() < N ? Part::size() : N;
+  using Vector = std::experimental::simd<T, std::experimental::simd_abi::deduce_t<T, part_size>>;
+  static constexpr std::size_t parts = N / part_size;
+  static_assert(parts * part_size == N);
+
+ public:
+  Lanes() = default;
+  Lanes(T value) noexcept {
+    for (Vector& v : v_) v = value;
+  }
+  explicit Lanes(const T* from) noexcept {
+    for (std::size_t p = 0; p < parts; ++p) v_[p].copy_from(from + p * part_size, std::experimental::element_aligned);
+  }
+  void store(T* to) const noexcept {
+    for (std::size_t p = 0; p < parts; ++p) v_[p].copy_to(to + p * part_size, std::experimental::element_aligned);
+  }
+
+  friend Lanes operator+(const Lanes& a, const Lanes& b) noexcept {
+    return each(a, b, [](const Vector& x, const Vector& y) { return Vector(x + y); });
+  }
+  friend Lanes operator-(const Lanes& a, const Lanes& b) noexcept {
+    return each(a, b, [](const Vector& x, const Vector& y) { return Vector(x - y); });
+  }
+  friend Lanes operator*(const Lanes& a, const Lanes& b) noexcept {
+    return each(a, b, [](const Vector& x, const Vector& y) { return Vector(x * y); });
+  }
+  friend Lanes operator-(const Lanes& a) noexcept {
+    return each(a, a, [](const Vector& x, const Vector&) { return Vector(-x); });
+  }
+  friend Lanes min(const Lanes& a, const Lanes& b) noexcept {
+    return each(a, b, [](const Vector& x, const Vector& y) { return Vector(std::experimental::min(x, y)); });
+  }
+  friend Lanes max(const Lanes& a, const Lanes& b) noexcept {
+    return each(a, b, [](const Vector& x, const Vector& y) { return Vector(std::experimental::max(x, y)); });
+  }
+  friend Lanes abs(const Lanes& a) noexcept { return max(a, -a); }
+
+  /// Where a < b; false for NaN.
+  friend Bits less(const Lanes& a, const Lanes& b) noexcept {
+    return bits(a, b, [](const Vector& x, const Vector& y) { return x < y; });
+  }
+  /// Where a <= b; false for NaN.
+  friend Bits less_equal(const Lanes& a, const Lanes& b) noexcept {
+    return bits(a, b, [](const Vector& x, const Vector& y) { return x <= y; });
+  }
+  /// Where a == b.
+  friend Bits equal(const Lanes& a, const Lanes& b) noexcept {
+    return bits(a, b, [](const Vector& x, const Vector& y) { return x == y; });
+  }
+  /// a where x < y, else b.
+  friend Lanes choose_less(const Lanes& x, const Lanes& y, const Lanes& a, const Lanes& b) noexcept {
+    Lanes r = b;
+    for (std::size_t p = 0; p < parts; ++p) where(x.v_[p] < y.v_[p], r.v_[p]) = a.v_[p];
+    return r;
+  }
+
+  friend T smallest(const Lanes& a) noexcept {
+    Vector r = a.v_[0];
+    for (std::size_t p = 1; p < parts; ++p) r = std::experimental::min(r, a.v_[p]);
+    return std::experimental::hmin(r);
+  }
+  friend T largest(const Lanes& a) noexcept {
+    Vector r = a.v_[0];
+    for (std::size_t p = 1; p < parts; ++p) r = std::experimental::max(r, a.v_[p]);
+    return std::experimental::hmax(r);
+  }
+
+ private:
+  template <class Op>
+  static Lanes each(const Lanes& a, const Lanes& b, const Op& op) noexcept {
+    Lanes r;
+    for (std::size_t p = 0; p < parts; ++p) r.v_[p] = op(a.v_[p], b.v_[p]);
+    return r;
+  }
+  template <class Op>
+  static Bits bits(const Lanes& a, const Lanes& b, const Op& op) noexcept {
+    Bits r = 0;
+    for (std::size_t p = 0; p < parts; ++p)
+      r |= static_cast<Bits>(op(a.v_[p], b.v_[p]).__to_bitset().to_ulong()) << (p * part_size);
+    return r;
+  }
+
+  std::array<Vector, parts> v_;
+};
+
+/// The width of blocks, nodes and tasks on every instruction set: measured to pay also where it takes four registers.
+inline constexpr std::size_t width = 16;
+inline constexpr Bits all_bits = (Bits{1} << width) - 1;
+
+using Float16 = Lanes<float, 16>;
+using Double4 = Lanes<double, 4>;
+using Double8 = Lanes<double, 8>;
+
+}  // namespace hinge::simd
