@@ -30,17 +30,30 @@ struct Reduced {
 /// Below this a quadrant number has 20 bits and its products with the 33-bit parts of pi/2 are exact (Cody & Waite).
 inline constexpr double cody_waite_limit = 0x1p20;
 
-inline Reduced reduce_small(double x) noexcept {
+inline constexpr double rounder = 0x1.8p52;  // adding it leaves no bits for a fraction
+
+/// n * pi/2 + (high + low), n the nearest whole number. T: double, or lanes of it.
+template <class T>
+struct ReducedParts {
+  T n, high, low;
+};
+
+template <class T>
+ReducedParts<T> reduce_parts(const T& x) noexcept {
   constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
-  constexpr double rounder = 0x1.8p52;  // adding it leaves no bits for a fraction
   constexpr double part1 = 0x1.921fb544p+0, part2 = 0x1.0b4611a6p-34, part3 = 0x1.3198a2e037073p-69;
-  const double n = (x * two_over_pi + rounder) - rounder;
-  const double a = x - n * part1;
-  const double b = n * part2;
-  const double r = a - b;
-  const double tail = ((a - r) - b) - n * part3;
-  const double high = r + tail;
-  return {static_cast<unsigned>(static_cast<std::int64_t>(n)) & 3U, high, (r - high) + tail};
+  const T n = (x * T(two_over_pi) + T(rounder)) - T(rounder);
+  const T a = x - n * T(part1);
+  const T b = n * T(part2);
+  const T r = a - b;
+  const T tail = ((a - r) - b) - n * T(part3);
+  const T high = r + tail;
+  return {n, high, (r - high) + tail};
+}
+
+inline Reduced reduce_small(double x) noexcept {
+  const ReducedParts<double> r = reduce_parts(x);
+  return {static_cast<unsigned>(static_cast<std::int64_t>(r.n)) & 3U, r.high, r.low};
 }
 
 /// Payne & Hanek: the bits of 2/pi that matter for this exponent, times the 53-bit mantissa, modulo 4.
@@ -100,28 +113,44 @@ inline Reduced reduce_large(double x) noexcept {
   return reduced;
 }
 
+/// Sine and cosine of high + low, |high| <= pi/4 up to rounding. T: double, or lanes of it.
+template <class T>
+void sincos_of_reduced(const T& x, const T& low, T& s, T& c) noexcept {
+  const T z = x * x, one = T(1.0);
+  // Taylor polynomials, highest power first: on |x| <= pi/4 the first omitted terms are below 3e-18.
+  const auto horner = [&z](const auto& coefficients) {
+    T sum = T(coefficients[0]);
+    for (std::size_t k = 1; k < coefficients.size(); ++k) sum = T(coefficients[k]) + z * sum;
+    return sum;
+  };
+  constexpr std::array<double, 8> sine = {1.0 / 355687428096000.0,
+                                          -1.0 / 1307674368000.0,
+                                          1.0 / 6227020800.0,
+                                          -1.0 / 39916800,
+                                          1.0 / 362880,
+                                          -1.0 / 5040,
+                                          1.0 / 120,
+                                          -1.0 / 6};
+  constexpr std::array<double, 7> cosine = {1.0 / 20922789888000.0,
+                                            -1.0 / 87178291200.0,
+                                            1.0 / 479001600.0,
+                                            -1.0 / 3628800,
+                                            1.0 / 40320,
+                                            -1.0 / 720,
+                                            1.0 / 24};
+  const T half = z * T(0.5);
+  s = x + (x * z * horner(sine) + low * (one - half));
+  const T w = one - half;
+  c = w + (((one - w) - half) + (z * z * horner(cosine) - x * low));
+}
+
 }  // namespace detail
 
 inline SinCos sincos(double angle) noexcept {
   const detail::Reduced r =
       std::abs(angle) <= detail::cody_waite_limit ? detail::reduce_small(angle) : detail::reduce_large(angle);
-  const double x = r.high, z = x * x;
-  // Taylor polynomials: on |x| <= pi/4 the first omitted terms are below 3e-18.
-  const double s_poly =
-      -1.0 / 6 +
-      z * (1.0 / 120 +
-           z * (-1.0 / 5040 + z * (1.0 / 362880 + z * (-1.0 / 39916800 + z * (1.0 / 6227020800.0 +
-                                                                              z * (-1.0 / 1307674368000.0 +
-                                                                                   z * (1.0 / 355687428096000.0)))))));
-  const double c_poly =
-      1.0 / 24 +
-      z * (-1.0 / 720 +
-           z * (1.0 / 40320 + z * (-1.0 / 3628800 + z * (1.0 / 479001600.0 +
-                                                         z * (-1.0 / 87178291200.0 + z * (1.0 / 20922789888000.0))))));
-  const double s = x + (x * z * s_poly + r.low * (1.0 - z / 2));
-  const double half = z / 2;
-  const double w = 1.0 - half;
-  const double c = w + (((1.0 - w) - half) + (z * z * c_poly - x * r.low));
+  double s, c;
+  detail::sincos_of_reduced(r.high, r.low, s, c);
   switch (r.quadrant) {
     case 0: return {s, c};
     case 1: return {c, -s};

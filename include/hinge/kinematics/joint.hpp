@@ -2,6 +2,7 @@
 // Joints: what connects a link to its parent, and the motion one value of its coordinate makes.
 #pragma once
 
+#include <array>
 #include <string>
 #include <utility>
 
@@ -50,24 +51,22 @@ struct Joint {
   bool has_dof() const noexcept { return kind != JointKind::fixed; }
 };
 
-/// The rotation by `angle` (rad) about a unit axis (Rodrigues), in a fixed order of operations; exactly the identity at
-/// 0.
+/// The rotation about the unit axis (x, y, z) by the angle of this sine and cosine (Rodrigues), column by column, in a
+/// fixed order of operations. T: double, or lanes of it.
+template <class T>
+std::array<T, 9> rotation_columns(const T& x, const T& y, const T& z, const T& sine, const T& cosine) noexcept {
+  const T v = T(1.0) - cosine;
+  const T xs = x * sine, ys = y * sine, zs = z * sine;
+  return {cosine + x * x * v, x * y * v + zs,     x * z * v - ys,  //
+          x * y * v - zs,     cosine + y * y * v, y * z * v + xs,  //
+          x * z * v + ys,     y * z * v - xs,     cosine + z * z * v};
+}
+
+/// The rotation by `angle` (rad) about a unit axis; exactly the identity at 0.
 inline Mat3 rotation_about(const Vec3& axis, double angle) noexcept {
   const SinCos sc = sincos(angle);
-  const double v = 1.0 - sc.cos;
-  const double x = axis[0], y = axis[1], z = axis[2];
-  const double xs = x * sc.sin, ys = y * sc.sin, zs = z * sc.sin;
-  Mat3 r;
-  r(0, 0) = sc.cos + x * x * v;
-  r(1, 1) = sc.cos + y * y * v;
-  r(2, 2) = sc.cos + z * z * v;
-  r(0, 1) = x * y * v - zs;
-  r(1, 0) = x * y * v + zs;
-  r(0, 2) = x * z * v + ys;
-  r(2, 0) = x * z * v - ys;
-  r(1, 2) = y * z * v - xs;
-  r(2, 1) = y * z * v + xs;
-  return r;
+  const auto columns = rotation_columns(axis[0], axis[1], axis[2], sc.sin, sc.cos);
+  return Eigen::Map<const Mat3>(columns.data());
 }
 
 /// The motion a joint with a unit axis makes at q (rad or model length unit). Exactly the identity at q = 0.

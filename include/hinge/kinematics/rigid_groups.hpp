@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "hinge/core/id.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/kinematics/joint.hpp"
+#include "hinge/kinematics/joint_batch.hpp"
 #include "hinge/kinematics/kinematic_tree.hpp"
 
 namespace hinge {
@@ -42,6 +44,9 @@ class RigidGroups {
         RigidGroup group{group_of_[parent], joint, position[index(tree.dof_of(link))]};
         group.joint.origin = origin;
         group_of_[l] = id<GroupId>(groups_.size());
+        const std::size_t place = (groups_.size() - 1) % JointBatch::size;
+        if (place == 0) batches_.emplace_back();
+        batches_.back().set(place, group.joint, group.dof);
         groups_.push_back(std::move(group));
       } else {
         group_of_[l] = group_of_[parent];
@@ -52,12 +57,15 @@ class RigidGroups {
 
   std::size_t size() const noexcept { return groups_.size(); }
   const RigidGroup& operator[](GroupId group) const noexcept { return groups_[index(group)]; }
+  /// The joints of groups 1 .. size() - 1, eight by eight.
+  std::span<const JointBatch> joint_batches() const noexcept { return batches_; }
   GroupId group_of(LinkId link) const noexcept { return group_of_[index(link)]; }
   /// The link's frame in its group's frame (constant).
   const Pose& link_in_group(LinkId link) const noexcept { return link_in_group_[index(link)]; }
 
  private:
   std::vector<RigidGroup> groups_;
+  std::vector<JointBatch> batches_;
   std::vector<GroupId> group_of_;
   std::vector<Pose> link_in_group_;
 };
