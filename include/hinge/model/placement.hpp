@@ -29,21 +29,22 @@ class Placement {
       : model_(std::move(model)),
         poses_(model_->groups(), model_->selection().size()),
         placed_(model_->primitives().begin(), model_->primitives().end()),
-        version_(model_->groups()->size(), 1),
-        placed_version_(model_->groups()->size(), 0) {}
+        moved_at_(model_->groups()->size(), 0),
+        placed_at_(model_->groups()->size(), 0),
+        primitive_placed_at_(model_->size(), 0) {}
 
   /// See PoseSource::set_configuration.
   void update(std::span<const double> q) {
     if (source_ == Source::coordinates) poses_.forget();
     poses_.set_configuration(q);
-    take_poses(Source::configuration);
+    begin(Source::configuration);
   }
 
   /// See PoseSource::set_poses.
   void update_poses(std::span<const Pose> poses) {
     if (source_ == Source::coordinates) poses_.forget();
     poses_.set_poses(poses);
-    take_poses(Source::poses);
+    begin(Source::poses);
   }
 
   /// World coordinates of every primitive, computed elsewhere. ConfigurationError: wrong number, or bounds not finite.
@@ -56,20 +57,32 @@ class Placement {
 
   /// Brings the primitives of a group up to date.
   void place(GroupId group) noexcept {
-    const std::size_t g = index(group);
-    if (placed_version_[g] == version_[g]) return;
-    placed_version_[g] = version_[g];
+    const std::uint64_t now = version(group);
+    if (placed_at_[index(group)] == now) return;
+    placed_at_[index(group)] = now;
     if (source_ == Source::coordinates) return;
-    const Pose& pose = poses_.pose(group);
-    const auto local = model_->primitives();
-    // The identity is skipped so that coordinates keep their bits, negative zeros included.
-    const bool still = pose == Pose{};
-    for (const PrimitiveId i : model_->primitives_of(group))
-      placed_[index(i)] = still ? local[index(i)] : local[index(i)].placed(pose);
+    const Pose pose = poses_.pose(group);
+    for (const PrimitiveId i : model_->primitives_of(group)) place_at(i, pose);
   }
 
-  /// Changes whenever the coordinates of the group may have changed: what was built from them is stale.
-  std::uint64_t version(GroupId group) const noexcept { return version_[index(group)]; }
+  /// World coordinates of one primitive, brought up to date alone.
+  const P& at(PrimitiveId i) noexcept {
+    if (primitive_placed_at_[index(i)] != update_) {
+      primitive_placed_at_[index(i)] = update_;
+      if (source_ != Source::coordinates) place_at(i, poses_.pose(model_->group_of(i)));
+    }
+    return placed_[index(i)];
+  }
+
+  /// The number of the last update. Starts at 1.
+  std::uint64_t update_number() const noexcept { return update_; }
+  /// The last update that may have changed the coordinates of the group: what was built from them before it is stale.
+  std::uint64_t version(GroupId group) noexcept {
+    settle();
+    return group == GroupId{0} ? world_moved_at_ : std::max(all_moved_at_, moved_at_[index(group)]);
+  }
+  /// Did so little move in the last update that engines should look for what stood still?
+  bool few_moved() const noexcept { return source_ == Source::configuration && poses_.few_changed(); }
 
   /// Is the pair left out for the present coordinates? With a configuration, constant pairs are; with poses from
   /// elsewhere only pairs inside one group; coordinates from elsewhere bring their own geometry, so there every pair
@@ -79,34 +92,63 @@ class Placement {
     return source_ == Source::poses && model_->group_of(i) == model_->group_of(j);
   }
 
+  /// Do the coordinates come from a configuration, so that pairs across an axis are constant as well?
+  bool from_configuration() const noexcept { return source_ == Source::configuration; }
   /// Must pairs inside one rigid group be tested?
   bool groups_may_deform() const noexcept { return source_ == Source::coordinates; }
 
   /// Could the distance of these two groups have changed in the last update?
-  bool moved_apart(GroupId g, GroupId h) const noexcept {
+  bool moved_apart(GroupId g, GroupId h) noexcept {
     return source_ == Source::coordinates || poses_.component(g) != poses_.component(h);
   }
+  /// Groups of equal component kept their relative placement in the last update; only when groups do not deform.
+  std::size_t component(GroupId g) noexcept { return poses_.component(g); }
   /// Could the world coordinates of the group have changed in the last update?
-  bool moved(GroupId g) const noexcept { return source_ == Source::coordinates || poses_.moved(g); }
+  bool moved(GroupId g) noexcept { return source_ == Source::coordinates || version(g) == update_; }
 
   /// The pose of a group; only when the coordinates come from a configuration or poses.
-  const Pose& pose(GroupId group) noexcept { return poses_.pose(group); }
+  Pose pose(GroupId group) noexcept { return poses_.pose(group); }
+  const Frame& frame(GroupId group) noexcept { return poses_.frame(group); }
 
  private:
   enum class Source : unsigned char { configuration, poses, coordinates };
 
-  void take_poses(Source source) noexcept {
-    const bool all = source_ == Source::coordinates;
+  void place_at(PrimitiveId i, const Pose& pose) noexcept {
+    const P& local = model_->primitives()[index(i)];
+    // The identity is skipped so that coordinates keep their bits, negative zeros included.
+    placed_[index(i)] = pose == Pose{} ? local : local.placed(pose);
+  }
+
+  void begin(Source source) noexcept {
+    if (!settled_) all_moved_at_ = update_;  // nobody asked what the update before this one moved
+    ++update_;
+    settled_ = false;
+    if (source_ == Source::coordinates || source == Source::coordinates) {
+      all_moved_at_ = world_moved_at_ = update_;
+      settled_ = true;
+    }
     source_ = source;
-    for (std::size_t g = 0; g < version_.size(); ++g)
-      if (all || poses_.moved(id<GroupId>(g))) ++version_[g];
+    if (few_moved()) settle();
+  }
+
+  /// Finds out which groups the last update moved.
+  void settle() noexcept {
+    if (settled_) return;
+    settled_ = true;
+    for (std::size_t g = 1; g < moved_at_.size(); ++g)
+      if (poses_.moved(id<GroupId>(g))) moved_at_[g] = update_;
   }
 
   std::shared_ptr<const SelectedModel<P>> model_;
   PoseSource poses_;
   std::vector<P> placed_;
-  std::vector<std::uint64_t> version_;         // per group
-  std::vector<std::uint64_t> placed_version_;  // per group: the version placed_ holds
+  std::uint64_t update_ = 1;
+  std::uint64_t all_moved_at_ = 1;
+  std::uint64_t world_moved_at_ = 1;
+  bool settled_ = true;                             // moved_at_ knows about the last update
+  std::vector<std::uint64_t> moved_at_;             // per group: an update
+  std::vector<std::uint64_t> placed_at_;            // per group: the version placed_ holds
+  std::vector<std::uint64_t> primitive_placed_at_;  // the update in which at() placed it
   Source source_ = Source::configuration;
 };
 
@@ -121,8 +163,7 @@ void Placement<P>::update_placed(std::span<const P> placed) {
       throw ConfigurationError("placed primitive " + std::to_string(i) + ": its bounds are not finite");
   }
   std::copy(placed.begin(), placed.end(), placed_.begin());
-  for (std::uint64_t& version : version_) ++version;
-  source_ = Source::coordinates;
+  begin(Source::coordinates);
 }
 
 }  // namespace hinge

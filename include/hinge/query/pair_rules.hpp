@@ -21,7 +21,7 @@ inline double clearance_of(std::span<const double> clearance, GroupId group) noe
 /// Pairs inside one model. A view: lives as long as one query.
 template <Primitive P, PairFilter F, DistanceMatrix D>
 struct SelfRules {
-  const Placement<P>& placement;
+  Placement<P>& placement;
   const F& filter;
   const D& matrix;
   const QueryOptions& options;
@@ -45,8 +45,8 @@ struct SelfRules {
 /// Pairs of two models: i of the first, j of the second.
 template <Primitive P, PairFilter F, CrossMatrix D>
 struct CrossRules {
-  const Placement<P>& first;
-  const Placement<P>& second;
+  Placement<P>& first;
+  Placement<P>& second;
   const F& filter;
   const D& first_matrix;
   const D& second_matrix;

@@ -156,7 +156,7 @@ class Lazy {
         });
   }
 
-  bool moved_apart(std::uint32_t a, std::uint32_t b) const noexcept {
+  bool moved_apart(std::uint32_t a, std::uint32_t b) noexcept {
     for (const GroupId g : layout_->groups(a))
       for (const GroupId h : layout_->groups(b))
         if (placement_.moved_apart(g, h)) return true;
@@ -174,7 +174,7 @@ class Lazy {
 
   /// Every admitted pair of two leaves, or inside one; false when the collector wants no more.
   template <Collector C>
-  bool test_leaves(std::uint32_t a, std::uint32_t b, C& collector, const Rules& rules, QueryCounts& counts) const {
+  bool test_leaves(std::uint32_t a, std::uint32_t b, C& collector, const Rules& rules, QueryCounts& counts) {
     const std::span<const P> placed = placement_.placed();
     const auto test = [&](PrimitiveId i, PrimitiveId j, const auto& admitted) {
       offer(collector, i, j, placed[index(i)], placed[index(j)], rules.threshold(i, j), admitted);
