@@ -36,6 +36,17 @@ concept CrossMatrix = DistanceMatrix<D> && requires(const D& matrix, const D& ot
   noexcept->std::same_as<bool>;
 };
 
+/// Optional refinement: thresholds depend on few types, so that engines can look them up by type.
+template <class D>
+concept TypesPrimitives = DistanceMatrix<D> && requires(const D& matrix, PrimitiveId i, std::size_t type) {
+  { matrix.type_count() }
+  noexcept->std::same_as<std::size_t>;
+  { matrix.type(i) }
+  noexcept->std::convertible_to<std::size_t>;
+  { matrix.between_types(type, type) }
+  noexcept->std::same_as<double>;
+};
+
 /// The same threshold for every pair.
 class UniformClearance {
  public:
@@ -75,6 +86,7 @@ class TypedThresholds {
   std::size_t size() const noexcept { return data_->types.size(); }
   std::size_t type_count() const noexcept { return data_->type_count; }
   std::uint16_t type(PrimitiveId i) const noexcept { return data_->types[index(i)]; }
+  double between_types(std::size_t s, std::size_t t) const noexcept { return data_->table[s * data_->type_count + t]; }
 
  private:
   struct Data {
@@ -108,6 +120,6 @@ inline TypedThresholds::TypedThresholds(std::vector<std::uint16_t> types, std::s
   data_ = std::make_shared<const Data>(Data{std::move(types), type_count, std::move(table), std::move(reach)});
 }
 
-static_assert(CrossMatrix<UniformClearance> && CrossMatrix<TypedThresholds>);
+static_assert(CrossMatrix<UniformClearance> && CrossMatrix<TypedThresholds> && TypesPrimitives<TypedThresholds>);
 
 }  // namespace hinge

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// RigidBlocks: blocks and trees of large rigid groups in their group's frame, made once and never rebuilt.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hinge/bounds/aabb.hpp"
+#include "hinge/bounds/float_box.hpp"
+#include "hinge/engine/wide/block_layout.hpp"
+#include "hinge/engine/wide/threshold_classes.hpp"
+#include "hinge/model/selected_model.hpp"
+#include "hinge/primitive/batch.hpp"
+
+namespace hinge {
+
+/// Sixteen boxes as middles and half lengths, relative to the middle of their tree, scaled.
+struct alignas(64) LocalRow {
+  std::array<float, 3 * simd::width> middle{};
+  std::array<float, 3 * simd::width> half{};
+};
+
+/// The static tree over a group's blocks, sixteen wide and implicit: row r of a level holds the boxes of rows (or
+/// blocks) 16 r .. 16 r + 15 of the level below.
+struct BlockTree {
+  struct Level {
+    std::uint32_t first_row = 0;  ///< in RigidBlocks::rows
+    std::uint32_t boxes = 0;      ///< in all its rows
+  };
+  std::vector<Level> levels;  ///< the first is above the blocks, the last has one row
+};
+
+/// A box in a group's frame: its middle in the model's unit, its half lengths scaled and rounded up.
+struct LocalBox {
+  std::array<double, 3> middle{};
+  std::array<float, 3> half{};
+};
+
+template <Primitive P>
+struct RigidBlocks {
+  RigidBlocks(const BlockLayout& layout, const SelectedModel<P>& model, const ThresholdClasses& classes);
+
+  std::vector<LocalBox> block;    ///< per block; meaningless for mixed ones
+  std::vector<LocalBox> unit;     ///< per unit: of the whole tree, where it has one
+  std::vector<float> offsets;     ///< per block, for primitives whose batches turn: from the block's middle, scaled
+  std::vector<float> reach;       ///< per block: largest reach, scaled, rounded up
+  std::vector<float> unit_reach;  ///< per unit
+  std::vector<BlockTree> tree;    ///< per unit; empty where it is one block
+  std::vector<LocalRow> rows;     ///< of all trees
+  float largest_half = 0.0F;      ///< over all blocks
+  double largest_local = 0.0;     ///< largest magnitude of a coordinate in its group's frame, model unit
+
+ private:
+  static LocalBox local_box(const Aabb& box, double scale) noexcept {
+    LocalBox local;
+    for (int k = 0; k < 3; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      local.middle[i] = box.middle(k);
+      local.half[i] = float_above(std::max(box.upper[k] - local.middle[i], local.middle[i] - box.lower[k]) * scale *
+                                  (1.0 + 0x1p-50));
+    }
+    return local;
+  }
+  void make_tree(const BlockLayout& layout, std::size_t u, const std::vector<Aabb>& boxes);
+};
+
+template <Primitive P>
+RigidBlocks<P>::RigidBlocks(const BlockLayout& layout, const SelectedModel<P>& model, const ThresholdClasses& classes)
+    : block(layout.block_count()), unit(layout.units.size()), tree(layout.units.size()) {
+  std::vector<Aabb> boxes(layout.block_count());
+  if constexpr (TurnsBatch<P>) offsets.resize(layout.block_count() * Batch<P>::floats);
+  for (std::size_t b = 0; b < layout.block_count(); ++b) {
+    double largest_reach = 0.0;
+    for (std::size_t k = 0; k < simd::width; ++k) {
+      const std::uint32_t i = layout.primitive[b * simd::width + k];
+      const Aabb box = model.primitives()[i].bounds();
+      boxes[b].extend(box);
+      largest_reach = std::max(largest_reach, classes.reach(classes.class_of(i)));
+      for (int axis = 0; axis < 3; ++axis)
+        largest_local = std::max({largest_local, std::abs(box.lower[axis]), std::abs(box.upper[axis])});
+    }
+    reach.push_back(float_above(largest_reach * layout.scale));
+    if (!layout.blocks[b].rigid) continue;
+    block[b] = local_box(boxes[b], layout.scale);
+    largest_half = std::max({largest_half, block[b].half[0], block[b].half[1], block[b].half[2]});
+    if constexpr (TurnsBatch<P>) {
+      const Vec3 middle(block[b].middle[0], block[b].middle[1], block[b].middle[2]);
+      for (std::size_t k = 0; k < simd::width; ++k)
+        Batch<P>::set(offsets.data() + b * Batch<P>::floats, k,
+                      model.primitives()[layout.primitive[b * simd::width + k]], middle, layout.scale);
+    }
+  }
+  for (std::size_t u = 0; u < layout.units.size(); ++u) {
+    const Unit& own = layout.units[u];
+    Aabb box;
+    unit_reach.push_back(0.0F);
+    for (std::uint32_t b = own.first_block; b < own.first_block + own.block_count; ++b) {
+      box.extend(boxes[b]);
+      unit_reach.back() = std::max(unit_reach.back(), reach[b]);
+    }
+    if (layout.blocks[own.first_block].rigid) unit[u] = local_box(box, layout.scale);
+    if (own.block_count > 1) make_tree(layout, u, boxes);
+  }
+}
+
+template <Primitive P>
+void RigidBlocks<P>::make_tree(const BlockLayout& layout, std::size_t u, const std::vector<Aabb>& boxes) {
+  const Unit& own = layout.units[u];
+  std::vector<Aabb> level(boxes.begin() + own.first_block, boxes.begin() + own.first_block + own.block_count);
+  const std::array<double, 3>& origin = unit[u].middle;
+  // A middle turned in float is off by less than this share of its size, counted over its three products and sums.
+  constexpr double turning_error = 16 * 0x1p-24;
+  do {
+    std::vector<Aabb> above;
+    tree[u].levels.push_back({static_cast<std::uint32_t>(rows.size()), static_cast<std::uint32_t>(level.size())});
+    for (std::size_t first = 0; first < level.size(); first += simd::width) {
+      LocalRow row;
+      Aabb all;
+      for (std::size_t k = 0; k < simd::width && first + k < level.size(); ++k) {
+        const LocalBox box = local_box(level[first + k], layout.scale);
+        all.extend(level[first + k]);
+        double size = 0.0;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          size += std::abs(box.middle[axis] - origin[axis]) * layout.scale + static_cast<double>(box.half[axis]);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          row.middle[axis * simd::width + k] = static_cast<float>((box.middle[axis] - origin[axis]) * layout.scale);
+          row.half[axis * simd::width + k] = float_above(static_cast<double>(box.half[axis]) + turning_error * size);
+        }
+      }
+      rows.push_back(row);
+      above.push_back(all);
+    }
+    level = std::move(above);
+  } while (level.size() > 1);
+}
+
+}  // namespace hinge

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// WideSide: one model in one query of engine/wide: its blocks in their present state, and searches through them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "hinge/bounds/float_box.hpp"
+#include "hinge/engine/wide/block_layout.hpp"
+#include "hinge/engine/wide/near_masks.hpp"
+#include "hinge/engine/wide/wide_state.hpp"
+#include "hinge/model/placement.hpp"
+#include "hinge/query/pair_rules.hpp"
+#include "hinge/query/query_options.hpp"
+#include "hinge/simd/gather_bits.hpp"
+
+namespace hinge {
+
+template <Primitive P>
+class WideSide {
+ public:
+  static constexpr std::size_t no_component = ~std::size_t{0};
+
+  template <PairFilter F>
+  WideSide(std::shared_ptr<const WideParts<P>> parts, const SelectedModel<P>& model, const F& filter,
+           bool inside_groups)
+      : near_(std::make_shared<const NearMasks>(parts->layout, model, filter, inside_groups)),
+        table_(parts->classes.table(parts->layout.scale)),
+        state_(std::move(parts)) {}
+
+  const BlockLayout& layout() const noexcept { return state_.parts().layout; }
+  const WideParts<P>& parts() const noexcept { return state_.parts(); }
+  const NearMasks& near() const noexcept { return *near_; }
+  const ThresholdTable& table() const noexcept { return table_; }
+  WideState<P>& state() noexcept { return state_; }
+
+  /// What the options of a query mean for the units. Units are brought up to date one by one after that.
+  void begin(Placement<P>& placement, bool moved_only, std::span<const double> clearance) {
+    state_.begin(placement);
+    extra_.clear();
+    largest_extra_ = 0.0F;
+    if (!clearance.empty())
+      for (const Block& block : layout().blocks) {
+        double extra = 0.0;
+        for (const GroupId g : layout().groups_of(block)) extra = std::max(extra, clearance_of(clearance, g));
+        extra_.push_back(float_above(extra * layout().scale));
+        largest_extra_ = std::max(largest_extra_, extra_.back());
+      }
+    component_.clear();
+    if (moved_only && !placement.groups_may_deform())
+      for (const Unit& unit : layout().units) {
+        const auto groups = layout().groups_of(layout().blocks[unit.first_block]);
+        std::size_t component = placement.component(groups.front());
+        for (const GroupId g : groups)
+          if (placement.component(g) != component) component = no_component;
+        component_.push_back(component);
+      }
+  }
+
+  bool has_extra() const noexcept { return !extra_.empty(); }
+  float extra(std::uint32_t block) const noexcept { return extra_.empty() ? 0.0F : extra_[block]; }
+  float largest_extra() const noexcept { return largest_extra_; }
+
+  /// Did the two units (or the groups inside one) keep their relative placement, in a query that asks for what moved?
+  bool kept_apart(std::size_t u, std::size_t w) const noexcept {
+    return !component_.empty() && component_[u] == component_[w] && component_[u] != no_component;
+  }
+
+  /// Calls visit(unit) for the units before `end` whose boxes share a point with `box`.
+  template <class Visit>
+  void sweep(const FloatBox& box, std::size_t end, QueryCounts& counts, const Visit& visit) {
+    const std::size_t full = end / simd::width;
+    if (full <= simd::width) {
+      for (std::size_t r = 0; r < full; ++r) sweep_row(box, r, simd::all_bits, counts, visit);
+    } else {
+      std::array<std::uint32_t, simd::width> rows;
+      for (std::size_t h = 0; h * simd::width < full; ++h) {
+        simd::Bits bits = overlapping(state_.hulls(h), box);
+        if (full - h * simd::width < simd::width) bits &= (simd::Bits{1} << (full - h * simd::width)) - 1;
+        ++counts.boxes_tested;
+        const std::size_t n = simd::append_lanes(bits, static_cast<std::uint32_t>(h * simd::width), rows.data());
+        for (std::size_t k = 0; k < n; ++k) sweep_row(box, rows[k], simd::all_bits, counts, visit);
+      }
+    }
+    if (end % simd::width != 0) sweep_row(box, full, (simd::Bits{1} << (end % simd::width)) - 1, counts, visit);
+  }
+
+  /// Calls visit(block) for the blocks of a unit's tree whose boxes share a point with `box`.
+  template <class Visit>
+  void descend(std::size_t u, const FloatBox& box, Placement<P>& placement, QueryCounts& counts, const Visit& visit) {
+    const std::vector<BlockTree::Level>& levels = parts().rigid.tree[u].levels;
+    struct Node {
+      std::uint32_t row, level;
+    };
+    // Levels hold sixteen times the rows of the one above, so eight are more than a 32-bit index can fill; a level
+    // leaves at most fifteen rows waiting.
+    std::array<Node, 8 * simd::width> stack;
+    std::size_t waiting = 0;
+    stack[waiting++] = {0, static_cast<std::uint32_t>(levels.size() - 1)};
+    std::array<std::uint32_t, simd::width> found;
+    while (waiting > 0) {
+      const Node node = stack[--waiting];
+      const BoxRow& boxes = state_.tree_row(u, levels[node.level].first_row + node.row, placement);
+      ++counts.boxes_tested;
+      const auto first = static_cast<std::uint32_t>(node.row * simd::width);
+      simd::Bits bits = overlapping(boxes, box);
+      // Said in numbers: an infinite box shares points with the places that hold none.
+      if (levels[node.level].boxes - first < simd::width)
+        bits &= (simd::Bits{1} << (levels[node.level].boxes - first)) - 1;
+      const std::size_t n = simd::append_lanes(bits, first, found.data());
+      for (std::size_t k = 0; k < n; ++k) {
+        if (node.level == 0)
+          visit(layout().units[u].first_block + found[k]);
+        else
+          stack[waiting++] = {found[k], node.level - 1};
+      }
+    }
+  }
+
+ private:
+  template <class Visit>
+  void sweep_row(const FloatBox& box, std::size_t row, simd::Bits mask, QueryCounts& counts, const Visit& visit) {
+    std::array<std::uint32_t, simd::width> found;
+    ++counts.boxes_tested;
+    const std::size_t n = simd::append_lanes(overlapping(state_.boxes(row), box) & mask,
+                                             static_cast<std::uint32_t>(row * simd::width), found.data());
+    for (std::size_t k = 0; k < n; ++k) visit(found[k]);
+  }
+
+  std::shared_ptr<const NearMasks> near_;
+  ThresholdTable table_;
+  WideState<P> state_;
+  std::vector<float> extra_;  // per block, scaled; empty: none
+  float largest_extra_ = 0.0F;
+  std::vector<std::size_t> component_;  // per unit; empty: every pair of units counts
+};
+
+}  // namespace hinge

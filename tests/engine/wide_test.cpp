@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// engine/wide against brute force: random mechanisms with small, large and very large groups.
+#include "hinge/engine/wide/wide.hpp"
+
+#include <gtest/gtest.h>
+
+#include <type_traits>
+
+#include "engine/side_by_side.hpp"
+
+namespace hinge {
+namespace {
+
+using test::compare_with_brute;
+using test::ExcludedPairs;
+using test::make_primitive;
+using test::Random;
+using test::UnlistedPairs;
+
+template <class P>
+class WideEquality : public testing::Test {};
+TYPED_TEST_SUITE(WideEquality, test::Primitives);
+
+TYPED_TEST(WideEquality, HoldsOnRandomMechanisms) {
+  using P = TypeParam;
+  // Brute force over curved or flat primitives takes a microsecond a pair: few large cases for them.
+  const std::uint64_t seeds = std::is_same_v<P, Point> ? 300 : 100;
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const std::size_t per_link = seed % (std::is_same_v<P, Point> ? 3 : 25) == 0 ? 60 : 6;
+    const auto model = test::random_model(random, 12, per_link, random.one_in(2), make_primitive<P>);
+    const ExcludedPairs filter(model.size(), random, 5);
+    if (random.one_in(2))
+      compare_with_brute<P, ExcludedPairs, Wide>(random, filter, model);
+    else
+      compare_with_brute<P, UnlistedPairs, Wide>(random, UnlistedPairs{filter}, model);
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+}  // namespace
+}  // namespace hinge
