@@ -66,6 +66,13 @@ class Hierarchy {
   /// The pair with the smallest d - M, most interpenetrating when colliding; none when no pair is tested.
   std::optional<Hit> self_closest(const QueryOptions& options = {}) { return self(Closest{}, options).hit(); }
 
+  /// Any collector of your own, handed over in the order the engine finds the pairs.
+  template <Collector C>
+  void self_query(C& collector, const QueryOptions& options = {}) {
+    check_clearance(options.clearance, model().groups()->size());
+    engine_.self_query(collector, options);
+  }
+
   // --- the same against another model; `across` admits (primitive of this, primitive of other) ---
   // ModelError: the two distance matrices do not belong together.
 
@@ -137,8 +144,7 @@ class Hierarchy {
 
   template <Collector C>
   C self(C collector, const QueryOptions& options) {
-    check_clearance(options.clearance, model().groups()->size());
-    engine_.self_query(collector, options);
+    self_query(collector, options);
     return collector;
   }
   template <Collector C, PairFilter G>

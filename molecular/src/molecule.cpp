@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "hinge/kinematics/joint.hpp"
@@ -110,30 +111,54 @@ class MoleculeBuilder {
     return roots;
   }
 
-  /// Breadth-first over hinges from a root fragment. Link frames are the structure's frame at the reference.
+  /// A spanning tree over hinges from a root fragment, found breadth first, its links added depth first and small
+  /// branches first: what hangs on the chain stays beside it. Link frames are the structure's frame at the reference.
   void grow(std::uint32_t root) {
-    link_[root] = static_cast<std::uint32_t>(index(model_.add_link(world, Fixed{})));
-    std::vector<std::uint32_t> queue{root};
-    for (std::size_t k = 0; k < queue.size(); ++k)
-      for (const Hinge& hinge : hinges_[queue[k]]) {
+    struct Branch {
+      std::uint32_t fragment;
+      std::size_t parent;
+      Hinge hinge;
+      std::size_t size = 1;
+      std::vector<std::size_t> children{};
+    };
+    std::vector<Branch> tree{{root, 0, {}}};
+    reached_.insert(root);
+    for (std::size_t k = 0; k < tree.size(); ++k)
+      for (const Hinge& hinge : hinges_[tree[k].fragment]) {
         const std::uint32_t next = rigid_.find(hinge.to);
-        if (done_.contains(hinge.torsion)) continue;
-        done_.insert({hinge.torsion, {}});
-        if (link_[next] != none) {
+        if (!done_.insert({hinge.torsion, {}}).second) continue;
+        if (reached_.insert(next).second)
+          tree.push_back({next, k, hinge});
+        else
           note(hinge.torsion, "closes a cycle of torsions and stays at its reference");
-          continue;
-        }
-        // Turning the far side by +q about the axis pointing at it raises the dihedral by q, from either end.
-        const Vec3 axis = at(hinge.to) - at(hinge.from);
-        const DofId dof = id<DofId>(model_.tree().dof_count());
-        const Torsion& torsion = molecule_.torsions_[hinge.torsion];
-        link_[next] = static_cast<std::uint32_t>(
-            index(model_.add_link(id<LinkId>(link_[queue[k]]), Revolute{axis, at(hinge.from), {}, torsion.name})));
-        // The far atom of the bond does not move against the near side either, and belongs to its pseudo-backbone.
-        on_axis_[hinge.to] = link_[queue[k]];
-        done_[hinge.torsion] = dof;
-        queue.push_back(next);
       }
+    for (std::size_t k = tree.size(); k-- > 1;) {
+      tree[tree[k].parent].size += tree[k].size;
+      tree[tree[k].parent].children.push_back(k);
+    }
+    std::vector<std::size_t> stack{0};
+    while (!stack.empty()) {
+      Branch& branch = tree[stack.back()];
+      stack.pop_back();
+      if (branch.fragment == root)
+        link_[root] = static_cast<std::uint32_t>(index(model_.add_link(world, Fixed{})));
+      else
+        add_joint(branch.fragment, link_[tree[branch.parent].fragment], branch.hinge);
+      std::stable_sort(branch.children.begin(), branch.children.end(),
+                       [&](std::size_t a, std::size_t b) { return tree[a].size > tree[b].size; });
+      stack.insert(stack.end(), branch.children.begin(), branch.children.end());
+    }
+  }
+
+  void add_joint(std::uint32_t fragment, std::uint32_t parent, const Hinge& hinge) {
+    // Turning the far side by +q about the axis pointing at it raises the dihedral by q, from either end.
+    const Vec3 axis = at(hinge.to) - at(hinge.from);
+    done_[hinge.torsion] = id<DofId>(model_.tree().dof_count());
+    const std::string& name = molecule_.torsions_[hinge.torsion].name;
+    link_[fragment] = static_cast<std::uint32_t>(
+        index(model_.add_link(id<LinkId>(parent), Revolute{axis, at(hinge.from), {}, name})));
+    // The far atom of the bond does not move against the near side either, and belongs to its pseudo-backbone.
+    on_axis_[hinge.to] = parent;
   }
 
   void add_atoms() {
@@ -186,6 +211,7 @@ class MoleculeBuilder {
   Fragments rigid_;
   std::map<std::uint32_t, std::vector<Hinge>> hinges_;  // by fragment
   std::vector<std::uint32_t> link_;                     // by fragment
+  std::set<std::uint32_t> reached_;                     // fragments
   std::map<std::uint32_t, std::uint32_t> on_axis_;      // atom -> link of the near side
   std::map<std::uint32_t, std::optional<DofId>> done_;  // torsion -> its DOF, if it got one
 };

@@ -25,6 +25,14 @@ struct FloatBox {
   std::array<float, 3> upper{-std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(),
                              -std::numeric_limits<float>::infinity()};
 
+  FloatBox() = default;
+  FloatBox(const std::array<float, 3>& low, const std::array<float, 3>& high) noexcept : lower(low), upper(high) {}
+
+  /// All of space.
+  static FloatBox everything() noexcept {
+    constexpr float inf = std::numeric_limits<float>::infinity();
+    return {{-inf, -inf, -inf}, {inf, inf, inf}};
+  }
   /// Grown by r on every side, up to rounding.
   FloatBox grown(float r) const noexcept {
     FloatBox box;
@@ -41,11 +49,10 @@ struct FloatBox {
     }
     return *this;
   }
-  /// Largest magnitude of a coordinate; 0 for the empty box.
+  /// Largest magnitude of a coordinate of a box that is not empty.
   float extent() const noexcept {
     float e = 0.0F;
-    for (std::size_t k = 0; k < 3; ++k)
-      if (lower[k] <= upper[k]) e = std::max({e, std::abs(lower[k]), std::abs(upper[k])});
+    for (std::size_t k = 0; k < 3; ++k) e = std::max(e, std::max(-lower[k], upper[k]));
     return e;
   }
 };
@@ -86,7 +93,7 @@ struct alignas(64) BoxRow {
 };
 
 /// Which of the sixteen share a point with the box. NaN counts as apart: coordinates are checked to be finite before.
-inline simd::Bits overlapping(const BoxRow& row, const FloatBox& box) noexcept {
+[[gnu::always_inline]] inline simd::Bits overlapping(const BoxRow& row, const FloatBox& box) noexcept {
   using simd::Float16;
   constexpr std::size_t n = BoxRow::size;
   simd::Bits bits = simd::all_bits;

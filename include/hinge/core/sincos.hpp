@@ -39,7 +39,7 @@ struct ReducedParts {
 };
 
 template <class T>
-ReducedParts<T> reduce_parts(const T& x) noexcept {
+[[gnu::always_inline]] inline ReducedParts<T> reduce_parts(const T& x) noexcept {
   constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
   constexpr double part1 = 0x1.921fb544p+0, part2 = 0x1.0b4611a6p-34, part3 = 0x1.3198a2e037073p-69;
   const T n = (x * T(two_over_pi) + T(rounder)) - T(rounder);
@@ -115,7 +115,7 @@ inline Reduced reduce_large(double x) noexcept {
 
 /// Sine and cosine of high + low, |high| <= pi/4 up to rounding. T: double, or lanes of it.
 template <class T>
-void sincos_of_reduced(const T& x, const T& low, T& s, T& c) noexcept {
+[[gnu::always_inline]] inline void sincos_of_reduced(const T& x, const T& low, T& s, T& c) noexcept {
   const T z = x * x, one = T(1.0);
   // Taylor polynomials, highest power first: on |x| <= pi/4 the first omitted terms are below 3e-18.
   const auto horner = [&z](const auto& coefficients) {

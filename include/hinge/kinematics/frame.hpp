@@ -49,7 +49,8 @@ class FrameColumns {
 };
 
 /// a, then (in a's frame) the motion whose twelve entries, column by column, lie `stride` doubles apart.
-inline void compose(const Frame& a, const double* motion, std::size_t stride, Frame& result) noexcept {
+[[gnu::always_inline]] inline void compose(const Frame& a, const double* motion, std::size_t stride,
+                                           Frame& result) noexcept {
   const FrameColumns columns(a);
   const auto entry = [&](std::size_t k) { return motion[k * stride]; };
   for (std::size_t k = 0; k < 3; ++k)

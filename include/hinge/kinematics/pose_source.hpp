@@ -51,6 +51,11 @@ class PoseSource {
     return frames_[index(group)];
   }
   Pose pose(GroupId group) noexcept { return frame(group).pose(); }
+  /// World frames of all groups up to this one, by group.
+  std::span<const Frame> frames_through(GroupId last) noexcept {
+    frame(last);
+    return std::span(frames_).first(computed_);
+  }
 
   /// Did the group's pose change in the last set_...()? All but the world count as moved after the first.
   bool moved(GroupId group) noexcept {

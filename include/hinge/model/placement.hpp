@@ -62,14 +62,21 @@ class Placement {
     placed_at_[index(group)] = now;
     if (source_ == Source::coordinates) return;
     const Pose pose = poses_.pose(group);
-    for (const PrimitiveId i : model_->primitives_of(group)) place_at(i, pose);
+    // The identity is skipped so that coordinates keep their bits, negative zeros included.
+    const bool still = pose == Pose{};
+    const auto local = model_->primitives();
+    for (const PrimitiveId i : model_->primitives_of(group))
+      placed_[index(i)] = still ? local[index(i)] : local[index(i)].placed(pose);
   }
 
   /// World coordinates of one primitive, brought up to date alone.
   const P& at(PrimitiveId i) noexcept {
     if (primitive_placed_at_[index(i)] != update_) {
       primitive_placed_at_[index(i)] = update_;
-      if (source_ != Source::coordinates) place_at(i, poses_.pose(model_->group_of(i)));
+      const P& local = model_->primitives()[index(i)];
+      const GroupId group = model_->group_of(i);
+      if (source_ != Source::coordinates)
+        placed_[index(i)] = group == GroupId{0} ? local : local.placed(poses_.frame(group).pose());
     }
     return placed_[index(i)];
   }
@@ -109,15 +116,10 @@ class Placement {
   /// The pose of a group; only when the coordinates come from a configuration or poses.
   Pose pose(GroupId group) noexcept { return poses_.pose(group); }
   const Frame& frame(GroupId group) noexcept { return poses_.frame(group); }
+  std::span<const Frame> frames_through(GroupId last) noexcept { return poses_.frames_through(last); }
 
  private:
   enum class Source : unsigned char { configuration, poses, coordinates };
-
-  void place_at(PrimitiveId i, const Pose& pose) noexcept {
-    const P& local = model_->primitives()[index(i)];
-    // The identity is skipped so that coordinates keep their bits, negative zeros included.
-    placed_[index(i)] = pose == Pose{} ? local : local.placed(pose);
-  }
 
   void begin(Source source) noexcept {
     if (!settled_) all_moved_at_ = update_;  // nobody asked what the update before this one moved

@@ -3,7 +3,11 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
 
 #include "hinge/bounds/float_box.hpp"
 #include "hinge/kinematics/frame.hpp"
@@ -31,13 +35,14 @@ struct Batch {
     }
   }
 
-  /// The same for a primitive given in its group's frame.
-  static void place(float* at, std::size_t lane, const P& local, const Frame& frame, const Vec3& origin,
-                    double scale) noexcept {
-    set(at, lane, local.placed(frame.pose()), origin, scale);
+  /// Sixteen primitives given in the frames of their groups; returns the box around them.
+  static FloatBox place(float* at, const P* local, const std::uint32_t* group, std::span<const Frame> frames,
+                        const Vec3& origin, double scale) noexcept {
+    for (std::size_t k = 0; k < simd::width; ++k) set(at, k, local[k].placed(frames[group[k]].pose()), origin, scale);
+    return hull(at);
   }
 
-  static FloatBox hull(const float* at) noexcept {
+  [[gnu::always_inline]] static FloatBox hull(const float* at) noexcept {
     FloatBox box;
     for (std::size_t k = 0; k < 3; ++k) {
       box.lower[k] = smallest(simd::Float16(at + k * simd::width));
@@ -47,7 +52,7 @@ struct Batch {
   }
 
   /// Lanes that share a point with the box.
-  static simd::Bits inside(const float* at, const FloatBox& box) noexcept {
+  [[gnu::always_inline]] static simd::Bits inside(const float* at, const FloatBox& box) noexcept {
     simd::Bits bits = simd::all_bits;
     for (std::size_t k = 0; k < 3; ++k)
       bits &= less_equal(simd::Float16(at + k * simd::width), simd::Float16(box.upper[k])) &
@@ -71,7 +76,7 @@ struct Batch {
         upper_[k] = upper_[k] * scale + shift[k];
       }
     }
-    simd::Float16 squared_distances(const float* to) const noexcept {
+    [[gnu::always_inline]] simd::Float16 squared_distances(const float* to) const noexcept {
       using simd::Float16;
       Float16 sum(0.0F);
       for (std::size_t k = 0; k < 3; ++k) {
@@ -98,15 +103,28 @@ struct Batch<Point> {
       at[static_cast<std::size_t>(k) * simd::width + lane] = static_cast<float>((p.position[k] - origin[k]) * scale);
   }
 
-  static void place(float* at, std::size_t lane, const Point& local, const Frame& frame, const Vec3& origin,
-                    double scale) noexcept {
-    std::array<double, 4> o{origin[0], origin[1], origin[2], 0.0}, x;
-    const simd::Double4 placed = FrameColumns(frame).place(local.position[0], local.position[1], local.position[2]);
-    ((placed - simd::Double4(o.data())) * simd::Double4(scale)).store(x.data());
-    for (std::size_t k = 0; k < 3; ++k) at[k * simd::width + lane] = static_cast<float>(x[k]);
+  [[gnu::always_inline]] static FloatBox place(float* at, const Point* local, const std::uint32_t* group,
+                                               std::span<const Frame> frames, const Vec3& origin,
+                                               double scale) noexcept {
+    using Float4 = simd::Lanes<float, 4>;
+    const simd::Double4 o = simd::Double4::of(origin[0], origin[1], origin[2], 0.0), s(scale);
+    Float4 lower(std::numeric_limits<float>::infinity()), upper(-std::numeric_limits<float>::infinity());
+    for (std::size_t k = 0; k < simd::width; ++k) {
+      const double* x = local[k].position.data();
+      std::array<float, 4> placed;
+      ((FrameColumns(frames[group[k]]).place(x[0], x[1], x[2]) - o) * s).store_rounded(placed.data());
+      const Float4 rounded(placed.data());
+      lower = min(lower, rounded);
+      upper = max(upper, rounded);
+      for (std::size_t axis = 0; axis < 3; ++axis) at[axis * simd::width + k] = placed[axis];
+    }
+    std::array<float, 4> low, high;
+    lower.store(low.data());
+    upper.store(high.data());
+    return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
   }
 
-  static FloatBox hull(const float* at) noexcept {
+  [[gnu::always_inline]] static FloatBox hull(const float* at) noexcept {
     FloatBox box;
     for (std::size_t k = 0; k < 3; ++k) {
       const simd::Float16 x(at + k * simd::width);
@@ -116,7 +134,7 @@ struct Batch<Point> {
     return box;
   }
 
-  static simd::Bits inside(const float* at, const FloatBox& box) noexcept {
+  [[gnu::always_inline]] static simd::Bits inside(const float* at, const FloatBox& box) noexcept {
     simd::Bits bits = simd::all_bits;
     for (std::size_t k = 0; k < 3; ++k) {
       const simd::Float16 x(at + k * simd::width);
@@ -125,14 +143,20 @@ struct Batch<Point> {
     return bits;
   }
 
-  /// rotation (column by column) * local + translation, for all sixteen.
-  static void turn(const float* local, const std::array<float, 9>& rotation, const std::array<float, 3>& translation,
-                   float* to) noexcept {
+  /// rotation (column by column) * local + translation, for all sixteen; returns the box around them.
+  [[gnu::always_inline]] static FloatBox turn(const float* local, const std::array<float, 9>& rotation,
+                                              const std::array<float, 3>& translation, float* to) noexcept {
     using simd::Float16;
     const Float16 x(local), y(local + simd::width), z(local + 2 * simd::width);
-    for (std::size_t k = 0; k < 3; ++k)
-      (x * Float16(rotation[k]) + y * Float16(rotation[3 + k]) + z * Float16(rotation[6 + k]) + Float16(translation[k]))
-          .store(to + k * simd::width);
+    FloatBox box;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Float16 turned = x * Float16(rotation[k]) + y * Float16(rotation[3 + k]) + z * Float16(rotation[6 + k]) +
+                             Float16(translation[k]);
+      turned.store(to + k * simd::width);
+      box.lower[k] = smallest(turned);
+      box.upper[k] = largest(turned);
+    }
+    return box;
   }
 
   class One {
@@ -142,7 +166,7 @@ struct Batch<Point> {
     One(const float* at, std::size_t lane, float scale, const std::array<float, 3>& shift) noexcept : One(at, lane) {
       for (std::size_t k = 0; k < 3; ++k) x_[k] = x_[k] * scale + shift[k];
     }
-    simd::Float16 squared_distances(const float* to) const noexcept {
+    [[gnu::always_inline]] simd::Float16 squared_distances(const float* to) const noexcept {
       using simd::Float16;
       const Float16 x = Float16(to) - Float16(x_[0]), y = Float16(to + simd::width) - Float16(x_[1]),
                     z = Float16(to + 2 * simd::width) - Float16(x_[2]);
@@ -158,7 +182,7 @@ struct Batch<Point> {
 template <class P>
 concept TurnsBatch = requires(const float* local, const std::array<float, 9>& rotation,
                               const std::array<float, 3>& translation, float* to) {
-  Batch<P>::turn(local, rotation, translation, to);
+  { Batch<P>::turn(local, rotation, translation, to) } -> std::same_as<FloatBox>;
 };
 
 static_assert(TurnsBatch<Point>);

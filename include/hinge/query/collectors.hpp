@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hinge/policy/collector.hpp"
+#include "hinge/query/sort_hits.hpp"
 
 namespace hinge {
 
@@ -37,8 +38,7 @@ class HitsWithin {
 
   /// The pairs, sorted by (first, second).
   std::vector<Hit> take() {
-    std::sort(hits_.begin(), hits_.end(),
-              [](const Hit& a, const Hit& b) { return std::tie(a.first, a.second) < std::tie(b.first, b.second); });
+    sort_hits(hits_);
     return std::exchange(hits_, {});
   }
 

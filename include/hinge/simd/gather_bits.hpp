@@ -16,7 +16,7 @@ namespace hinge::simd {
 
 /// Writes base + lane for every set bit to `to`, lowest first, and returns how many. Writes up to `width` entries,
 /// whatever the mask: leave room behind.
-inline std::size_t append_lanes(Bits mask, std::uint32_t base, std::uint32_t* to) noexcept {
+[[gnu::always_inline]] inline std::size_t append_lanes(Bits mask, std::uint32_t base, std::uint32_t* to) noexcept {
 #if defined(__AVX512F__)
   const __m512i lanes = _mm512_add_epi32(_mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0),
                                          _mm512_set1_epi32(static_cast<int>(base)));
@@ -39,7 +39,7 @@ class Index16 {
   explicit Index16(const std::uint8_t* from) noexcept
       : index_(_mm512_maskz_cvtepu8_epi32(0xffff, _mm_loadu_si128(reinterpret_cast<const __m128i*>(from)))) {}
   /// table[index] in every lane; the table has 16 entries.
-  friend Float16 look_up(const float* table, const Index16& i) noexcept {
+  [[gnu::always_inline]] friend Float16 look_up(const float* table, const Index16& i) noexcept {
     alignas(64) float r[width];
     _mm512_store_ps(r, _mm512_maskz_permutexvar_ps(0xffff, i.index_, _mm512_loadu_ps(table)));
     return Float16(r);
@@ -54,7 +54,7 @@ class Index16 {
     index_[1] = _mm256_cvtepu8_epi32(_mm_srli_si128(bytes, 8));
   }
   /// table[index] in every lane; the table has 16 entries.
-  friend Float16 look_up(const float* table, const Index16& i) noexcept {
+  [[gnu::always_inline]] friend Float16 look_up(const float* table, const Index16& i) noexcept {
     const __m256 low = _mm256_loadu_ps(table), high = _mm256_loadu_ps(table + 8);
     alignas(32) float r[width];
     for (int h = 0; h < 2; ++h) {
@@ -70,7 +70,7 @@ class Index16 {
 #else
   explicit Index16(const std::uint8_t* from) noexcept : index_(from) {}
   /// table[index] in every lane; the table has 16 entries.
-  friend Float16 look_up(const float* table, const Index16& i) noexcept {
+  [[gnu::always_inline]] friend Float16 look_up(const float* table, const Index16& i) noexcept {
     float r[width];
     for (std::size_t k = 0; k < width; ++k) r[k] = table[i.index_[k]];
     return Float16(r);

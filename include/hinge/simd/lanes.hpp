@@ -12,6 +12,7 @@ namespace hinge::simd {
 /// One bit per lane, lane 0 lowest.
 using Bits = std::uint32_t;
 
+/// (Everything is forced inline: a call would send the lanes through memory, and compilers do make such calls.)
 /// Plain arithmetic, lane by lane, without fused multiply-add: a lane holds the bits that scalar code in the same order
 /// would. Memory need not be aligned.
 template <class T, std::size_t N>
@@ -24,61 +25,91 @@ class Lanes {
 
  public:
   Lanes() = default;
-  Lanes(T value) noexcept {
+  [[gnu::always_inline]] Lanes(T value) noexcept {
     for (Vector& v : v_) v = value;
   }
-  explicit Lanes(const T* from) noexcept {
+  [[gnu::always_inline]] explicit Lanes(const T* from) noexcept {
     for (std::size_t p = 0; p < parts; ++p) v_[p].copy_from(from + p * part_size, std::experimental::element_aligned);
   }
-  void store(T* to) const noexcept {
+  /// One value per lane.
+  template <class... Values>
+  requires(sizeof...(Values) == N) [[gnu::always_inline]] static Lanes of(Values... values) noexcept {
+    const T each[N] = {values...};
+    Lanes r;
+    for (std::size_t p = 0; p < parts; ++p) r.v_[p] = Vector([&](auto lane) { return each[p * part_size + lane]; });
+    return r;
+  }
+  [[gnu::always_inline]] void store(T* to) const noexcept {
     for (std::size_t p = 0; p < parts; ++p) v_[p].copy_to(to + p * part_size, std::experimental::element_aligned);
   }
 
-  friend Lanes operator+(const Lanes& a, const Lanes& b) noexcept {
-    return each(a, b, [](const Vector& x, const Vector& y) { return Vector(x + y); });
+  /// Rounded to float.
+  [[gnu::always_inline]] void store_rounded(float* to) const noexcept {
+    using Rounded = std::experimental::rebind_simd_t<float, Vector>;
+    for (std::size_t p = 0; p < parts; ++p)
+      std::experimental::static_simd_cast<Rounded>(v_[p]).copy_to(to + p * part_size,
+                                                                  std::experimental::element_aligned);
   }
-  friend Lanes operator-(const Lanes& a, const Lanes& b) noexcept {
-    return each(a, b, [](const Vector& x, const Vector& y) { return Vector(x - y); });
+
+  [[gnu::always_inline]] friend Lanes operator+(const Lanes& a, const Lanes& b) noexcept {
+    return each(
+        a, b, [](const Vector& x, const Vector& y) __attribute__((always_inline)) { return Vector(x + y); });
   }
-  friend Lanes operator*(const Lanes& a, const Lanes& b) noexcept {
-    return each(a, b, [](const Vector& x, const Vector& y) { return Vector(x * y); });
+  [[gnu::always_inline]] friend Lanes operator-(const Lanes& a, const Lanes& b) noexcept {
+    return each(
+        a, b, [](const Vector& x, const Vector& y) __attribute__((always_inline)) { return Vector(x - y); });
   }
-  friend Lanes operator-(const Lanes& a) noexcept {
-    return each(a, a, [](const Vector& x, const Vector&) { return Vector(-x); });
+  [[gnu::always_inline]] friend Lanes operator*(const Lanes& a, const Lanes& b) noexcept {
+    return each(
+        a, b, [](const Vector& x, const Vector& y) __attribute__((always_inline)) { return Vector(x * y); });
   }
-  friend Lanes min(const Lanes& a, const Lanes& b) noexcept {
-    return each(a, b, [](const Vector& x, const Vector& y) { return Vector(std::experimental::min(x, y)); });
+  [[gnu::always_inline]] friend Lanes operator-(const Lanes& a) noexcept {
+    return each(
+        a, a, [](const Vector& x, const Vector&) __attribute__((always_inline)) { return Vector(-x); });
   }
-  friend Lanes max(const Lanes& a, const Lanes& b) noexcept {
-    return each(a, b, [](const Vector& x, const Vector& y) { return Vector(std::experimental::max(x, y)); });
+  [[gnu::always_inline]] friend Lanes min(const Lanes& a, const Lanes& b) noexcept {
+    return each(
+        a, b, [](const Vector& x, const Vector& y) __attribute__((always_inline)) {
+          return Vector(std::experimental::min(x, y));
+        });
   }
-  friend Lanes abs(const Lanes& a) noexcept { return max(a, -a); }
+  [[gnu::always_inline]] friend Lanes max(const Lanes& a, const Lanes& b) noexcept {
+    return each(
+        a, b, [](const Vector& x, const Vector& y) __attribute__((always_inline)) {
+          return Vector(std::experimental::max(x, y));
+        });
+  }
+  [[gnu::always_inline]] friend Lanes abs(const Lanes& a) noexcept { return max(a, -a); }
 
   /// Where a < b; false for NaN.
-  friend Bits less(const Lanes& a, const Lanes& b) noexcept {
-    return bits(a, b, [](const Vector& x, const Vector& y) { return x < y; });
+  [[gnu::always_inline]] friend Bits less(const Lanes& a, const Lanes& b) noexcept {
+    return bits(
+        a, b, [](const Vector& x, const Vector& y) __attribute__((always_inline)) { return x < y; });
   }
   /// Where a <= b; false for NaN.
-  friend Bits less_equal(const Lanes& a, const Lanes& b) noexcept {
-    return bits(a, b, [](const Vector& x, const Vector& y) { return x <= y; });
+  [[gnu::always_inline]] friend Bits less_equal(const Lanes& a, const Lanes& b) noexcept {
+    return bits(
+        a, b, [](const Vector& x, const Vector& y) __attribute__((always_inline)) { return x <= y; });
   }
   /// Where a == b.
-  friend Bits equal(const Lanes& a, const Lanes& b) noexcept {
-    return bits(a, b, [](const Vector& x, const Vector& y) { return x == y; });
+  [[gnu::always_inline]] friend Bits equal(const Lanes& a, const Lanes& b) noexcept {
+    return bits(
+        a, b, [](const Vector& x, const Vector& y) __attribute__((always_inline)) { return x == y; });
   }
   /// a where x < y, else b.
-  friend Lanes choose_less(const Lanes& x, const Lanes& y, const Lanes& a, const Lanes& b) noexcept {
+  [[gnu::always_inline]] friend Lanes choose_less(const Lanes& x, const Lanes& y, const Lanes& a,
+                                                  const Lanes& b) noexcept {
     Lanes r = b;
     for (std::size_t p = 0; p < parts; ++p) where(x.v_[p] < y.v_[p], r.v_[p]) = a.v_[p];
     return r;
   }
 
-  friend T smallest(const Lanes& a) noexcept {
+  [[gnu::always_inline]] friend T smallest(const Lanes& a) noexcept {
     Vector r = a.v_[0];
     for (std::size_t p = 1; p < parts; ++p) r = std::experimental::min(r, a.v_[p]);
     return std::experimental::hmin(r);
   }
-  friend T largest(const Lanes& a) noexcept {
+  [[gnu::always_inline]] friend T largest(const Lanes& a) noexcept {
     Vector r = a.v_[0];
     for (std::size_t p = 1; p < parts; ++p) r = std::experimental::max(r, a.v_[p]);
     return std::experimental::hmax(r);
@@ -86,13 +117,13 @@ class Lanes {
 
  private:
   template <class Op>
-  static Lanes each(const Lanes& a, const Lanes& b, const Op& op) noexcept {
+  [[gnu::always_inline]] static Lanes each(const Lanes& a, const Lanes& b, const Op& op) noexcept {
     Lanes r;
     for (std::size_t p = 0; p < parts; ++p) r.v_[p] = op(a.v_[p], b.v_[p]);
     return r;
   }
   template <class Op>
-  static Bits bits(const Lanes& a, const Lanes& b, const Op& op) noexcept {
+  [[gnu::always_inline]] static Bits bits(const Lanes& a, const Lanes& b, const Op& op) noexcept {
     Bits r = 0;
     for (std::size_t p = 0; p < parts; ++p)
       r |= static_cast<Bits>(op(a.v_[p], b.v_[p]).__to_bitset().to_ulong()) << (p * part_size);

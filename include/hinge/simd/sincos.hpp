@@ -8,7 +8,7 @@
 namespace hinge::simd {
 
 /// As hinge::sincos, lane by lane, for |angle| <= detail::cody_waite_limit.
-inline void sincos(const Double8& angle, Double8& sine, Double8& cosine) noexcept {
+[[gnu::always_inline]] inline void sincos(const Double8& angle, Double8& sine, Double8& cosine) noexcept {
   const detail::ReducedParts<Double8> r = detail::reduce_parts(angle);
   Double8 s, c;
   detail::sincos_of_reduced(r.high, r.low, s, c);

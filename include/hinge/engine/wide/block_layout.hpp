@@ -49,6 +49,15 @@ struct BlockLayout {
     return std::span(groups).subspan(block.first_group, block.group_count);
   }
 
+  /// The unit after the last one of the same rigid group; u must be the group's first. A mixed unit stands alone.
+  std::size_t group_end(std::size_t u) const noexcept {
+    std::size_t end = u + 1;
+    while (blocks[units[u].first_block].rigid && end < units.size() && blocks[units[end].first_block].rigid &&
+           units[end].sweep_end == u)
+      ++end;
+    return end;
+  }
+
   std::vector<std::uint32_t> primitive;  ///< per slot (sixteen per block); padding repeats the block's first
   std::vector<Block> blocks;
   std::vector<Unit> units;

@@ -29,6 +29,7 @@ class NearMasks {
   NearMasks(const BlockLayout& layout, const SelectedModel<P>& model, const F& filter, bool inside_groups);
 
   simd::Bits mask(std::uint32_t position) const noexcept { return masks_[position]; }
+  const std::uint16_t* masks() const noexcept { return masks_.data(); }
 
   /// Position of the first row of the pair, or none; a <= b.
   std::uint32_t find(std::uint32_t b, std::uint32_t a) const noexcept {

@@ -23,8 +23,8 @@ struct alignas(64) LocalRow {
   std::array<float, 3 * simd::width> half{};
 };
 
-/// The static tree over a group's blocks, sixteen wide and implicit: row r of a level holds the boxes of rows (or
-/// blocks) 16 r .. 16 r + 15 of the level below.
+/// The static boxes over a group's blocks, sixteen wide and implicit: row r of a level holds the boxes of rows (or
+/// blocks) 16 r .. 16 r + 15 of the level below. A group of sixteen blocks or fewer has one row.
 struct BlockTree {
   struct Level {
     std::uint32_t first_row = 0;  ///< in RigidBlocks::rows
@@ -44,11 +44,11 @@ struct RigidBlocks {
   RigidBlocks(const BlockLayout& layout, const SelectedModel<P>& model, const ThresholdClasses& classes);
 
   std::vector<LocalBox> block;    ///< per block; meaningless for mixed ones
-  std::vector<LocalBox> unit;     ///< per unit: of the whole tree, where it has one
+  std::vector<LocalBox> unit;     ///< per first unit of a rigid group: around the whole group
   std::vector<float> offsets;     ///< per block, for primitives whose batches turn: from the block's middle, scaled
   std::vector<float> reach;       ///< per block: largest reach, scaled, rounded up
-  std::vector<float> unit_reach;  ///< per unit
-  std::vector<BlockTree> tree;    ///< per unit; empty where it is one block
+  std::vector<float> unit_reach;  ///< per unit: the largest of its group's, or of its block
+  std::vector<BlockTree> tree;    ///< per first unit of a rigid group
   std::vector<LocalRow> rows;     ///< of all trees
   float largest_half = 0.0F;      ///< over all blocks
   double largest_local = 0.0;     ///< largest magnitude of a coordinate in its group's frame, model unit
@@ -64,7 +64,7 @@ struct RigidBlocks {
     }
     return local;
   }
-  void make_tree(const BlockLayout& layout, std::size_t u, const std::vector<Aabb>& boxes);
+  void make_tree(const BlockLayout& layout, std::size_t u, std::vector<Aabb> level);
 };
 
 template <Primitive P>
@@ -93,23 +93,24 @@ RigidBlocks<P>::RigidBlocks(const BlockLayout& layout, const SelectedModel<P>& m
                       model.primitives()[layout.primitive[b * simd::width + k]], middle, layout.scale);
     }
   }
-  for (std::size_t u = 0; u < layout.units.size(); ++u) {
-    const Unit& own = layout.units[u];
-    Aabb box;
-    unit_reach.push_back(0.0F);
-    for (std::uint32_t b = own.first_block; b < own.first_block + own.block_count; ++b) {
-      box.extend(boxes[b]);
-      unit_reach.back() = std::max(unit_reach.back(), reach[b]);
-    }
-    if (layout.blocks[own.first_block].rigid) unit[u] = local_box(box, layout.scale);
-    if (own.block_count > 1) make_tree(layout, u, boxes);
+  unit_reach.resize(layout.units.size());
+  for (std::size_t u = 0; u < layout.units.size();) {
+    const std::size_t end = layout.group_end(u);
+    const std::uint32_t first = layout.units[u].first_block;
+    const std::uint32_t last = layout.units[end - 1].first_block + layout.units[end - 1].block_count;
+    std::fill(unit_reach.begin() + static_cast<std::ptrdiff_t>(u),
+              unit_reach.begin() + static_cast<std::ptrdiff_t>(end),
+              *std::max_element(reach.begin() + first, reach.begin() + last));
+    if (layout.blocks[first].rigid) make_tree(layout, u, {boxes.begin() + first, boxes.begin() + last});
+    u = end;
   }
 }
 
 template <Primitive P>
-void RigidBlocks<P>::make_tree(const BlockLayout& layout, std::size_t u, const std::vector<Aabb>& boxes) {
-  const Unit& own = layout.units[u];
-  std::vector<Aabb> level(boxes.begin() + own.first_block, boxes.begin() + own.first_block + own.block_count);
+void RigidBlocks<P>::make_tree(const BlockLayout& layout, std::size_t u, std::vector<Aabb> level) {
+  Aabb whole;
+  for (const Aabb& box : level) whole.extend(box);
+  unit[u] = local_box(whole, layout.scale);
   const std::array<double, 3>& origin = unit[u].middle;
   // A middle turned in float is off by less than this share of its size, counted over its three products and sums.
   constexpr double turning_error = 16 * 0x1p-24;

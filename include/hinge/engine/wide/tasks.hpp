@@ -18,9 +18,9 @@ class Tasks {
  public:
   void clear() noexcept { size_ = 0; }
   std::size_t size() const noexcept { return size_; }
-  std::uint32_t slot(std::size_t t) const noexcept { return slot_[t]; }
-  std::uint32_t block(std::size_t t) const noexcept { return block_[t]; }
-  std::uint32_t mask(std::size_t t) const noexcept { return mask_[t]; }
+  const std::uint32_t* slots() const noexcept { return slot_.data(); }
+  const std::uint32_t* blocks() const noexcept { return block_.data(); }
+  const std::uint32_t* masks() const noexcept { return mask_.data(); }
 
   /// The lanes of a block that starts at first_slot, each against `block` under one mask.
   void add(simd::Bits lanes, std::uint32_t first_slot, std::uint32_t block, std::uint32_t mask) {

@@ -14,6 +14,7 @@
 
 #include "hinge/core/id.hpp"
 #include "hinge/engine/engine.hpp"
+#include "hinge/engine/wide/run_tasks.hpp"
 #include "hinge/engine/wide/tasks.hpp"
 #include "hinge/engine/wide/wide_side.hpp"
 #include "hinge/model/placement.hpp"
@@ -61,12 +62,20 @@ class Wide {
     WideSide<P>& side = present_side();
     side.begin(placement_, options.moved_only, options.clearance);
     const BlockLayout& layout = side.layout();
+    float extent = -1.0F;
+    double cutoff = 0.0;
     for (std::size_t u = 0; u < layout.units.size() && !collector.done(); ++u) {
       side.state().refresh(u, placement_);
       if (u < layout.static_units) continue;
-      collect_self(side, u, collector.cutoff(), counts);
+      // Margins depend on the size of what was placed so far, in powers of two, and on the cutoff.
+      if (side.state().extent() != extent || collector.cutoff() != cutoff) {
+        extent = side.state().extent();
+        cutoff = collector.cutoff();
+        thresholds_.set(side.table(), margin(side, cutoff));
+      }
+      collect_self(side, u, counts);
       run(
-          side, side, side.table(), Exactly{}, [&] { return margin(side, collector.cutoff()); }, decide, collector,
+          side, side, side.table(), Exactly<P>{}, [&] { return margin(side, collector.cutoff()); }, decide, collector,
           counts);
     }
     if constexpr (C::ranks)
@@ -89,51 +98,18 @@ class Wide {
     theirs.begin(other.placement_, false, options.other_clearance);
     for (std::size_t u = 0; u < mine.layout().units.size(); ++u) mine.state().refresh(u, placement_);
     for (std::size_t u = 0; u < theirs.layout().units.size(); ++u) theirs.state().refresh(u, other.placement_);
-    const Into into(mine, theirs);
+    const Into<P> into(mine, theirs);
     const ThresholdTable table = mine.parts().classes.table(theirs.parts().classes, theirs.layout().scale);
     const auto between = [&] { return margin(mine, theirs, table, into, collector.cutoff()); };
     for (std::size_t u = 0; u < mine.layout().units.size() && !collector.done(); ++u) {
-      collect_cross(mine, u, other, theirs, into, between(), options.moved_only, counts);
+      thresholds_.set(table, between());
+      collect_cross(mine, u, other, theirs, into, options.moved_only, counts);
       run(mine, theirs, table, into, between, decide, collector, counts);
     }
     add(options.counts, counts);
   }
 
  private:
-  /// Coordinates of one model as they are.
-  struct Exactly {
-    typename Batch<P>::One operator()(const float* at, std::size_t lane) const noexcept { return {at, lane}; }
-  };
-  /// Coordinates of one model in the origin and scale of another.
-  struct Into {
-    Into(WideSide<P>& from, WideSide<P>& to) noexcept
-        : scale(static_cast<float>(to.layout().scale / from.layout().scale)) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto i = static_cast<Eigen::Index>(k);
-        shift[k] = static_cast<float>((from.state().origin()[i] - to.state().origin()[i]) * to.layout().scale);
-      }
-    }
-    typename Batch<P>::One operator()(const float* at, std::size_t lane) const noexcept {
-      return {at, lane, scale, shift};
-    }
-    FloatBox operator()(FloatBox box) const noexcept {
-      for (std::size_t k = 0; k < 3; ++k) {
-        box.lower[k] = box.lower[k] * scale + shift[k];
-        box.upper[k] = box.upper[k] * scale + shift[k];
-      }
-      return box;
-    }
-    FloatBox back(FloatBox box) const noexcept {
-      for (std::size_t k = 0; k < 3; ++k) {
-        box.lower[k] = (box.lower[k] - shift[k]) / scale;
-        box.upper[k] = (box.upper[k] - shift[k]) / scale;
-      }
-      return box;
-    }
-    float scale = 1.0F;
-    std::array<float, 3> shift{};
-  };
-
   WideSide<P>& present_side() {
     if (!placement_.groups_may_deform()) return by_groups_;
     if (!by_index_) {
@@ -159,7 +135,7 @@ class Wide {
         static_cast<double>(side.table().largest) + std::abs(scaled) + 2 * static_cast<double>(side.largest_extra());
     return float_above(scaled + side.state().band(largest));
   }
-  static float margin(WideSide<P>& mine, WideSide<P>& theirs, const ThresholdTable& table, const Into& into,
+  static float margin(WideSide<P>& mine, WideSide<P>& theirs, const ThresholdTable& table, const Into<P>& into,
                       double cutoff) noexcept {
     const double scaled = cutoff * theirs.layout().scale, ratio = static_cast<double>(into.scale);
     double largest = static_cast<double>(table.largest) + std::abs(scaled) +
@@ -170,11 +146,11 @@ class Wide {
   }
 
   /// Lists the tasks between a unit and the ones before it, and inside it.
-  void collect_self(WideSide<P>& side, std::size_t u, double cutoff, QueryCounts& counts) {
+  void collect_self(WideSide<P>& side, std::size_t u, QueryCounts& counts) {
     tasks_.clear();
     const Unit& unit = side.layout().units[u];
     const std::uint32_t first = unit.first_block;
-    const float m = margin(side, cutoff);
+    const float m = thresholds_.margin();
     if (const simd::Bits lanes = side.near().self_lanes(first); lanes != 0 && !side.kept_apart(u, u))
       tasks_.add_rows(lanes, first * static_cast<std::uint32_t>(simd::width), first, side.near().self_rows(first));
     const float reach = m + side.extra(first) + side.largest_extra();
@@ -228,9 +204,10 @@ class Wide {
   }
 
   /// Lists the tasks of a unit against another model.
-  void collect_cross(WideSide<P>& mine, std::size_t u, Wide& other, WideSide<P>& theirs, const Into& into, float m,
+  void collect_cross(WideSide<P>& mine, std::size_t u, Wide& other, WideSide<P>& theirs, const Into<P>& into,
                      bool moved_only, QueryCounts& counts) {
     tasks_.clear();
+    const float m = thresholds_.margin();
     const Unit& unit = mine.layout().units[u];
     const float extra = mine.extra(unit.first_block) * into.scale;
     const FloatBox box = into(mine.state().box(u)).grown(m + extra + theirs.largest_extra());
@@ -265,33 +242,19 @@ class Wide {
   template <class Convert, class Margin, class Decide, Collector C>
   void run(WideSide<P>& one, WideSide<P>& sixteen, const ThresholdTable& table, const Convert& convert,
            const Margin& present_margin, const Decide& decide, C& collector, QueryCounts& counts) {
-    float m = present_margin();
-    const bool extra = one.has_extra() || sixteen.has_extra();
     counts.pairs_tested += tasks_.size();
-    for (std::size_t t = 0; t < tasks_.size(); ++t) {
-      const std::uint32_t slot = tasks_.slot(t), block = tasks_.block(t);
-      const auto own = static_cast<std::uint32_t>(slot / simd::width);
-      float more = m;
-      if (extra) more += one.extra(own) * scale_of(convert) + sixteen.extra(block);
-      const simd::Index16 classes(sixteen.parts().slot_class.data() + block * simd::width);
-      const simd::Float16 near =
-          look_up(table.row.data() + one.parts().slot_class[slot] * simd::width, classes) + simd::Float16(more);
-      const simd::Float16 squared =
-          convert(one.state().packed(own), slot % simd::width).squared_distances(sixteen.state().packed(block));
-      // Not "less": what overflowed or is no number has to be looked at.
-      simd::Bits bits = ~less(near * near, squared) & sixteen.near().mask(tasks_.mask(t));
-      if (bits == 0) continue;
-      const auto i = id<PrimitiveId>(one.layout().primitive[slot]);
-      for (; bits != 0; bits &= bits - 1) {
-        const std::size_t lane = static_cast<std::size_t>(std::countr_zero(bits));
-        decide(i, id<PrimitiveId>(sixteen.layout().primitive[block * simd::width + lane]));
-        if (collector.done()) return;
-      }
-      m = present_margin();
-    }
+    run_tasks(tasks_, one, sixteen, convert, thresholds_,
+              [&](std::uint32_t slot, std::uint32_t block, simd::Bits bits) {
+                const auto i = id<PrimitiveId>(one.layout().primitive[slot]);
+                const double before = collector.cutoff();
+                for (; bits != 0 && !collector.done(); bits &= bits - 1) {
+                  const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+                  decide(i, id<PrimitiveId>(sixteen.layout().primitive[block * simd::width + lane]));
+                }
+                if (collector.cutoff() != before) thresholds_.set(table, present_margin());
+                return !collector.done();
+              });
   }
-  static float scale_of(const Exactly&) noexcept { return 1.0F; }
-  static float scale_of(const Into& into) noexcept { return into.scale; }
 
   Placement<P> placement_;
   F filter_;
@@ -299,6 +262,7 @@ class Wide {
   WideSide<P> by_groups_;
   std::optional<WideSide<P>> by_index_;  // made when coordinates from elsewhere first come
   Tasks tasks_;                          // scratch
+  Thresholds16 thresholds_;              // scratch: of the present margin
   std::optional<std::pair<PrimitiveId, PrimitiveId>> witness_;
 };
 

@@ -38,6 +38,7 @@ class WideSide {
   const NearMasks& near() const noexcept { return *near_; }
   const ThresholdTable& table() const noexcept { return table_; }
   WideState<P>& state() noexcept { return state_; }
+  const WideState<P>& state() const noexcept { return state_; }
 
   /// What the options of a query mean for the units. Units are brought up to date one by one after that.
   void begin(Placement<P>& placement, bool moved_only, std::span<const double> clearance) {

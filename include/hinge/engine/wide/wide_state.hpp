@@ -23,15 +23,25 @@ namespace hinge {
 /// The constant half, shared by copies of an engine.
 template <Primitive P>
 struct WideParts {
+  WideParts(BlockLayout blocks, ThresholdClasses threshold_classes, const SelectedModel<P>& model)
+      : layout(std::move(blocks)), classes(std::move(threshold_classes)), rigid(layout, model, classes) {
+    for (std::size_t slot = 0; slot < layout.primitive.size(); ++slot) {
+      const std::uint32_t i = layout.primitive[slot];
+      slot_class.push_back(classes.class_of(i));
+      if (slot % simd::width == 0) mixed_slot.push_back(static_cast<std::uint32_t>(mixed_group.size()));
+      if (layout.blocks[slot / simd::width].rigid) continue;
+      mixed.push_back(model.primitives()[i]);
+      mixed_group.push_back(static_cast<std::uint32_t>(index(model.group_of(id<PrimitiveId>(i)))));
+    }
+  }
+
   BlockLayout layout;
   ThresholdClasses classes;
   RigidBlocks<P> rigid;
-  std::vector<std::uint8_t> slot_class;  ///< threshold class per slot
-
-  WideParts(BlockLayout blocks, ThresholdClasses threshold_classes, const SelectedModel<P>& model)
-      : layout(std::move(blocks)), classes(std::move(threshold_classes)), rigid(layout, model, classes) {
-    for (const std::uint32_t i : layout.primitive) slot_class.push_back(classes.class_of(i));
-  }
+  std::vector<std::uint8_t> slot_class;    ///< threshold class per slot
+  std::vector<std::uint32_t> mixed_slot;   ///< per block: where its slots start in the next two, if it is mixed
+  std::vector<P> mixed;                    ///< in their groups' frames
+  std::vector<std::uint32_t> mixed_group;  ///< their groups
 };
 
 /// Coordinates are (world - origin) * scale in float. Everything is made from the placement when first asked for in an
@@ -45,6 +55,7 @@ class WideState {
         block_box_(parts_->layout.block_count()),
         block_at_(parts_->layout.block_count(), 0),
         unit_at_(parts_->layout.units.size(), 0),
+        unit_extent_(parts_->layout.units.size(), 0.0F),
         boxes_((parts_->layout.units.size() + simd::width - 1) / simd::width),
         hulls_((boxes_.size() + simd::width - 1) / simd::width),
         tree_rows_(parts_->rigid.rows.size()),
@@ -56,136 +67,154 @@ class WideState {
 
   /// To be called before the units of an update are asked for.
   void begin(Placement<P>& placement) noexcept {
-    extent_ = translation_ = 0.0;
-    if (placement.groups_may_deform() && placement.model().size() != 0) {
+    extent_ = 0.0F;
+    update_ = placement.update_number();
+    few_moved_ = placement.few_moved();
+    given_ = placement.groups_may_deform();
+    if (given_ && placement.model().size() != 0) {
       const Aabb box = placement.placed().front().bounds();
       for (int k = 0; k < 3; ++k) origin_[k] = box.middle(k);
     }
   }
 
-  /// Brings the box of a unit up to date, and with it the coordinates of a mixed block. Units are asked for in order.
+  /// Brings the box of a unit up to date, and with it the coordinates of a mixed block. To be called in order.
   void refresh(std::size_t u, Placement<P>& placement) noexcept {
-    const Unit& unit = parts_->layout.units[u];
-    const std::uint32_t b = unit.first_block;
-    const Block& block = parts_->layout.blocks[b];
-    const bool current = is_current(block, unit_at_[u], placement);
-    BoxRow& row = boxes_[u / simd::width];
-    if (!current) {
-      unit_at_[u] = placement.update_number();
-      FloatBox box;
-      if (block.rigid) {
-        box = turned(parts_->rigid.unit[u], placement.frame(parts_->layout.groups_of(block).front()));
-        block_box_[b] = box;
-      } else {
-        place_mixed(b, placement);
-        box = block_box_[b];
-      }
-      row.set(u % simd::width, box.grown(parts_->rigid.unit_reach[u]));
+    if (unit_at_[u] != update_) refresh_stale(u, placement);
+    if (unit_extent_[u] > extent_) {
+      // Rounded up to a power of two, so that what depends on it changes rarely.
+      int exponent = 0;
+      std::frexp(std::min(unit_extent_[u], 0x1p126F), &exponent);
+      extent_ = std::ldexp(1.0F, exponent);
     }
-    if (block.rigid) {
-      const Frame& frame = placement.frame(parts_->layout.groups_of(block).front());
-      for (std::size_t k = 12; k < 15; ++k) translation_ = std::max(translation_, std::abs(frame.column[k]));
-    }
-    const FloatBox box = row.get(u % simd::width);
-    extent_ = std::max(extent_, static_cast<double>(std::min(box.extent(), std::numeric_limits<float>::max())));
-    if (u % simd::width == simd::width - 1 || u + 1 == unit_at_.size())
-      hulls_[u / simd::width / simd::width].set(u / simd::width % simd::width, row.hull());
+    if (boxes_.size() > simd::width && (u % simd::width == simd::width - 1 || u + 1 == unit_at_.size()))
+      hulls_[u / simd::width / simd::width].set(u / simd::width % simd::width, boxes_[u / simd::width].hull());
   }
 
   const BoxRow& boxes(std::size_t row) const noexcept { return boxes_[row]; }
-  /// Boxes around rows of boxes; only of rows all of whose units were refreshed.
+  /// Boxes around rows of boxes, where there are more than sixteen; only of rows all of whose units were refreshed.
   const BoxRow& hulls(std::size_t row) const noexcept { return hulls_[row]; }
+  /// Grown by the unit's reach.
   FloatBox box(std::size_t u) const noexcept { return boxes_[u / simd::width].get(u % simd::width); }
 
-  /// Float coordinates of a block, placing it first where it is rigid.
+  /// Float coordinates of a block of a refreshed unit, placed when first touched.
   const float* block(std::uint32_t b, Placement<P>& placement) noexcept {
-    if (parts_->layout.blocks[b].rigid && !is_current(parts_->layout.blocks[b], block_at_[b], placement)) {
-      block_at_[b] = placement.update_number();
-      place_rigid(b, placement);
-    }
+    if (block_at_[b] != update_) touch(b, placement);
     return packed(b);
   }
   const float* packed(std::uint32_t b) const noexcept { return packed_.data() + b * Batch<P>::floats; }
-  /// Not grown by the reach; tight once the block is placed.
+  /// Not grown by the reach; of blocks that were touched.
   const FloatBox& block_box(std::uint32_t b) const noexcept { return block_box_[b]; }
 
   /// World boxes of a row of a unit's tree, grown by the unit's reach.
   const BoxRow& tree_row(std::size_t u, std::uint32_t row, Placement<P>& placement) noexcept {
-    const Unit& unit = parts_->layout.units[u];
-    const Block& block = parts_->layout.blocks[unit.first_block];
-    if (!is_current(block, row_at_[row], placement)) {
-      row_at_[row] = placement.update_number();
-      turn_row(u, row, placement.frame(parts_->layout.groups_of(block).front()));
+    if (row_at_[row] != update_) {
+      const Block& block = parts_->layout.blocks[parts_->layout.units[u].first_block];
+      if (!is_current(block, row_at_[row], placement)) turn_row(u, row, frame_of(block, placement));
+      row_at_[row] = update_;
     }
     return tree_rows_[row];
   }
+
+  /// Largest magnitude of a coordinate seen since begin(), scaled, rounded up.
+  float extent() const noexcept { return extent_; }
 
   /// How far float distances and boxes may be off, scaled, for things of the size seen since begin(), with thresholds
   /// and cutoffs up to `largest` (scaled). docs/explanation/float_filter.md derives it.
   double band(double largest) const noexcept {
     constexpr double u = 0x1p-24, v = 0x1p-53;
-    const double scale = parts_->layout.scale;
-    const double world_size = 2 * parts_->rigid.largest_local + translation_ + largest_of(origin_);
-    return 6 * u * (2 * extent_ + 10 * static_cast<double>(parts_->rigid.largest_half)) + 8 * u * largest +
-           16 * v * world_size * scale;
+    const auto extent = static_cast<double>(extent_), half = static_cast<double>(parts_->rigid.largest_half);
+    const double size = extent + parts_->layout.scale * (4 * parts_->rigid.largest_local + 2 * std::abs(origin_[0]) +
+                                                         2 * std::abs(origin_[1]) + 2 * std::abs(origin_[2]));
+    return 6 * u * (2 * extent + 10 * half) + 8 * u * largest + 16 * v * size;
   }
 
  private:
   /// Beyond this squares leave the range of floats: such units overlap everything and are judged in double.
   static constexpr float far = 1e15F;
 
-  static double largest_of(const Vec3& x) noexcept {
-    return std::max({std::abs(x[0]), std::abs(x[1]), std::abs(x[2])});
+  const Frame& frame_of(const Block& block, Placement<P>& placement) const noexcept {
+    return placement.frame(parts_->layout.groups_of(block).front());
   }
 
-  bool is_current(const Block& block, std::uint64_t at, Placement<P>& placement) const noexcept {
-    if (!placement.few_moved()) return at == placement.update_number() || (at != 0 && is_static(block, placement));
-    for (const GroupId g : parts_->layout.groups_of(block))
-      if (placement.version(g) > at) return false;
-    return at != 0;
-  }
-  bool is_static(const Block& block, Placement<P>& placement) const noexcept {
-    return block.group_count == 1 && parts_->layout.groups[block.first_group] == GroupId{0} &&
-           !placement.groups_may_deform();
+  /// Did the block's groups stand still since an update?
+  bool is_current(const Block& block, std::uint64_t since, Placement<P>& placement) const noexcept {
+    if (since == 0) return false;
+    const auto groups = parts_->layout.groups_of(block);
+    if (!few_moved_) return !given_ && groups.size() == 1 && groups.front() == GroupId{0};
+    for (const GroupId g : groups)
+      if (placement.version(g) > since) return false;
+    return true;
   }
 
-  static FloatBox checked(const FloatBox& box) noexcept {
-    if (box.extent() <= far) return box;
-    FloatBox everything;
-    everything.lower.fill(-std::numeric_limits<float>::infinity());
-    everything.upper.fill(std::numeric_limits<float>::infinity());
-    return everything;
+  static FloatBox checked(const FloatBox& box) noexcept { return box.extent() <= far ? box : FloatBox::everything(); }
+
+  void set_unit(std::size_t u, const FloatBox& box) noexcept {
+    unit_extent_[u] = box.extent();
+    boxes_[u / simd::width].set(u % simd::width, box);
+    unit_at_[u] = update_;
+  }
+
+  void refresh_stale(std::size_t u, Placement<P>& placement) noexcept {
+    const Unit& unit = parts_->layout.units[u];
+    const Block& block = parts_->layout.blocks[unit.first_block];
+    if (is_current(block, unit_at_[u], placement)) {
+      unit_at_[u] = update_;
+      if (!block.rigid) block_at_[unit.first_block] = update_;
+      return;
+    }
+    const float reach = parts_->rigid.unit_reach[u];
+    if (!block.rigid) {
+      place_mixed(unit.first_block, placement);
+      set_unit(u, block_box_[unit.first_block].grown(reach));
+    } else if (unit.block_count > 1) {
+      set_unit(u, turned(parts_->rigid.unit[u], frame_of(block, placement)).grown(reach));
+    } else {
+      // All units of the group in one go; u is the first.
+      const std::uint32_t row = parts_->rigid.tree[u].levels.front().first_row;
+      turn_row(u, row, frame_of(block, placement));
+      const std::uint32_t count = parts_->rigid.tree[u].levels.front().boxes;
+      for (std::uint32_t k = 0; k < count; ++k) set_unit(u + k, checked(tree_rows_[row].get(k)));
+    }
+  }
+
+  void touch(std::uint32_t b, Placement<P>& placement) noexcept {
+    const Block& block = parts_->layout.blocks[b];
+    if (!is_current(block, block_at_[b], placement)) place_rigid(b, frame_of(block, placement), placement);
+    block_at_[b] = update_;
   }
 
   void place_mixed(std::uint32_t b, Placement<P>& placement) noexcept {
     const BlockLayout& layout = parts_->layout;
-    const SelectedModel<P>& model = placement.model();
     float* at = packed_.data() + b * Batch<P>::floats;
-    const bool given = placement.groups_may_deform();
-    for (std::size_t k = 0; k < simd::width; ++k) {
-      const std::uint32_t i = layout.primitive[b * simd::width + k];
-      if (given)
-        Batch<P>::set(at, k, placement.placed()[i], origin_, layout.scale);
-      else
-        Batch<P>::place(at, k, model.primitives()[i], placement.frame(model.group_of(id<PrimitiveId>(i))), origin_,
-                        layout.scale);
+    FloatBox box;
+    if (given_) {
+      for (std::size_t k = 0; k < simd::width; ++k)
+        Batch<P>::set(at, k, placement.placed()[layout.primitive[b * simd::width + k]], origin_, layout.scale);
+      box = Batch<P>::hull(at);
+    } else {
+      const std::uint32_t first = parts_->mixed_slot[b];
+      box = Batch<P>::place(at, parts_->mixed.data() + first, parts_->mixed_group.data() + first,
+                            placement.frames_through(layout.groups_of(layout.blocks[b]).back()), origin_, layout.scale);
     }
-    block_box_[b] = checked(Batch<P>::hull(at));
+    block_box_[b] = checked(box);
+    block_at_[b] = update_;
   }
 
-  void place_rigid(std::uint32_t b, Placement<P>& placement) noexcept {
+  void place_rigid(std::uint32_t b, const Frame& frame, Placement<P>& placement) noexcept {
     const BlockLayout& layout = parts_->layout;
-    const Frame& frame = placement.frame(layout.groups_of(layout.blocks[b]).front());
     float* at = packed_.data() + b * Batch<P>::floats;
+    FloatBox box;
     if constexpr (TurnsBatch<P>) {
-      Batch<P>::turn(parts_->rigid.offsets.data() + b * Batch<P>::floats, rotation(frame),
-                     placed(parts_->rigid.block[b].middle, frame), at);
+      box = Batch<P>::turn(parts_->rigid.offsets.data() + b * Batch<P>::floats, rotation(frame),
+                           placed(parts_->rigid.block[b].middle, frame), at);
     } else {
+      const Pose pose = frame.pose();
       for (std::size_t k = 0; k < simd::width; ++k)
-        Batch<P>::place(at, k, placement.model().primitives()[layout.primitive[b * simd::width + k]], frame, origin_,
-                        layout.scale);
+        Batch<P>::set(at, k, placement.model().primitives()[layout.primitive[b * simd::width + k]].placed(pose),
+                      origin_, layout.scale);
+      box = Batch<P>::hull(at);
     }
-    block_box_[b] = checked(Batch<P>::hull(at));
+    block_box_[b] = checked(box);
   }
 
   static std::array<float, 9> rotation(const Frame& frame) noexcept {
@@ -194,24 +223,23 @@ class WideState {
     return r;
   }
   std::array<float, 3> placed(const std::array<double, 3>& point, const Frame& frame) const noexcept {
-    std::array<double, 4> x;
-    FrameColumns(frame).place(point[0], point[1], point[2]).store(x.data());
-    std::array<float, 3> r;
-    for (std::size_t k = 0; k < 3; ++k)
-      r[k] = static_cast<float>((x[k] - origin_[static_cast<Eigen::Index>(k)]) * parts_->layout.scale);
-    return r;
+    std::array<float, 4> x;
+    ((FrameColumns(frame).place(point[0], point[1], point[2]) -
+      simd::Double4::of(origin_[0], origin_[1], origin_[2], 0.0)) *
+     simd::Double4(parts_->layout.scale))
+        .store_rounded(x.data());
+    return {x[0], x[1], x[2]};
   }
 
   /// The box around the turned box. Its half lengths grow by the rounding of rotation, products and sums.
   FloatBox turned(const LocalBox& local, const Frame& frame) const noexcept {
-    constexpr float rounding = 1.0F + 8 * 0x1p-24F;
     const std::array<float, 3> middle = placed(local.middle, frame);
     const std::array<float, 9> r = rotation(frame);
     FloatBox box;
     for (std::size_t k = 0; k < 3; ++k) {
       const float half =
           (std::abs(r[k]) * local.half[0] + std::abs(r[3 + k]) * local.half[1] + std::abs(r[6 + k]) * local.half[2]) *
-          rounding;
+          half_rounding;
       box.lower[k] = middle[k] - half;
       box.upper[k] = middle[k] + half;
     }
@@ -225,37 +253,38 @@ class WideState {
     const std::array<float, 9> r = rotation(frame);
     const std::array<float, 3> middle = placed(parts_->rigid.unit[u].middle, frame);
     const Float16 reach(parts_->rigid.unit_reach[u]);
+    BoxRow& boxes = tree_rows_[row];
     for (std::size_t k = 0; k < 3; ++k) {
       Float16 m(middle[k]), h(0.0F);
       for (std::size_t j = 0; j < 3; ++j) {
         m = m + Float16(r[3 * j + k]) * Float16(local.middle.data() + j * n);
         h = h + Float16(std::abs(r[3 * j + k])) * Float16(local.half.data() + j * n);
       }
-      h = h * Float16(1.0F + 8 * 0x1p-24F) + reach;
-      (m - h).store(tree_rows_[row].lower.data() + k * n);
-      (m + h).store(tree_rows_[row].upper.data() + k * n);
+      h = h * Float16(half_rounding) + reach;
+      (m - h).store(boxes.lower.data() + k * n);
+      (m + h).store(boxes.upper.data() + k * n);
     }
-    if (std::isinf(box(u).upper[0]))  // too far for floats: every block is looked at
-      for (std::size_t k = 0; k < n; ++k) {
-        FloatBox everything;
-        everything.lower.fill(-std::numeric_limits<float>::infinity());
-        everything.upper.fill(std::numeric_limits<float>::infinity());
-        tree_rows_[row].set(k, everything);
-      }
+    if (!(std::max({std::abs(middle[0]), std::abs(middle[1]), std::abs(middle[2])}) <= far / 2))
+      for (std::size_t k = 0; k < n; ++k) boxes.set(k, FloatBox::everything());
   }
+
+  static constexpr float half_rounding = 1.0F + 8 * 0x1p-24F;
 
   std::shared_ptr<const WideParts<P>> parts_;
   std::vector<float> packed_;
   std::vector<FloatBox> block_box_;
-  std::vector<std::uint64_t> block_at_;  // per rigid block: the update its coordinates are of
-  std::vector<std::uint64_t> unit_at_;   // per unit: the update its box is of
+  std::vector<std::uint64_t> block_at_;  // per block: the last update its coordinates are known to be of
+  std::vector<std::uint64_t> unit_at_;   // per unit: the same for its box
+  std::vector<float> unit_extent_;       // per unit: largest magnitude in its box
   std::vector<BoxRow> boxes_;            // of units, grown by their reach
   std::vector<BoxRow> hulls_;            // of rows of units
   std::vector<BoxRow> tree_rows_;
   std::vector<std::uint64_t> row_at_;
   Vec3 origin_;
-  double extent_ = 0.0;       // largest magnitude of a box coordinate, scaled
-  double translation_ = 0.0;  // largest magnitude in a translation of a rigid block's frame, model unit
+  std::uint64_t update_ = 0;
+  float extent_ = 0.0F;
+  bool few_moved_ = false;
+  bool given_ = false;  // coordinates come from elsewhere
 };
 
 }  // namespace hinge
