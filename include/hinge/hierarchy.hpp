@@ -12,9 +12,8 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
-#include "hinge/engine/brute/brute.hpp"
 #include "hinge/engine/engine.hpp"
-#include "hinge/engine/lazy/lazy.hpp"
+#include "hinge/engine/wide/wide.hpp"
 #include "hinge/model/model.hpp"
 #include "hinge/model/selected_model.hpp"
 #include "hinge/policy/collector.hpp"
@@ -29,7 +28,7 @@ namespace hinge {
 /// A pair (i, j) collides when the filter admits it, its distance can change under the selected DOF, and
 /// d(i, j) < M(i, j), or, for closed solids, d(i, j) = 0 (BioCD eq. (1)). Lengths in the model's unit, angles in rad.
 /// One per thread: copies share the constant model and nothing else.
-template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf = Lazy>
+template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf = Wide>
 requires Engine<EngineOf<P, F, D>, P, F, D>
 class Hierarchy {
  public:

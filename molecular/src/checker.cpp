@@ -59,7 +59,7 @@ Checker::Checker(std::shared_ptr<const Molecule> molecule, DofSelection selectio
   min_bonds_ = options.min_bonds.value_or(thresholds_->set->default_min_bonds);
   exclusions_ = std::make_shared<const BondExclusions>(molecule_->structure(), min_bonds_);
 
-  MolecularHierarchy<Lazy> rigid(molecule_->model(), molecule_->select({}), *exclusions_, thresholds_->matrix);
+  MolecularHierarchy<Wide> rigid(molecule_->model(), molecule_->select({}), *exclusions_, thresholds_->matrix);
   rigid.update_placed(as_points(molecule_->structure().models.front()));
   reference_ = std::make_shared<const std::vector<Hit>>(rigid.self_collisions());
   if (options.exempt_reference)
@@ -78,11 +78,13 @@ Checker::Checker(std::shared_ptr<const Molecule> molecule, DofSelection selectio
 }
 
 Checker::AnyHierarchy Checker::make(const std::string& engine, DofSelection selection) const {
+  if (engine == "wide")
+    return MolecularHierarchy<Wide>(molecule_->model(), std::move(selection), *exclusions_, thresholds_->matrix);
   if (engine == "lazy")
     return MolecularHierarchy<Lazy>(molecule_->model(), std::move(selection), *exclusions_, thresholds_->matrix);
   if (engine == "brute")
     return MolecularHierarchy<Brute>(molecule_->model(), std::move(selection), *exclusions_, thresholds_->matrix);
-  throw ModelError("engine '" + engine + "': expected lazy or brute");
+  throw ModelError("engine '" + engine + "': expected wide, lazy or brute");
 }
 
 std::size_t Checker::dof_count() const {

@@ -11,6 +11,9 @@
 #include <vector>
 
 #include "engine/random_mechanism.hpp"
+#include "hinge/engine/brute/brute.hpp"
+#include "hinge/engine/lazy/lazy.hpp"
+#include "hinge/engine/wide/wide.hpp"
 #include "hinge/primitive/point.hpp"
 #include "hinge/primitive/sphere.hpp"
 
@@ -31,31 +34,43 @@ Model<Point> two_groups(const std::vector<Vec3>& fixed, const std::vector<Vec3>&
 }
 
 template <template <class, class, class> class EngineOf>
-using Points = Hierarchy<Point, AdmitAll, UniformClearance, EngineOf>;
+using PointsOn = Hierarchy<Point, AdmitAll, UniformClearance, EngineOf>;
 
-TEST(Hierarchy, AnswersForNoAndOnePrimitive) {
+template <template <class, class, class> class EngineOf>
+struct On {
+  using Points = PointsOn<EngineOf>;
+};
+template <class Engine>
+class EveryHierarchy : public testing::Test {};
+using Engines = testing::Types<On<Brute>, On<Lazy>, On<Wide>>;
+TYPED_TEST_SUITE(EveryHierarchy, Engines);
+
+TYPED_TEST(EveryHierarchy, AnswersForNoAndOnePrimitive) {
+  using Points = typename TypeParam::Points;
   for (const std::size_t n : {0U, 1U}) {
-    Points<Lazy> lazy(two_groups(std::vector<Vec3>(n, Vec3::Zero()), {}), AdmitAll{}, UniformClearance{1.0});
-    EXPECT_FALSE(lazy.self_collides());
-    EXPECT_TRUE(lazy.self_collisions().empty());
-    EXPECT_FALSE(lazy.self_closest().has_value());
-    Points<Lazy> other = lazy;
-    EXPECT_EQ(lazy.collides(other), n == 1);
-    EXPECT_EQ(lazy.closest(other).has_value(), n == 1);
+    Points points(two_groups(std::vector<Vec3>(n, Vec3::Zero()), {}), AdmitAll{}, UniformClearance{1.0});
+    EXPECT_FALSE(points.self_collides());
+    EXPECT_TRUE(points.self_collisions().empty());
+    EXPECT_FALSE(points.self_closest().has_value());
+    Points other = points;
+    EXPECT_EQ(points.collides(other), n == 1);
+    EXPECT_EQ(points.closest(other).has_value(), n == 1);
   }
 }
 
-TEST(Hierarchy, HasStrictThresholdsForPoints) {
+TYPED_TEST(EveryHierarchy, HasStrictThresholdsForPoints) {
+  using Points = typename TypeParam::Points;
   const double m = 2.5;
   for (const auto& [x, hit] :
        {std::pair(m, false), std::pair(std::nextafter(m, 0.0), true), std::pair(std::nextafter(m, 3.0), false)}) {
-    Points<Lazy> lazy(two_groups({Vec3::Zero()}, {Vec3(x, 0, 0)}), AdmitAll{}, UniformClearance{m});
-    EXPECT_EQ(lazy.self_collides(), hit);
+    Points points(two_groups({Vec3::Zero()}, {Vec3(x, 0, 0)}), AdmitAll{}, UniformClearance{m});
+    EXPECT_EQ(points.self_collides(), hit);
   }
 }
 
-TEST(Hierarchy, NeverHitsAtThresholdZeroUnlessSolid) {
-  Points<Lazy> points(two_groups({Vec3::Zero()}, {Vec3::Zero()}), AdmitAll{}, UniformClearance{0.0});
+TYPED_TEST(EveryHierarchy, NeverHitsAtThresholdZeroUnlessSolid) {
+  using Points = typename TypeParam::Points;
+  Points points(two_groups({Vec3::Zero()}, {Vec3::Zero()}), AdmitAll{}, UniformClearance{0.0});
   EXPECT_FALSE(points.self_collides());
   EXPECT_EQ(points.self_closest()->gap(), 0.0);
   ModelBuilder<Sphere> build;
@@ -65,53 +80,58 @@ TEST(Hierarchy, NeverHitsAtThresholdZeroUnlessSolid) {
   EXPECT_TRUE(spheres.self_collides()) << "closed balls touch";
 }
 
-TEST(Hierarchy, CountsEveryCoincidentPair) {
+TYPED_TEST(EveryHierarchy, CountsEveryCoincidentPair) {
+  using Points = typename TypeParam::Points;
   const std::size_t n = 200;
-  Points<Lazy> lazy(two_groups(std::vector<Vec3>(n, Vec3(1, 2, 3)), std::vector<Vec3>(n, Vec3(1, 2, 3))), AdmitAll{},
-                    UniformClearance{0.1});
-  EXPECT_EQ(lazy.self_collisions().size(), n * n);
+  Points points(two_groups(std::vector<Vec3>(n, Vec3(1, 2, 3)), std::vector<Vec3>(n, Vec3(1, 2, 3))), AdmitAll{},
+                UniformClearance{0.1});
+  EXPECT_EQ(points.self_collisions().size(), n * n);
   std::vector<Point> placed(2 * n, Point{Vec3(5, 5, 5)});
-  lazy.update_placed(placed);
-  EXPECT_EQ(lazy.self_collisions().size(), n * (2 * n - 1)) << "given coordinates: pairs inside groups count too";
+  points.update_placed(placed);
+  EXPECT_EQ(points.self_collisions().size(), n * (2 * n - 1)) << "given coordinates: pairs inside groups count too";
 }
 
-TEST(Hierarchy, HitsEveryNeighbourOfALatticeJustAboveItsSpacing) {
+TYPED_TEST(EveryHierarchy, HitsEveryNeighbourOfALatticeJustAboveItsSpacing) {
+  using Points = typename TypeParam::Points;
   const int n = 6;
   std::vector<Vec3> even, odd;
   for (int x = 0; x < n; ++x)
     for (int y = 0; y < n; ++y)
       for (int z = 0; z < n; ++z) ((x + y + z) % 2 == 0 ? even : odd).emplace_back(x, y, z);
-  Points<Lazy> at(two_groups(even, odd), AdmitAll{}, UniformClearance{1.0});
+  Points at(two_groups(even, odd), AdmitAll{}, UniformClearance{1.0});
   EXPECT_TRUE(at.self_collisions().empty());
-  Points<Lazy> above(two_groups(even, odd), AdmitAll{}, UniformClearance{std::nextafter(1.0, 2.0)});
+  Points above(two_groups(even, odd), AdmitAll{}, UniformClearance{std::nextafter(1.0, 2.0)});
   EXPECT_EQ(above.self_collisions().size(), static_cast<std::size_t>(3 * n * n * (n - 1)));
 }
 
-TEST(Hierarchy, GivesClosestTiesToTheSmallestPair) {
-  Points<Lazy> lazy(two_groups({Vec3(0, 0, 0), Vec3(10, 0, 0)}, {Vec3(0, 3, 0), Vec3(10, 3, 0)}), AdmitAll{},
-                    UniformClearance{1.0});
-  EXPECT_EQ(lazy.self_closest()->first, PrimitiveId{0});
-  EXPECT_EQ(lazy.self_closest()->second, PrimitiveId{2});
+TYPED_TEST(EveryHierarchy, GivesClosestTiesToTheSmallestPair) {
+  using Points = typename TypeParam::Points;
+  Points points(two_groups({Vec3(0, 0, 0), Vec3(10, 0, 0)}, {Vec3(0, 3, 0), Vec3(10, 3, 0)}), AdmitAll{},
+                UniformClearance{1.0});
+  EXPECT_EQ(points.self_closest()->first, PrimitiveId{0});
+  EXPECT_EQ(points.self_closest()->second, PrimitiveId{2});
 }
 
-TEST(Hierarchy, ReportsConstantContactsApart) {
+TYPED_TEST(EveryHierarchy, ReportsConstantContactsApart) {
+  using Points = typename TypeParam::Points;
   ModelBuilder<Point> build;
   build.add_primitive(world, Point{Vec3(0, 0, 0)});
   build.add_primitive(world, Point{Vec3(0.5, 0, 0)});
   // On the axis of the joint, so its distance to the first two never changes.
   build.add_link(world, Revolute{Vec3::UnitZ(), Vec3(0.25, 0, 0), {}, {}},
                  {Point{Vec3(0.25, 0, 0.1)}, Point{Vec3(4, 0, 0)}});
-  Points<Lazy> lazy(build.finish(), AdmitAll{}, UniformClearance{1.0});
-  EXPECT_FALSE(lazy.self_collides());
-  const auto contacts = lazy.constant_contacts();
+  Points points(build.finish(), AdmitAll{}, UniformClearance{1.0});
+  EXPECT_FALSE(points.self_collides());
+  const auto contacts = points.constant_contacts();
   ASSERT_EQ(contacts.size(), 3U);
   EXPECT_EQ(contacts[0].second, PrimitiveId{1});
   EXPECT_EQ(contacts[1].second, PrimitiveId{2});
 }
 
-TEST(Hierarchy, RefusesBadInputNamingItAndKeepsItsState) {
-  Points<Lazy> lazy(two_groups({Vec3::Zero()}, {Vec3(0.5, 0, 0)}), AdmitAll{}, UniformClearance{1.0});
-  const std::vector<Hit> before = lazy.self_collisions();
+TYPED_TEST(EveryHierarchy, RefusesBadInputNamingItAndKeepsItsState) {
+  using Points = typename TypeParam::Points;
+  Points points(two_groups({Vec3::Zero()}, {Vec3(0.5, 0, 0)}), AdmitAll{}, UniformClearance{1.0});
+  const std::vector<Hit> before = points.self_collisions();
   const auto message = [&](const auto& act) -> std::string {
     try {
       act();
@@ -120,23 +140,24 @@ TEST(Hierarchy, RefusesBadInputNamingItAndKeepsItsState) {
     }
     return "";
   };
-  EXPECT_EQ(message([&] { lazy.update({}); }), "configuration has 0 values, expected 1");
-  EXPECT_NE(message([&] { lazy.update(std::vector<double>{nan}); }).find("value 0"), std::string::npos);
+  EXPECT_EQ(message([&] { points.update({}); }), "configuration has 0 values, expected 1");
+  EXPECT_NE(message([&] { points.update(std::vector<double>{nan}); }).find("value 0"), std::string::npos);
   EXPECT_NE(message([&] {
-              lazy.update_placed(std::vector<Point>{{Vec3::Zero()}, {Vec3(0, nan, 0)}});
+              points.update_placed(std::vector<Point>{{Vec3::Zero()}, {Vec3(0, nan, 0)}});
             }).find("primitive 1"),
             std::string::npos);
-  EXPECT_NE(message([&] { lazy.update_poses(std::vector<Pose>(3)); }).find("3 poses, expected 2"), std::string::npos);
-  EXPECT_NE(message([&] { lazy.self_within(-1.0); }).find("margin"), std::string::npos);
-  EXPECT_NE(message([&] { lazy.self_within(nan); }).find("margin"), std::string::npos);
+  EXPECT_NE(message([&] { points.update_poses(std::vector<Pose>(3)); }).find("3 poses, expected 2"), std::string::npos);
+  EXPECT_NE(message([&] { points.self_within(-1.0); }).find("margin"), std::string::npos);
+  EXPECT_NE(message([&] { points.self_within(nan); }).find("margin"), std::string::npos);
   const double clearance[] = {0.0, -1.0};
   QueryOptions options;
   options.clearance = clearance;
-  EXPECT_NE(message([&] { lazy.self_collides(options); }).find("rigid group 1"), std::string::npos);
-  EXPECT_EQ(lazy.self_collisions(), before);
+  EXPECT_NE(message([&] { points.self_collides(options); }).find("rigid group 1"), std::string::npos);
+  EXPECT_EQ(points.self_collisions(), before);
 }
 
-TEST(Hierarchy, RefusesPoliciesMadeForAnotherModel) {
+TYPED_TEST(EveryHierarchy, RefusesPoliciesMadeForAnotherModel) {
+  using Points = typename TypeParam::Points;
   const auto model = two_groups({Vec3::Zero()}, {Vec3::UnitX()});
   const TypedThresholds three({0, 0, 0}, 1, {1.0});
   EXPECT_THROW((Hierarchy(model, AdmitAll{}, three)), ModelError);
@@ -147,7 +168,7 @@ TEST(Hierarchy, RefusesPoliciesMadeForAnotherModel) {
   EXPECT_THROW(TypedThresholds({0}, 2, {1.0}), ModelError);
   EXPECT_THROW(UniformClearance{-0.1}, ModelError);
   EXPECT_THROW(UniformClearance{nan}, ModelError);
-  Points<Lazy> a(model, AdmitAll{}, UniformClearance{1.0}), b(model, AdmitAll{}, UniformClearance{2.0});
+  Points a(model, AdmitAll{}, UniformClearance{1.0}), b(model, AdmitAll{}, UniformClearance{2.0});
   EXPECT_THROW(a.collides(b), ModelError);
 }
 
@@ -166,8 +187,8 @@ TEST(Hierarchy, CountsItsWork) {
   Random random(8);
   const auto make = [](Random& r, const Vec3&, const Vec3&) { return Point{r.vector(4.0)}; };
   const auto model = test::random_model(random, 30, 5, true, make);
-  Points<Lazy> lazy(model, AdmitAll{}, UniformClearance{0.5});
-  Points<Brute> brute(model, AdmitAll{}, UniformClearance{0.5});
+  PointsOn<Lazy> lazy(model, AdmitAll{}, UniformClearance{0.5});
+  PointsOn<Brute> brute(model, AdmitAll{}, UniformClearance{0.5});
   QueryCounts few, many;
   QueryOptions options;
   options.counts = &few;
@@ -178,6 +199,12 @@ TEST(Hierarchy, CountsItsWork) {
   EXPECT_LT(few.pairs_tested, many.pairs_tested);
   EXPECT_GT(few.boxes_tested, 0U);
   EXPECT_GT(few.nodes_split, 0U);
+  QueryCounts wide_counts;
+  options.counts = &wide_counts;
+  PointsOn<Wide> wide(model, AdmitAll{}, UniformClearance{0.5});
+  wide.self_collisions(options);
+  EXPECT_GT(wide_counts.boxes_tested, 0U);
+  EXPECT_GT(wide_counts.pairs_tested, 0U);
 }
 
 TEST(Hierarchy, KeepsTheTreesOfGroupsThatStandStill) {
@@ -185,7 +212,7 @@ TEST(Hierarchy, KeepsTheTreesOfGroupsThatStandStill) {
   std::vector<Vec3> fixed, moving;
   for (int k = 0; k < 300; ++k) fixed.push_back(random.vector(5.0));
   for (int k = 0; k < 5; ++k) moving.push_back(random.vector(5.0));
-  Points<Lazy> lazy(two_groups(fixed, moving), AdmitAll{}, UniformClearance{0.5});
+  PointsOn<Lazy> lazy(two_groups(fixed, moving), AdmitAll{}, UniformClearance{0.5});
   QueryCounts first, again;
   QueryOptions options;
   options.counts = &first;

@@ -2,6 +2,9 @@
 // Models and non-models of every concept; to compile is to pass.
 #include <type_traits>
 
+#include "hinge/engine/brute/brute.hpp"
+#include "hinge/engine/lazy/lazy.hpp"
+#include "hinge/engine/wide/wide.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/policy/different_links.hpp"
 #include "hinge/primitive/capsule.hpp"
@@ -78,9 +81,15 @@ concept EngineFor = Engine<E, P, AdmitAll, UniformClearance>;
 static_assert(EngineFor<Brute<Point, AdmitAll, UniformClearance>, Point>);
 static_assert(EngineFor<Lazy<Triangle, AdmitAll, UniformClearance>, Triangle>);
 static_assert(!EngineFor<Lazy<Point, AdmitAll, UniformClearance>, Sphere>);
+static_assert(EngineFor<Wide<Point, AdmitAll, UniformClearance>, Point>);
+static_assert(EngineFor<Wide<Triangle, AdmitAll, UniformClearance>, Triangle>);
 static_assert(!EngineFor<LazyTree, Point>);
 static_assert(CrossEngine<Lazy<Point, AdmitAll, UniformClearance>, Point, AdmitAll, UniformClearance, AdmitAll>);
 static_assert(!CrossEngine<Lazy<Point, AdmitAll, OwnOnly>, Point, AdmitAll, OwnOnly, AdmitAll>);
+static_assert(CrossEngine<Wide<Point, AdmitAll, TypedThresholds>, Point, AdmitAll, TypedThresholds, AdmitAll>);
+static_assert(!CrossEngine<Wide<Point, AdmitAll, OwnOnly>, Point, AdmitAll, OwnOnly, AdmitAll>);
+static_assert(TypesPrimitives<TypedThresholds> && !TypesPrimitives<UniformClearance>);
+static_assert(TurnsBatch<Point> && !TurnsBatch<Sphere>);
 
 static_assert(Id<PrimitiveId> && !Id<int> && !std::is_convertible_v<LinkId, PrimitiveId>);
 

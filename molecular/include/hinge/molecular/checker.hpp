@@ -14,6 +14,7 @@
 
 #include "hinge/engine/brute/brute.hpp"
 #include "hinge/engine/lazy/lazy.hpp"
+#include "hinge/engine/wide/wide.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/molecule.hpp"
@@ -40,7 +41,7 @@ struct CheckOptions {
   ThresholdOptions thresholds;
   std::optional<int> min_bonds;   ///< pairs count from this bond distance on; none: the radii set's default
   bool exempt_reference = false;  ///< pairs that collide in the reference never count
-  std::string engine = "lazy";    ///< "lazy" or "brute"
+  std::string engine = "wide";    ///< "wide", "lazy" (the paper's) or "brute"
 };
 
 /// The answer for one conformation. `pairs` holds what the mode lists (all: colliding; within: closer than the margin;
@@ -81,7 +82,7 @@ class Checker {
   std::vector<Vec3> positions();
 
  private:
-  using AnyHierarchy = std::variant<MolecularHierarchy<Lazy>, MolecularHierarchy<Brute>>;
+  using AnyHierarchy = std::variant<MolecularHierarchy<Wide>, MolecularHierarchy<Lazy>, MolecularHierarchy<Brute>>;
   AnyHierarchy make(const std::string& engine, DofSelection selection) const;
   Verdict ask(const Mode& mode);
 
