@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // biocd: self-collision of molecules on the command line. This file is the command line itself.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -7,8 +9,10 @@
 #include <string>
 
 #include "hinge/core/error.hpp"
+#include "hinge/simd/instruction_set.hpp"
 #include "hinge/version.hpp"
 #include "options.hpp"
+#include "pick_instruction_set.hpp"
 
 namespace {
 
@@ -58,7 +62,7 @@ void add_model_options(CLI::App& command, Options& o) {
   command.add_flag("--hetero", o.read.hetero, "keep ligands, ions and sugars");
   command.add_flag("--exempt-reference", o.check.exempt_reference,
                    "pairs that collide in the file's (first) model do not count");
-  command.add_option("--engine", o.check.engine, "lazy or brute")->capture_default_str();
+  command.add_option("--engine", o.check.engine, "wide, lazy (the paper's) or brute")->capture_default_str();
   command.add_option("--explain", o.explain, "say which rule keeps or drops the pair of atoms i,j (numbers from 0)");
 }
 
@@ -85,7 +89,8 @@ int run(int argc, char** argv) {
   std::function<int(const Options&)> command;
   CLI::App app{"biocd: self-collision of proteins and other molecules as articulated mechanisms"};
   app.footer(footer);
-  app.set_version_flag("--version", std::string("biocd ") + hinge::version_string);
+  app.set_version_flag(
+      "--version", fmt::format("biocd {} ({})", hinge::version_string, hinge::simd::name(hinge::simd::compiled_for())));
   app.require_subcommand(1);
 
   CLI::App* info = app.add_subcommand("info", "what the file holds, its degrees of freedom and rigid groups");
@@ -129,6 +134,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
+    biocd::pick_instruction_set(argv);
     return run(argc, argv);
   } catch (const hinge::LoadError& error) {
     std::fprintf(stderr, "biocd: %s\n", error.what());

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "hinge/ensemble/ensemble.hpp"
 #include "options.hpp"
-#include "parallel_check.hpp"
 #include "report.hpp"
 
 namespace biocd {
@@ -28,12 +28,8 @@ int run_check(const Options& options) {
   json["conformations"] = Json::array();
   std::string table = heading(options, job), csv = csv_header();
   std::size_t colliding = 0;
-  std::vector<Checker> workers(options.threads, job.checker);
-  std::vector<Verdict> verdicts(s.models.size());
-  check_parallel(workers, verdicts.size(),
-                 [&](Checker& checker, std::size_t m) { verdicts[m] = checker.check_coordinates(s.models[m], mode); });
-  for (std::size_t m = 0; m < s.models.size(); ++m) {
-    const Verdict& verdict = verdicts[m];
+  const auto judge = [&](Checker& checker, std::size_t m) { return checker.check_coordinates(s.models[m], mode); };
+  const auto report = [&](std::size_t m, const Verdict& verdict) {
     colliding += verdict.collides ? 1 : 0;
     if (options.output == Output::json) {
       Json row = verdict_json(s, m, verdict, mode);
@@ -41,7 +37,7 @@ int run_check(const Options& options) {
       json["conformations"].push_back(std::move(row));
     }
     if (options.output == Output::csv) csv += csv_rows(s, m, verdict);
-    if (options.output != Output::table) continue;
+    if (options.output != Output::table) return;
     table += fmt::format("model {}: {}", s.model_numbers[m], verdict.collides ? "collides" : "free");
     if (mode.kind == Mode::Kind::all) table += fmt::format(", {} pairs", verdict.pairs.size());
     if (mode.kind == Mode::Kind::within)
@@ -49,7 +45,8 @@ int run_check(const Options& options) {
     table += "\n";
     for (const hinge::Hit& hit : verdict.pairs) table += hit_line(s, hit) + "\n";
     if (verdict.closest) table += hit_line(s, *verdict.closest) + "  (closest)\n";
-  }
+  };
+  hinge::Ensemble(job.checker, options.threads).run(s.models.size(), judge, report);
   if (options.output == Output::json) fmt::print("{}\n", json.dump(1));
   if (options.output == Output::csv) {
     print_constant_contacts(job);

@@ -17,11 +17,11 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
+#include "hinge/ensemble/ensemble.hpp"
 #include "hinge/molecular/sampler.hpp"
 #include "hinge/molecular/selection.hpp"
 #include "hinge/molecular/write_structure.hpp"
 #include "options.hpp"
-#include "parallel_check.hpp"
 #include "plot_svg.hpp"
 
 namespace biocd {
@@ -51,13 +51,13 @@ std::ofstream open(const std::filesystem::path& path) {
 }
 
 /// Verdicts, pairs and closest pairs of the first conformations on both engines; the number that differ.
-int differences(Checker& lazy, Checker& brute, const Sampling& sampling, std::uint64_t count) {
+int differences(Checker& wide, Checker& brute, const Sampling& sampling, std::uint64_t count) {
   int different = 0;
   for (std::uint64_t k = 0; k < count; ++k) {
-    const auto q = sample_configuration(sampling, k, lazy.dof_count());
+    const auto q = sample_configuration(sampling, k, wide.dof_count());
     for (const char* text : {"any", "all", "within:1", "closest"}) {
       const Mode mode = Mode::parse(text);
-      const Verdict a = lazy.check(q, mode), b = brute.check(q, mode);
+      const Verdict a = wide.check(q, mode), b = brute.check(q, mode);
       if (a.collides != b.collides || a.pairs != b.pairs || a.closest != b.closest) ++different;
     }
   }
@@ -110,23 +110,26 @@ int run_demo(const Options& options) {
   for (const std::size_t count : counts) {
     const std::string spec = fmt::format("count:{}", count);
     const auto selection = molecule->select(select_torsions(*molecule, spec, options.omega));
-    Checker lazy(molecule, selection, rules);
+    Checker wide(molecule, selection, rules);
     rules.engine = "brute";
     Checker brute(molecule, selection, rules);
-    rules.engine = "lazy";
+    rules.engine = "wide";
     for (std::size_t n = 0; n < plots.size(); ++n) {
       plots[n].labels.push_back(std::to_string(count));
-      fmt::print("{:>8} {:>5} {:<8}", count, lazy.dof_count(), samplings[n].name);
+      fmt::print("{:>8} {:>5} {:<8}", count, wide.dof_count(), samplings[n].name);
       std::uint64_t colliding = 0;
       for (std::size_t m = 0; m < plots[n].curves.size(); ++m) {
-        std::vector<Checker> workers(threads, lazy);
+        hinge::Ensemble workers(wide, threads);
         const auto start = std::chrono::steady_clock::now();
         std::vector<Verdict> verdicts(static_cast<std::size_t>(options.count));
         const Mode mode = Mode::parse(modes[m]);
         const Sampling& sampling = samplings[n].sampling;
-        check_parallel(workers, verdicts.size(), [&](Checker& checker, std::size_t k) {
-          verdicts[k] = checker.check(sample_configuration(sampling, k, checker.dof_count()), mode);
-        });
+        workers.run(
+            verdicts.size(),
+            [&](Checker& checker, std::size_t k) {
+              return checker.check(sample_configuration(sampling, k, checker.dof_count()), mode);
+            },
+            [&](std::size_t k, Verdict&& verdict) { verdicts[k] = std::move(verdict); });
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
         const double rate = static_cast<double>(options.count) / seconds.count();
         plots[n].curves[m].values.push_back(rate);
@@ -136,14 +139,14 @@ int run_demo(const Options& options) {
           colliding += verdict.collides ? 1 : 0;
           // A conformation near the native one is a picture a person can read.
           if (m != 1 || n != 1 || verdict.pairs.size() <= worst.pairs.size()) continue;
-          lazy.check(sample_configuration(sampling, k, lazy.dof_count()), mode);
-          worst = {verdict.pairs, lazy.positions()};
+          wide.check(sample_configuration(sampling, k, wide.dof_count()), mode);
+          worst = {verdict.pairs, wide.positions()};
         }
         fmt::print(" {:>14.0f}", rate);
         std::fflush(stdout);
       }
       fmt::print("  {:8.2f} %\n", 100.0 * static_cast<double>(colliding) / static_cast<double>(options.count));
-      different += differences(lazy, brute, samplings[n].sampling, std::min(verified, options.count));
+      different += differences(wide, brute, samplings[n].sampling, std::min(verified, options.count));
     }
   }
   fmt::print("\nbrute force on {} conformations of each row, all four modes: {} differences\n",

@@ -17,10 +17,10 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
+#include "hinge/ensemble/ensemble.hpp"
 #include "hinge/molecular/sampler.hpp"
 #include "hinge/molecular/write_structure.hpp"
 #include "options.hpp"
-#include "parallel_check.hpp"
 #include "progress_bar.hpp"
 #include "report.hpp"
 
@@ -130,7 +130,6 @@ int run_sample(const Options& options) {
   if (options.sigma_degrees) sampling.sigma = *options.sigma_degrees * std::numbers::pi / 180.0;
   const Structure& s = job.molecule->structure();
   ConformationFile file(options.out);
-  std::vector<Checker> workers(options.threads, job.checker);
 
   if (options.output == Output::json) {
     Json head{{"tool", "biocd"}, {"command", "sample"}, {"model", model_json(options, job)}, {"mode", mode.text()}};
@@ -147,30 +146,24 @@ int run_sample(const Options& options) {
   }
   if (options.output == Output::table) fmt::print("{}", heading(options, job));
 
-  // A block bounds the memory; its rows are printed in index order whatever thread made them.
-  constexpr std::uint64_t block = 1024;
   Summary summary;
   ProgressBar bar(options.count);
-  std::chrono::duration<double> checking{};
-  for (std::uint64_t first = 0; first < options.count; first += block) {
-    const auto start = std::chrono::steady_clock::now();
-    std::vector<Sample> samples(static_cast<std::size_t>(std::min(block, options.count - first)));
-    check_parallel(workers, samples.size(), [&](Checker& checker, std::size_t k) {
-      samples[k].verdict = checker.check(sample_configuration(sampling, first + k, checker.dof_count()), mode);
-      if (file.wanted()) samples[k].positions = checker.positions();
-    });
-    checking += std::chrono::steady_clock::now() - start;
-    for (std::size_t k = 0; k < samples.size(); ++k) {
-      const Verdict& verdict = samples[k].verdict;
-      const std::uint64_t number = first + k;
-      summary.add(verdict);
-      if (options.output == Output::json)
-        fmt::print("{}\n{}", number == 0 ? "" : ",", verdict_json(s, number, verdict, mode).dump());
-      if (options.output == Output::csv) fmt::print("{}", csv_rows(s, number, verdict));
-      if (file.wanted()) write_pdb_model(file.stream(), s, samples[k].positions, static_cast<int>(number) + 1);
-    }
-    bar.show(first + samples.size());
-  }
+  const auto start = std::chrono::steady_clock::now();
+  const auto judge = [&](Checker& checker, std::size_t k) {
+    Sample sample{checker.check(sample_configuration(sampling, k, checker.dof_count()), mode), {}};
+    if (file.wanted()) sample.positions = checker.positions();
+    return sample;
+  };
+  const auto report = [&](std::size_t k, const Sample& sample) {
+    summary.add(sample.verdict);
+    if (options.output == Output::json)
+      fmt::print("{}\n{}", k == 0 ? "" : ",", verdict_json(s, k, sample.verdict, mode).dump());
+    if (options.output == Output::csv) fmt::print("{}", csv_rows(s, k, sample.verdict));
+    if (file.wanted()) write_pdb_model(file.stream(), s, sample.positions, static_cast<int>(k) + 1);
+    bar.show(k + 1);
+  };
+  hinge::Ensemble(job.checker, options.threads).run(static_cast<std::size_t>(options.count), judge, report);
+  const std::chrono::duration<double> checking = std::chrono::steady_clock::now() - start;
   file.finish();
   if (options.output == Output::json) print_json_end(s, summary);
   if (options.output == Output::table) print_table(s, summary, checking.count());

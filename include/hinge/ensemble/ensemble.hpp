@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Ensemble: many configurations on many threads, results in index order, memory bounded.
+#pragma once
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "hinge/hierarchy.hpp"
+
+namespace hinge {
+
+/// Threads with a worker each: a copy of a Hierarchy, or of anything that holds one. Constant parts are shared by
+/// copies, so a worker costs the scratch of one engine. Link to hinge::ensemble.
+template <std::copyable Worker>
+class Ensemble {
+ public:
+  /// threads: at least 1, else ModelError.
+  Ensemble(const Worker& prototype, unsigned threads) : arena_(checked(threads)), workers_(prototype) {}
+
+  /// Calls work(worker, k) -> result once for every k < count, on any thread, and take(k, result) on one thread at a
+  /// time in the order of k: what take sees does not depend on the number of threads. At most a few chunks of results
+  /// per thread exist at a time. The first exception of either ends the run and is thrown here.
+  template <class Work, class Take>
+  void run(std::size_t count, const Work& work, const Take& take) {
+    using Result = std::remove_cvref_t<std::invoke_result_t<const Work&, Worker&, std::size_t>>;
+    struct Chunk {
+      std::size_t first;
+      std::vector<Result> results;
+    };
+    const auto threads = static_cast<std::size_t>(arena_.max_concurrency());
+    // Long enough that handing over costs nothing beside queries of a microsecond, short enough to share the work.
+    const std::size_t length = std::clamp<std::size_t>(count / (8 * threads), 1, 256);
+    std::size_t next = 0;
+    const auto hand_out = [&](tbb::flow_control& flow) -> std::size_t {
+      if (next >= count) {
+        flow.stop();
+        return count;
+      }
+      return std::exchange(next, next + length);
+    };
+    const auto process = [&](std::size_t first) {
+      Worker& worker = workers_.local();
+      auto chunk = std::make_shared<Chunk>(Chunk{first, {}});
+      const std::size_t end = std::min(first + length, count);
+      chunk->results.reserve(end - first);
+      for (std::size_t k = first; k < end; ++k) chunk->results.push_back(work(worker, k));
+      return chunk;
+    };
+    const auto hand_over = [&](const std::shared_ptr<Chunk>& chunk) {
+      for (std::size_t k = 0; k < chunk->results.size(); ++k) take(chunk->first + k, std::move(chunk->results[k]));
+    };
+    arena_.execute([&] {
+      tbb::parallel_pipeline(
+          4 * threads,
+          tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, hand_out) &
+              tbb::make_filter<std::size_t, std::shared_ptr<Chunk>>(tbb::filter_mode::parallel, process) &
+              tbb::make_filter<std::shared_ptr<Chunk>, void>(tbb::filter_mode::serial_in_order, hand_over));
+    });
+  }
+
+ private:
+  static int checked(unsigned threads) {
+    if (threads == 0) throw ModelError("0 threads: expected at least one");
+    return static_cast<int>(threads);
+  }
+
+  tbb::task_arena arena_;
+  tbb::enumerable_thread_specific<Worker> workers_;
+};
+
+/// Yes or no for every configuration. configurations: one after the other, hierarchy.dof_count() values each (rad or
+/// model length unit). ConfigurationError: their number is no multiple of that, or one is refused by update().
+template <class H>
+std::vector<std::uint8_t> self_collides(const H& hierarchy, std::span<const double> configurations, unsigned threads) {
+  const std::size_t dof = hierarchy.dof_count();
+  if (dof == 0 ? !configurations.empty() : configurations.size() % dof != 0)
+    throw ConfigurationError(std::to_string(configurations.size()) + " values for configurations of " +
+                             std::to_string(dof));
+  std::vector<std::uint8_t> verdicts;
+  const std::size_t count = dof == 0 ? 0 : configurations.size() / dof;
+  verdicts.reserve(count);
+  Ensemble<H>(hierarchy, threads)
+      .run(
+          count,
+          [&](H& own, std::size_t k) -> std::uint8_t {
+            own.update(configurations.subspan(k * dof, dof));
+            return own.self_collides() ? 1 : 0;
+          },
+          [&](std::size_t, std::uint8_t verdict) { verdicts.push_back(verdict); });
+  return verdicts;
+}
+
+}  // namespace hinge
