@@ -1,243 +1,200 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The set-ups of BioCD's Figures 9 and 10 on engine/lazy, brute force and FCL's manager, interleaved in one run, with
-// equal answers checked. Structures are the stand-ins named in docs/explanation/benchmarks.md; without them 1UBQ takes
-// their place.
+// The paper's set-ups in full, in microseconds: all samplings, queries and peers; rigid secondary structure; changing
+// the selection; warm and cold caches; one and two threads; growth.
 #include <algorithm>
-#include <chrono>
-#include <cmath>
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <functional>
 #include <limits>
-#include <numbers>
+#include <numeric>
 #include <string>
-#include <string_view>
-#include <utility>
+#include <thread>
 #include <vector>
 
-#include "hinge/hierarchy.hpp"
-#include "hinge/molecular/bond_exclusions.hpp"
-#include "hinge/molecular/molecule.hpp"
-#include "hinge/molecular/radii.hpp"
-#include "hinge/molecular/read_structure.hpp"
-#include "hinge/molecular/sampler.hpp"
-#include "hinge/molecular/selection.hpp"
-#include "oracle/fcl_oracle.hpp"
+#include "contestant.hpp"
+#include "growth.hpp"
+#include "results.hpp"
+#include "scene.hpp"
+#include "timing.hpp"
 
 namespace {
 
 using namespace hinge;
-using namespace hinge::molecular;
-using Clock = std::chrono::steady_clock;
-template <template <class, class, class> class E>
-using Molecular = Hierarchy<Point, BondExclusions, TypedThresholds, E>;
+using namespace hinge::bench;
 
-constexpr std::uint64_t seed = 2005;
-constexpr int repetitions = 3;  // one pre-emption spoils a mean, so the best of these counts for each conformation
+void print_header(const char* title) {
+  std::printf("\n%s\n%-7s %4s %5s %6s %-9s %-8s", title, "setup", "free", "dof", "atoms", "sampling", "query");
+  for (const char* who : {"wide", "fcl", "grid", "lazy", "chain-s", "chain-b", "chain16b", "brute", "nanofl.", "gemmi"})
+    std::printf(" %9s", who);
+  std::printf(" collide diff\n");
+}
 
-struct Setup {
-  const char* figure;
-  std::string file;
-  int residues;  // free, at regular intervals
-};
+void print_cell(const Setup& setup, const Scene& scene, Query query, Sampling sampling, const Cell& cell) {
+  std::printf("%-7s %4d %5zu %6zu %-9s %-8s", setup.name.c_str(), setup.residues, scene.dof_count(), scene.size(),
+              name(sampling), name(query));
+  for (const char* who : {"wide", "fcl", "grid", "lazy", "chain-spheres", "chain-boxes", "chain16-boxes", "brute",
+                          "nanoflann", "gemmi"}) {
+    const auto s =
+        std::find_if(cell.series.begin(), cell.series.end(), [who](const Series& x) { return x.name == who; });
+    if (s == cell.series.end())
+      std::printf(" %9s", "-");
+    else
+      std::printf(" %9.2f", s->us);
+  }
+  std::printf(" %5.0f %% %4d\n", 100.0 * cell.colliding / cell.conformations, cell.differences);
+  std::fflush(stdout);
+}
 
-/// Everything one set-up needs, all peers prepared on the same pairs.
-class Scene {
+/// All samplings and queries of one scene; how many answers differ.
+int run_table(Results& results, const Setup& setup, Scene& scene, double seconds, Ratios* ratios) {
+  std::vector<Contestant> all = contestants(scene);
+  int differences = 0;
+  for (const Sampling sampling : all_samplings)
+    for (const Query query : all_queries) {
+      const Cell cell = Measurement(scene, all, query, sampling).run({seconds, 100});
+      print_cell(setup, scene, query, sampling, cell);
+      add_cell(results, describe(setup, scene), query, sampling, cell);
+      if (ratios != nullptr) ratios->add(query, sampling, cell);
+      differences += cell.differences;
+    }
+  return differences;
+}
+
+/// Microseconds to make a hierarchy for a selection, the molecule being there: the best of five.
+void run_selection_change(Results& results, const Setup& setup, const Scene& scene) {
+  double wide = std::numeric_limits<double>::infinity(), lazy = wide;
+  for (int k = 0; k < 5; ++k) {
+    wide = std::min(wide, microseconds([&] { scene.make<Wide>(); }));
+    lazy = std::min(lazy, microseconds([&] { scene.make<Lazy>(); }));
+  }
+  std::printf("%-7s %4d %5zu %6zu changing the selection: wide %.0f, lazy %.0f\n", setup.name.c_str(), setup.residues,
+              scene.dof_count(), scene.size(), wide, lazy);
+  Json row = {{"kind", "selection"}};
+  row.update(describe(setup, scene));
+  row.update({{"wide_us", wide}, {"lazy_us", lazy}});
+  results.add(std::move(row));
+}
+
+/// Writes over more than any cache of a core holds.
+class Eviction {
  public:
-  Scene(const Molecule& molecule, int residues)
-      : thresholds_(make_thresholds(molecule.structure())),
-        filter_(exempted(molecule)),
-        selection_(molecule.select(select_torsions(molecule, "count:" + std::to_string(residues), true))),
-        lazy_(molecule.model(), selection_, filter_, thresholds_.matrix),
-        brute_(molecule.model(), selection_, filter_, thresholds_.matrix),
-        fcl_(radii(molecule.structure()), [this](std::size_t i, std::size_t j) {
-          const auto a = id<PrimitiveId>(i), b = id<PrimitiveId>(j);
-          return filter_.admits(a, b) && !lazy_.model().constant(a, b);
-        }) {
-    for (std::size_t i = 0; i < molecule.structure().atoms.size(); ++i)
-      if (lazy_.model().group_of(id<PrimitiveId>(i)) != GroupId{0}) moved_.push_back(i);
-  }
-  Scene(const Scene&) = delete;
-  Scene& operator=(const Scene&) = delete;
-
-  std::size_t dof_count() const { return lazy_.dof_count(); }
-
-  /// Brings all peers to a configuration; forward kinematics and coordinates are nobody's time.
-  void prepare(const std::vector<double>& q) {
-    lazy_.update(q);
-    brute_.update(q);
-    brute_.placed();
-    positions_.clear();
-    for (const Point& p : lazy_.placed()) positions_.push_back({p.position[0], p.position[1], p.position[2]});
-  }
-  Molecular<Lazy>& lazy() { return lazy_; }
-  Molecular<Brute>& brute() { return brute_; }
-  oracle::FclSpheres& fcl() {
-    fcl_.update(positions_, moved_);
-    return fcl_;
+  void run() {
+    for (std::size_t k = 0; k < data_.size(); k += 64) data_[k] = static_cast<unsigned char>(data_[k] + 1);
+    std::atomic_signal_fence(std::memory_order_seq_cst);
   }
 
  private:
-  /// Pairs closer than M + 0.05 angstrom in the native structure do not count.
-  BondExclusions exempted(const Molecule& molecule) const {
-    Molecular<Lazy> native(molecule.model(), molecule.select({}), BondExclusions(molecule.structure(), 4),
-                           thresholds_.matrix);
-    std::vector<Point> placed;
-    for (const Vec3& x : molecule.structure().models.front()) placed.push_back(Point{x});
-    native.update_placed(placed);
-    std::vector<std::pair<PrimitiveId, PrimitiveId>> pairs;
-    for (const Hit& hit : native.self_within(0.05)) pairs.emplace_back(hit.first, hit.second);
-    return {molecule.structure(), 4, pairs};
-  }
-  /// Bondi's M is a sum of radii, so spheres of rho * r say the same.
-  std::vector<double> radii(const Structure& structure) const {
-    std::vector<double> radii;
-    for (std::size_t i = 0; i < structure.atoms.size(); ++i)
-      radii.push_back(thresholds_.matrix.threshold(id<PrimitiveId>(i), id<PrimitiveId>(i)) / 2);
-    return radii;
-  }
-
-  Thresholds thresholds_;
-  BondExclusions filter_;
-  DofSelection selection_;
-  Molecular<Lazy> lazy_;
-  Molecular<Brute> brute_;
-  oracle::FclSpheres fcl_;
-  std::vector<std::size_t> moved_;
-  std::vector<oracle::Position> positions_;
+  std::vector<unsigned char> data_ = std::vector<unsigned char>(64 << 20);
 };
 
-enum class Query { any, all, within, closest };
-constexpr const char* query_names[] = {"any", "all", "within", "closest"};
-
-/// Microseconds per conformation of lazy, brute, FCL (NaN where not asked), and how many verdicts differ.
-struct Result {
-  double lazy = 0.0, brute = 0.0, fcl = 0.0, colliding = 0.0;
-  int differences = 0;
-};
-
-template <class Work>
-double best_time(const Work& prepare, const Work& work) {
-  double best = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < repetitions; ++k) {
-    prepare();
-    const auto start = Clock::now();
-    work();
-    best = std::min(best, std::chrono::duration<double, std::micro>(Clock::now() - start).count());
-  }
-  return best;
-}
-
-Result run(Scene& scene, Query query, const Sampling& sampling, int conformations) {
-  Result result;
-  std::vector<double> away(scene.dof_count(), 0.0);
-  for (int k = 0; k < conformations; ++k) {
-    const auto q = sample_configuration(sampling, static_cast<std::uint64_t>(k), scene.dof_count());
-    // A query at another configuration in between, so that every repetition pays for its update.
-    const std::function<void()> prepare = [&] {
-      scene.prepare(away);
-      scene.lazy().self_collides();
-      scene.fcl();
-      scene.prepare(q);
-    };
-    std::size_t lazy = 0, brute = 0, fcl = 0;
-    double lazy_gap = 0.0, brute_gap = 0.0;
-    const auto ask = [&](auto& hierarchy, std::size_t& answer, double& gap) {
-      switch (query) {
-        case Query::any: answer = hierarchy.self_collides() ? 1 : 0; break;
-        case Query::all: answer = hierarchy.self_collisions().size(); break;
-        case Query::within: answer = hierarchy.self_within(1.0).size(); break;
-        case Query::closest: gap = hierarchy.self_closest()->gap(); break;
+/// Alone and warm, and with cold caches, near-free; the table has them interleaved.
+void run_caches(Results& results, const Setup& setup, Scene& scene) {
+  constexpr std::uint64_t conformations = 20;
+  Eviction eviction;
+  std::vector<Contestant> all = contestants(scene);
+  for (const Query query : {Query::any, Query::all})
+    for (Contestant& contestant : all) {
+      double warm = 0.0, cold = 0.0;
+      for (const bool evict : {false, true}) {
+        std::vector<double> best(conformations, std::numeric_limits<double>::infinity());
+        for (int repetition = 0; repetition < repetitions; ++repetition)
+          for (std::uint64_t k = 0; k < conformations; ++k) {
+            const Conformation c = scene.conformation(Sampling::near_free, k);
+            contestant.prepare(c);
+            if (evict) eviction.run();
+            Answer answer;
+            best[k] = std::min(best[k], microseconds([&] { contestant.ask(query, answer); }));
+          }
+        (evict ? cold : warm) = std::accumulate(best.begin(), best.end(), 0.0) / conformations;
       }
-    };
-    result.lazy += best_time<std::function<void()>>(prepare, [&] { ask(scene.lazy(), lazy, lazy_gap); });
-    result.brute += best_time<std::function<void()>>(prepare, [&] { ask(scene.brute(), brute, brute_gap); });
-    if (query == Query::any)
-      result.fcl += best_time<std::function<void()>>(prepare, [&] { fcl = scene.fcl().any() ? 1 : 0; });
-    if (query == Query::all)
-      result.fcl += best_time<std::function<void()>>(prepare, [&] { fcl = scene.fcl().all().size(); });
-    const bool fcl_asked = query == Query::any || query == Query::all;
-    if (lazy != brute || lazy_gap != brute_gap || (fcl_asked && fcl != lazy)) ++result.differences;
-    result.colliding += query == Query::any ? static_cast<double>(lazy) : 0.0;
-  }
-  for (double* value : {&result.lazy, &result.brute, &result.fcl, &result.colliding}) *value /= conformations;
-  if (query != Query::any && query != Query::all) result.fcl = std::numeric_limits<double>::quiet_NaN();
-  return result;
-}
-
-/// The largest sigma (rad, to 2 %) at which at most a quarter of 100 conformations collide.
-double near_free_sigma(Scene& scene) {
-  double low = 1e-6, high = 0.2;
-  while (high / low > 1.02) {
-    const double middle = std::sqrt(low * high);
-    int colliding = 0;
-    for (std::uint64_t k = 0; k < 100; ++k) {
-      scene.lazy().update(sample_configuration({seed, middle}, k, scene.dof_count()));
-      colliding += scene.lazy().self_collides() ? 1 : 0;
+      std::printf("%-7s %4d %-5s %-14s warm %9.2f cold %9.2f\n", setup.name.c_str(), setup.residues, name(query),
+                  contestant.name.c_str(), warm, cold);
+      Json row = {{"kind", "caches"}};
+      row.update(describe(setup, scene));
+      row.update({{"query", name(query)}, {"peer", contestant.name}, {"warm_us", warm}, {"cold_us", cold}});
+      results.add(std::move(row));
     }
-    (colliding <= 25 ? low : high) = middle;
-  }
-  return low;
 }
 
-std::string find(const std::string& name) {
-  const auto path = std::filesystem::path(HINGE_SHARED_DATA) / "molecules" / "paper" / name;
-  return std::filesystem::exists(path) ? path.string() : std::string();
+/// Conformations per second of `threads` threads with a hierarchy each, yes/no from the torsions.
+double throughput(Scene& scene, Sampling sampling, int threads) {
+  constexpr double seconds = 1.0;
+  std::vector<std::vector<double>> q;
+  for (std::uint64_t k = 0; k < 64; ++k) q.push_back(scene.configuration(sampling, k));
+  std::atomic<long> total{0};
+  const auto work = [&] {
+    auto hierarchy = scene.make<Wide>();
+    const auto start = Clock::now();
+    long count = 0, colliding = 0;
+    for (; seconds_since(start) < seconds; ++count) {
+      hierarchy.update(q[static_cast<std::size_t>(count) % q.size()]);
+      colliding += hierarchy.self_collides() ? 1 : 0;
+    }
+    total += colliding <= count ? count : 0;  // the answers count, so they are computed
+  };
+  std::vector<std::thread> running;
+  for (int t = 0; t < threads; ++t) running.emplace_back(work);
+  for (std::thread& t : running) t.join();
+  return static_cast<double>(total) / seconds;
+}
+
+void run_threads(Results& results, const Setup& setup, Scene& scene) {
+  for (const Sampling sampling : {Sampling::random, Sampling::near_free}) {
+    const double one = throughput(scene, sampling, 1), two = throughput(scene, sampling, 2);
+    std::printf("%-7s %4d %-9s yes/no from the torsions, conformations per second: one thread %.0f, two %.0f\n",
+                setup.name.c_str(), setup.residues, name(sampling), one, two);
+    Json row = {{"kind", "threads"}};
+    row.update(describe(setup, scene));
+    row.update({{"sampling", name(sampling)}, {"one", one}, {"two", two}});
+    results.add(std::move(row));
+  }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int conformations = argc > 1 ? std::atoi(argv[1]) : 40;
-  std::vector<Setup> setups;
-  for (const int k : {1, 5, 10, 35, 153}) setups.push_back({"9", find("1mbn.pdb"), k});
-  for (const auto& [file, k] : {std::pair("1vii_3frames.pdb", 36), std::pair("2axd.pdb.gz", 76),
-                                std::pair("1be0.cif", 310), std::pair("2d0f.pdb", 637)})
-    for (const int free : {10, k}) setups.push_back({"10", find(file), free});
-  if (setups.front().file.empty()) {
-    std::printf("shared data not found: 1UBQ takes the place of the paper's proteins\n");
-    setups.clear();
-    for (const int k : {1, 5, 10, 35, 76})
-      setups.push_back({"9", std::string(HINGE_SOURCE_DIR) + "/molecular/data/1ubq.pdb", k});
+  const Arguments arguments = Arguments::parse(argc, argv, 2, "SECONDS for each set-up, sampling and query");
+  Results results("paper");
+  const std::vector<Setup> setups = paper_setups();
+  Ratios ratios;
+  int differences = 0;
+  print_header(
+      "microseconds per conformation; forward kinematics and coordinates excluded, each one's own update included");
+  Protein protein = read_protein(setups.front().file, setups.front().hydrogens);
+  for (std::size_t k = 0; k < setups.size(); ++k) {
+    if (k > 0 && setups[k].name != setups[k - 1].name) protein = read_protein(setups[k].file, setups[k].hydrogens);
+    Scene scene(protein, setups[k].residues);
+    differences += run_table(results, setups[k], scene, arguments.number, &ratios);
   }
-  std::printf(
-      "one thread, %s, seed %llu, %d conformations, best of %d; microseconds per conformation, forward\n"
-      "kinematics and coordinates excluded, each peer's own update included\n",
-      __VERSION__, static_cast<unsigned long long>(seed), conformations, repetitions);
-  std::printf("%-3s %-18s %4s %5s %-9s %-8s %9s %9s %9s %9s %9s %5s\n", "fig", "file", "free", "dof", "sampling",
-              "query", "lazy", "brute", "fcl", "brute/lz", "fcl/lazy", "diff");
-  int differences = 0, count = 0;
-  double log_sum = 0.0;
+  ratios.print(results);
+
+  // One scene of each protein with secondary structure recorded: loops free, helices and strands rigid.
+  print_header("rigid secondary structure: only loops are free (free = 0)");
+  for (std::size_t k = 0; k < setups.size(); ++k) {
+    if (k > 0 && setups[k].name == setups[k - 1].name) continue;
+    protein = read_protein(setups[k].file, setups[k].hydrogens);
+    if (protein.molecule->structure().secondary_structure.empty()) continue;
+    Scene scene(protein, "loops");
+    Setup loops = setups[k];
+    loops.residues = 0;
+    differences += run_table(results, loops, scene, arguments.number / 4, nullptr);
+  }
+
+  std::printf("\nmicroseconds\n");
+  for (const Setup& setup : setups)
+    run_selection_change(results, setup, Scene(read_protein(setup.file, setup.hydrogens), setup.residues));
+  std::printf("\nnear-free, microseconds: each alone (warm), and after 64 MB were written (cold)\n");
   for (const Setup& setup : setups) {
-    ReadOptions options;
-    options.keep_hydrogens = false;
-    options.model = 1;
-    const Molecule molecule(read_structure(setup.file, options));
-    Scene scene(molecule, setup.residues);
-    const double sigma = near_free_sigma(scene);
-    const std::pair<const char*, Sampling> samplings[] = {
-        {"random", {seed, {}}}, {"5deg", {seed, 5 * std::numbers::pi / 180}}, {"near-free", {seed, sigma}}};
-    for (const auto& [name, sampling] : samplings)
-      for (const Query query : {Query::any, Query::all, Query::within, Query::closest}) {
-        const int n = scene.dof_count() > 1000 ? std::max(4, conformations / 4) : conformations;
-        const Result r = run(scene, query, sampling, n);
-        differences += r.differences;
-        std::printf("%-3s %-18s %4d %5zu %-9s %-8s %9.1f %9.1f %9.1f %9.2f %9.2f %5d", setup.figure,
-                    std::filesystem::path(setup.file).filename().c_str(), setup.residues, scene.dof_count(), name,
-                    query_names[static_cast<int>(query)], r.lazy, r.brute, r.fcl, r.brute / r.lazy, r.fcl / r.lazy,
-                    r.differences);
-        if (query == Query::any) std::printf("  %2.0f %% collide", 100 * r.colliding);
-        std::printf("\n");
-        std::fflush(stdout);
-        if (setup.figure[0] == '9' && query == Query::any && std::string_view(name) == "near-free") {
-          log_sum += std::log(r.fcl / r.lazy);
-          ++count;
-        }
-      }
+    const bool all_free = &setup == &setups.back() || (&setup + 1)->name != setup.name;
+    if (!all_free || (setup.name != "1mbn" && setup.name != "2d0f" && setup.name != "1ubq")) continue;
+    Scene scene(read_protein(setup.file, setup.hydrogens), setup.residues);
+    run_caches(results, setup, scene);
+    run_threads(results, setup, scene);
   }
-  std::printf("ratio any near-free fcl %.2f (geometric mean over Figure 9's selections), %d differing answers\n",
-              std::exp(log_sum / count), differences);
+  run_tail(results);
+  run_growth(results, 2'000'000);
+  std::printf("differences %d\n", differences);
+  results.write(arguments.json);
   return differences == 0 ? 0 : 1;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hinge/engine/wide/wide.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/ideal_protein.hpp"
@@ -19,7 +20,7 @@ namespace {
 
 using namespace hinge;
 using namespace hinge::molecular;
-using Molecular = Hierarchy<Point, BondExclusions, TypedThresholds, Lazy>;
+using Molecular = Hierarchy<Point, BondExclusions, TypedThresholds, Wide>;
 
 const Molecule& ubiquitin() {
   static const Molecule molecule(read_structure(std::string(HINGE_SOURCE_DIR) + "/molecular/data/1ubq.pdb"));

@@ -116,7 +116,6 @@ bool FclSpheres::any() {
 Pairs FclSpheres::all() {
   Impl::Query query{impl_.get(), false, {}};
   impl_->manager.collide(&query, &Impl::on_collide);
-  std::sort(query.pairs.begin(), query.pairs.end());
   return query.pairs;
 }
 

@@ -30,7 +30,7 @@ class FclSpheres {
   /// New centres of the spheres listed in `moved`; all positions are given, those of others must not have changed.
   void update(std::span<const Position> positions, std::span<const std::size_t> moved);
   bool any();
-  /// Colliding pairs i < j, sorted.
+  /// Colliding pairs i < j, in the order FCL finds them.
   Pairs all();
   /// Smallest distance between the surfaces of admitted pairs, not meaningful when a pair penetrates.
   std::optional<double> distance();

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contestants: this project's engines and their peers behind one face, asked the same questions.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "hinge/engine/lazy/lazy.hpp"
+#include "hinge/engine/wide/wide.hpp"
+#include "oracle/fcl_oracle.hpp"
+#include "peers/brute_simd.hpp"
+#include "peers/chain_tree.hpp"
+#include "peers/gemmi_neighbors.hpp"
+#include "peers/grid.hpp"
+#include "peers/nanoflann.hpp"
+#include "scene.hpp"
+
+namespace hinge::bench {
+
+enum class Query : std::uint8_t { any, all, within, closest };
+inline constexpr Query all_queries[] = {Query::any, Query::all, Query::within, Query::closest};
+inline constexpr const char* query_names[] = {"any", "all", "within", "closest"};
+inline const char* name(Query q) { return query_names[static_cast<std::size_t>(q)]; }
+inline constexpr double margin = 1.0;  // angstrom: how near "within" looks, what native-contact lists ask for
+
+/// What a contestant said, in whatever form it says it; canonical() after the clock has stopped.
+struct Answer {
+  bool collides = false;
+  IndexPairs pairs;
+  oracle::Pairs fcl_pairs;
+  double gap = std::numeric_limits<double>::infinity();
+
+  /// All forms of a list become `pairs`, sorted.
+  void canonical() {
+    for (const auto& [i, j] : fcl_pairs)
+      pairs.emplace_back(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
+    fcl_pairs.clear();
+    std::sort(pairs.begin(), pairs.end());
+  }
+};
+
+/// tolerance: angstrom, of the gap; 0 for all who decide by the same formula in double.
+inline bool same(const Answer& a, const Answer& b, double tolerance = 0.0) {
+  return a.collides == b.collides && a.pairs == b.pairs &&
+         (a.gap == b.gap || std::abs(a.gap - b.gap) <= tolerance);  // infinite gaps are equal, their difference is NaN
+}
+
+/// prepare: hands over coordinates or poses, not timed. ask: own update and query, timed.
+struct Contestant {
+  std::string name;
+  std::function<void(const Conformation&)> prepare;
+  std::function<void(Query, Answer&)> ask;
+};
+
+/// The pairs below a margin in the order they are found: nobody sorts while the clock runs.
+class Pairs {
+ public:
+  static constexpr bool ranks = false;
+  Pairs(double below, IndexPairs& out) noexcept : below_(below), out_(out) { out_.clear(); }
+  void add(const Hit& hit) {
+    out_.emplace_back(static_cast<std::uint32_t>(index(hit.first)), static_cast<std::uint32_t>(index(hit.second)));
+  }
+  double cutoff() const noexcept { return below_; }
+  bool done() const noexcept { return false; }
+
+ private:
+  double below_;
+  IndexPairs& out_;
+};
+
+template <class H>
+void collect(H& hierarchy, double below, IndexPairs& out) {
+  Pairs pairs(below, out);
+  hierarchy.self_query(pairs);
+}
+
+template <class H>
+void ask_hierarchy(H& hierarchy, Query query, Answer& answer) {
+  switch (query) {
+    case Query::any: answer.collides = hierarchy.self_collides(); return;
+    case Query::all: return collect(hierarchy, 0.0, answer.pairs);
+    case Query::within: return collect(hierarchy, margin, answer.pairs);
+    case Query::closest:
+      if (const auto hit = hierarchy.self_closest()) answer.gap = hit->gap();
+      return;
+  }
+}
+
+/// A link of the rigid group whose pose is computed last: asking for its pose computes all.
+template <class H>
+LinkId last_link(const H& hierarchy) {
+  const RigidGroups& groups = *hierarchy.model().groups();
+  const auto links = hierarchy.model().model().tree().link_count();
+  LinkId last{};
+  for (std::size_t l = 0; l < links; ++l)
+    if (index(groups.group_of(id<LinkId>(l))) > index(groups.group_of(last))) last = id<LinkId>(l);
+  return last;
+}
+
+/// Poses are ready before the clock; for engines that want coordinates (not `from_poses`) coordinates too.
+template <template <class, class, class> class EngineOf>
+Contestant engine(const Scene& scene, std::string name, bool from_poses) {
+  const auto h = std::make_shared<Molecular<EngineOf>>(scene.make<EngineOf>());
+  const LinkId last = last_link(*h);
+  return {std::move(name),
+          [=](const Conformation& c) {
+            h->update(c.q);
+            if (from_poses)
+              h->link_pose(last);
+            else
+              h->placed();
+          },
+          [=](Query query, Answer& answer) { ask_hierarchy(*h, query, answer); }};
+}
+
+template <class Peer>
+Contestant peer(const Scene& scene, std::string name) {
+  const auto p = std::make_shared<Peer>(scene.input());
+  const auto xyz = std::make_shared<std::vector<double>>();
+  return {std::move(name), [=](const Conformation& c) { *xyz = c.xyz; },
+          [=](Query query, Answer& answer) {
+            p->update(*xyz);
+            switch (query) {
+              case Query::any: answer.collides = p->any(); return;
+              case Query::all: return p->all(answer.pairs);
+              case Query::within: return p->within(margin, answer.pairs);
+              case Query::closest: answer.gap = p->closest(); return;
+            }
+          }};
+}
+
+/// No list within a margin; the closest pair only when nothing collides (its manager cannot rank penetrations).
+inline Contestant fcl(const Scene& scene) {
+  const auto input = scene.input();
+  const auto manager = std::make_shared<oracle::FclSpheres>(scene.radii(), [input](std::size_t i, std::size_t j) {
+    return input->admits(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
+  });
+  const auto positions = std::make_shared<std::vector<oracle::Position>>();
+  const auto moved = std::make_shared<std::vector<std::size_t>>(scene.moved().begin(), scene.moved().end());
+  return {"fcl",
+          [=](const Conformation& c) {
+            positions->clear();
+            for (std::size_t i = 0; i < c.xyz.size(); i += 3)
+              positions->push_back({c.xyz[i], c.xyz[i + 1], c.xyz[i + 2]});
+          },
+          [=](Query query, Answer& answer) {
+            manager->update(*positions, *moved);
+            if (query == Query::any) answer.collides = manager->any();
+            if (query == Query::all) answer.fcl_pairs = manager->all();
+            if (query == Query::closest)
+              answer.gap = manager->distance().value_or(std::numeric_limits<double>::infinity());
+          }};
+}
+
+/// FCL's two centres are added and subtracted in another order: agreement to rounding of coordinates of 1000 angstrom.
+inline double gap_tolerance(const Contestant& c) { return c.name == "fcl" ? 1e-9 : 0.0; }
+
+inline bool answers(const Contestant& c, Query query, Sampling sampling) {
+  if (c.name != "fcl") return true;
+  return query == Query::any || query == Query::all || (query == Query::closest && sampling == Sampling::near_free);
+}
+
+/// engine/wide first: the others are compared with it.
+inline std::vector<Contestant> contestants(const Scene& scene) {
+  return {engine<Wide>(scene, "wide", true),
+          fcl(scene),
+          peer<Grid>(scene, "grid"),
+          engine<Lazy>(scene, "lazy", false),
+          peer<ScalarChainTreeSpheres>(scene, "chain-spheres"),
+          peer<ScalarChainTreeBoxes>(scene, "chain-boxes"),
+          peer<ChainTreeSpheres>(scene, "chain16-spheres"),
+          peer<ChainTreeBoxes>(scene, "chain16-boxes"),
+          peer<BruteSimd>(scene, "brute"),
+          peer<Nanoflann>(scene, "nanoflann"),
+          peer<GemmiNeighbors>(scene, "gemmi")};
+}
+
+}  // namespace hinge::bench

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// GemmiNeighbors: gemmi's NeighborSearch over a model built once and moved. gemmi's headers stay in the .cpp.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "peer.hpp"
+
+namespace hinge::bench {
+
+class GemmiNeighbors {
+ public:
+  static constexpr const char* name = "gemmi";
+
+  explicit GemmiNeighbors(std::shared_ptr<const PeerInput> input);
+  GemmiNeighbors(GemmiNeighbors&&) noexcept;
+  GemmiNeighbors& operator=(GemmiNeighbors&&) noexcept;
+  ~GemmiNeighbors();
+
+  void update(std::span<const double> xyz);
+  bool any();
+  void all(IndexPairs& out);
+  void within(double margin, IndexPairs& out);
+  double closest();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hinge::bench

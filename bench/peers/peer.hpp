@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What every competitor of the engines is given, and what it has to answer. All decide in double, so all answers agree.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace hinge::bench {
+
+/// i < j, any order.
+using IndexPairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+/// Points, thresholds (angstrom) and the pairs that count. Prepared once when the DOF are selected.
+struct PeerInput {
+  std::size_t n = 0;                                 // < 2^24
+  std::vector<std::uint16_t> type;                   // per point, < type_count
+  std::size_t type_count = 0;                        // <= 16
+  std::vector<double> table;                         // type_count^2, row-major: M, symmetric
+  std::vector<std::uint32_t> group;                  // rigid group of each point; group 0 never moves
+  std::vector<std::vector<std::uint32_t>> excluded;  // per point, sorted; symmetric: bonded neighbours, constant pairs
+
+  /// Is the pair tested at all?
+  bool admits(std::uint32_t i, std::uint32_t j) const {
+    return group[i] != group[j] && !std::binary_search(excluded[i].begin(), excluded[i].end(), j);
+  }
+  double threshold(std::uint32_t i, std::uint32_t j) const { return table[type[i] * type_count + type[j]]; }
+};
+
+// A peer P (no base class):
+//   P(std::shared_ptr<const PeerInput>)
+//   void update(std::span<const double> xyz)   3n world coordinates, x0 y0 z0 x1 ...; points of group 0 never change
+//   bool any();
+//   void all(IndexPairs& out);                    d < M; `out` is cleared first
+//   void within(double margin, IndexPairs& out);  d < M + margin
+//   double closest();                             smallest d - M; +inf when no pair is admitted
+//   static constexpr const char* name;
+// Squared distances are dx * dx + dy * dy + dz * dz in double, compared as d2 < (M + margin) * (M + margin).
+
+}  // namespace hinge::bench

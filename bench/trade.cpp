@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What speed buys in accuracy and back: cheaper ways of asking, with their errors against a reference beside their
+// times.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "contestant.hpp"
+#include "hinge/molecular/radii.hpp"
+#include "results.hpp"
+#include "scene.hpp"
+#include "timing.hpp"
+
+namespace {
+
+using namespace hinge;
+using namespace hinge::bench;
+using molecular::Molecule;
+
+/// Turns from the reference by (residue, torsion name), so that molecules that differ in atoms can be moved alike.
+using Turns = std::map<std::pair<std::uint32_t, std::string>, double>;
+
+Turns turns(const Molecule& molecule, const DofSelection& selection, const std::vector<double>& q) {
+  Turns all;
+  for (std::size_t k = 0; k < q.size(); ++k) {
+    const molecular::Torsion& t = molecule.torsions()[molecule.torsion_of(selection.dofs()[k])];
+    all[{t.residue, t.name}] = q[k];
+  }
+  return all;
+}
+
+/// The turns a selection can make; those it keeps rigid are left out.
+std::vector<double> configuration(const Molecule& molecule, const DofSelection& selection, const Turns& turns) {
+  std::vector<double> q;
+  for (const DofId dof : selection.dofs()) {
+    const molecular::Torsion& t = molecule.torsions()[molecule.torsion_of(dof)];
+    const auto found = turns.find({t.residue, t.name});
+    q.push_back(found == turns.end() ? 0.0 : found->second);
+  }
+  return q;
+}
+
+struct Outcome {
+  bool collides = false;
+  double gap = 0.0;
+  double any_us = 0.0, closest_us = 0.0;  // from the torsions, everything included
+};
+
+struct Variant {
+  std::string name;
+  std::function<Outcome(const Turns&)> ask;
+};
+
+/// Best of the repetitions, the reference configuration in between so that nothing is kept.
+template <class Away, class Work>
+double best_time(const Away& away, const Work& work) {
+  double best = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < repetitions; ++k) {
+    away();
+    best = std::min(best, microseconds(work));
+  }
+  return best;
+}
+
+/// engine/wide: banded float, decided in double.
+Variant exact(std::string name, const Protein& protein, const DofSelection& selection) {
+  const auto h =
+      std::make_shared<Molecular<Wide>>(protein.molecule->model(), selection, protein.filter, protein.thresholds);
+  return {std::move(name), [=](const Turns& turns) {
+            const std::vector<double> q = configuration(*protein.molecule, selection, turns);
+            const std::vector<double> home(q.size(), 0.0);
+            const auto away = [&] {
+              h->update(home);
+              h->self_collides();
+            };
+            Outcome outcome;
+            outcome.any_us = best_time(away, [&] {
+              h->update(q);
+              outcome.collides = h->self_collides();
+            });
+            outcome.closest_us = best_time(away, [&] {
+              h->update(q);
+              const auto hit = h->self_closest();
+              outcome.gap = hit ? hit->gap() : std::numeric_limits<double>::infinity();
+            });
+            return outcome;
+          }};
+}
+
+/// Every pair in float: coordinates rounded to float (after moving the molecule `away` angstrom along each axis),
+/// squares compared in float.
+class FloatBrute {
+ public:
+  FloatBrute(std::shared_ptr<const PeerInput> input, double away) : input_(std::move(input)), away_(away) {
+    for (const double m : input_->table) table_.push_back(static_cast<float>(m));
+  }
+  void update(std::span<const Point> placed) {
+    x_.clear();
+    y_.clear();
+    z_.clear();
+    for (const Point& p : placed) {
+      x_.push_back(static_cast<float>(p.position[0] + away_));
+      y_.push_back(static_cast<float>(p.position[1] + away_));
+      z_.push_back(static_cast<float>(p.position[2] + away_));
+    }
+    squared_.resize(x_.size());
+  }
+  bool any() {
+    return each([](float squared, float m) { return squared < m * m; });
+  }
+  double closest() {
+    float best = std::numeric_limits<float>::infinity();
+    each([&](float squared, float m) {
+      best = std::min(best, std::sqrt(squared) - m);
+      return false;
+    });
+    return static_cast<double>(best);
+  }
+
+ private:
+  template <class Stop>
+  bool each(const Stop& stop) {
+    constexpr float reach = 8.0F;  // angstrom: no threshold, and no closest pair of a protein, is beyond
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      for (std::size_t j = i + 1; j < x_.size(); ++j) {
+        const float dx = x_[i] - x_[j], dy = y_[i] - y_[j], dz = z_[i] - z_[j];
+        squared_[j] = dx * dx + dy * dy + dz * dz;
+      }
+      for (std::size_t j = i + 1; j < x_.size(); ++j) {
+        if (squared_[j] > reach * reach) continue;
+        const auto a = static_cast<std::uint32_t>(i), b = static_cast<std::uint32_t>(j);
+        if (input_->admits(a, b) && stop(squared_[j], table_[input_->type[i] * input_->type_count + input_->type[j]]))
+          return true;
+      }
+    }
+    return false;
+  }
+  std::shared_ptr<const PeerInput> input_;
+  double away_;
+  std::vector<float> table_, x_, y_, z_, squared_;
+};
+
+Variant float_only(std::string name, const Protein& protein, const DofSelection& selection, double away_from_origin) {
+  const Scene scene(protein, selection);
+  const auto h = std::make_shared<Molecular<Wide>>(scene.make<Wide>());
+  const auto brute = std::make_shared<FloatBrute>(scene.input(), away_from_origin);
+  return {std::move(name), [=](const Turns& turns) {
+            const std::vector<double> q = configuration(*protein.molecule, selection, turns);
+            const std::vector<double> home(q.size(), 0.0);
+            const auto away = [&] {
+              h->update(home);
+              h->placed();
+            };
+            Outcome outcome;
+            outcome.any_us = best_time(away, [&] {
+              h->update(q);
+              brute->update(h->placed());
+              outcome.collides = brute->any();
+            });
+            outcome.closest_us = best_time(away, [&] {
+              h->update(q);
+              brute->update(h->placed());
+              outcome.gap = brute->closest();
+            });
+            return outcome;
+          }};
+}
+
+struct Errors {
+  double false_accepts = 0.0, false_rejects = 0.0;  // of the conformations the reference finds colliding, free
+  double mean_gap = 0.0, largest_gap = 0.0;         // angstrom
+  double any_us = 0.0, closest_us = 0.0;
+};
+
+Errors compare(const std::vector<Outcome>& reference, const std::vector<Outcome>& given) {
+  Errors e;
+  double colliding = 0.0;
+  const auto n = static_cast<double>(reference.size());
+  for (std::size_t k = 0; k < reference.size(); ++k) {
+    const double off = std::abs(given[k].gap - reference[k].gap);
+    colliding += reference[k].collides ? 1 : 0;
+    e.false_accepts += reference[k].collides && !given[k].collides ? 1 : 0;
+    e.false_rejects += !reference[k].collides && given[k].collides ? 1 : 0;
+    e.mean_gap += off / n;
+    e.largest_gap = std::max(e.largest_gap, off);
+    e.any_us += given[k].any_us / n;
+    e.closest_us += given[k].closest_us / n;
+  }
+  e.false_accepts *= 100 / std::max(1.0, colliding);
+  e.false_rejects *= 100 / std::max(1.0, n - colliding);
+  return e;
+}
+
+/// The first variant is the reference. Gaussian conformations of `selection` such that half of them collide there.
+void run(Results& results, const char* title, const Protein& protein, const DofSelection& selection,
+         std::vector<Variant> variants, int conformations) {
+  const double sigma = Scene(protein, selection).find_sigma(0.5);
+  std::vector<std::vector<Outcome>> outcomes(variants.size());
+  double colliding = 0.0;
+  for (int k = 0; k < conformations; ++k) {
+    const auto q = molecular::sample_configuration({seed, sigma}, static_cast<std::uint64_t>(k), selection.size());
+    const Turns moved = turns(*protein.molecule, selection, q);
+    for (std::size_t v = 0; v < variants.size(); ++v) outcomes[v].push_back(variants[v].ask(moved));
+    colliding += outcomes[0].back().collides ? 1 : 0;
+  }
+  std::printf("\n%s (%d conformations, sigma %.3g degrees, %.0f %% collide)\n%-40s %9s %9s %8s %8s %10s %10s\n", title,
+              conformations, sigma * 180 / std::numbers::pi, 100 * colliding / conformations, "", "any us",
+              "closest us", "accept %", "reject %", "mean A", "largest A");
+  for (std::size_t v = 0; v < variants.size(); ++v) {
+    const Errors e = compare(outcomes[0], outcomes[v]);
+    std::printf("%-40s %9.1f %9.1f %8.2f %8.2f %10.2g %10.2g\n", variants[v].name.c_str(), e.any_us, e.closest_us,
+                e.false_accepts, e.false_rejects, e.mean_gap, e.largest_gap);
+    results.add({{"kind", "trade"},
+                 {"title", title},
+                 {"variant", variants[v].name},
+                 {"any_us", e.any_us},
+                 {"closest_us", e.closest_us},
+                 {"false_accepts", e.false_accepts},
+                 {"false_rejects", e.false_rejects},
+                 {"mean_gap_error", e.mean_gap},
+                 {"largest_gap_error", e.largest_gap}});
+  }
+  std::fflush(stdout);
+}
+
+/// The same file under a radii set's own rules.
+Protein with_radii(const std::string& file, bool hydrogens, const char* set) {
+  molecular::ReadOptions options;
+  options.keep_hydrogens = hydrogens;
+  options.model = 1;
+  auto molecule = std::make_shared<const Molecule>(molecular::read_structure(file, options));
+  molecular::ThresholdOptions thresholds;
+  thresholds.radii = set;
+  TypedThresholds matrix = molecular::make_thresholds(molecule->structure(), thresholds).matrix;
+  auto filter = exempt_native(*molecule, matrix, molecular::radii_set(set).default_min_bonds);
+  return {std::move(molecule), std::move(matrix), std::move(filter)};
+}
+
+DofSelection select(const Protein& protein, const char* words) {
+  return protein.molecule->select(molecular::select_torsions(*protein.molecule, words, true));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Arguments arguments = Arguments::parse(argc, argv, 1000, "CONFORMATIONS");
+  const int n = static_cast<int>(arguments.number);
+  Results results("trade");
+  std::string heavy = shared_molecule("paper/1mbn.pdb"), hydrogens = shared_molecule("paper/2axd.pdb.gz");
+  if (heavy.empty()) std::printf("the shared data is not beside the repository: 1UBQ takes the place of 1MBN\n");
+  if (heavy.empty()) heavy = ubiquitin();
+
+  const Protein protein = read_protein(heavy, false);
+  const DofSelection all = select(protein, "all");
+  run(results, "float only", protein, all,
+      {exact("banded float, decided in double", protein, all), float_only("float, every pair", protein, all, 0.0),
+       float_only("float, every pair, 1e3 A off the origin", protein, all, 1e3),
+       float_only("float, every pair, 1e5 A off the origin", protein, all, 1e5)},
+      n);
+  run(results, "fewer torsions moved", protein, all,
+      {exact("all residues", protein, all), exact("35 residues", protein, select(protein, "count:35")),
+       exact("10 residues", protein, select(protein, "count:10"))},
+      n);
+  run(results, "rigid secondary structure", protein, all,
+      {exact("all free", protein, all), exact("helices and strands rigid", protein, select(protein, "loops"))}, n);
+  if (hydrogens.empty()) {
+    std::printf("explicit hydrogens are left out: no file with hydrogens is there\n");
+    hydrogens = heavy;
+  }
+  const bool explicit_hydrogens = hydrogens != heavy;
+  if (explicit_hydrogens) {
+    const Protein reference = with_radii(hydrogens, true, "probe"),
+                  united = with_radii(hydrogens, false, "probe-united"), bare = with_radii(hydrogens, false, "bondi");
+    const DofSelection moved = select(reference, "all");
+    run(results, "explicit against united hydrogens", reference, moved,
+        {exact("hydrogens explicit (probe)", reference, moved),
+         exact("united with their carbons (probe-united)", united, select(united, "all")),
+         exact("heavy atoms alone (bondi)", bare, select(bare, "all"))},
+        n);
+  }
+  std::vector<Variant> sets;
+  const Protein bondi = with_radii(hydrogens, explicit_hydrogens, "bondi");
+  for (const char* set : {"bondi", "probe", "probe-united", "amber"}) {
+    const Protein p = with_radii(hydrogens, explicit_hydrogens && std::string(set) != "probe-united", set);
+    sets.push_back(exact(set, p, select(p, "all")));
+  }
+  run(results, "radii sets", bondi, select(bondi, "all"), std::move(sets), n);
+  results.write(arguments.json);
+  return 0;
+}
