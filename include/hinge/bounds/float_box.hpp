@@ -33,14 +33,10 @@ struct FloatBox {
     constexpr float inf = std::numeric_limits<float>::infinity();
     return {{-inf, -inf, -inf}, {inf, inf, inf}};
   }
-  /// Grown by r on every side, up to rounding.
-  FloatBox grown(float r) const noexcept {
-    FloatBox box;
-    for (std::size_t k = 0; k < 3; ++k) {
-      box.lower[k] = lower[k] - r;
-      box.upper[k] = upper[k] + r;
-    }
-    return box;
+  /// Grown by r on every side, up to rounding. (Coordinate by coordinate, here and below: loops over arrays keep small
+  /// boxes in memory, where what was just stored is slow to load again in other portions.)
+  [[gnu::always_inline]] FloatBox grown(float r) const noexcept {
+    return {{lower[0] - r, lower[1] - r, lower[2] - r}, {upper[0] + r, upper[1] + r, upper[2] + r}};
   }
   FloatBox& extend(const FloatBox& other) noexcept {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -50,10 +46,9 @@ struct FloatBox {
     return *this;
   }
   /// Largest magnitude of a coordinate of a box that is not empty.
-  float extent() const noexcept {
-    float e = 0.0F;
-    for (std::size_t k = 0; k < 3; ++k) e = std::max(e, std::max(-lower[k], upper[k]));
-    return e;
+  [[gnu::always_inline]] float extent() const noexcept {
+    const float low = std::max(std::max(-lower[0], -lower[1]), -lower[2]);
+    return std::max(low, std::max(std::max(upper[0], upper[1]), upper[2]));
   }
 };
 
@@ -92,15 +87,22 @@ struct alignas(64) BoxRow {
   }
 };
 
+/// One box, ready to be held against many rows.
+struct BoxLanes {
+  explicit BoxLanes(const FloatBox& box) noexcept
+      : lower{box.lower[0], box.lower[1], box.lower[2]}, upper{box.upper[0], box.upper[1], box.upper[2]} {}
+  std::array<simd::Float16, 3> lower, upper;
+};
+
 /// Which of the sixteen share a point with the box. NaN counts as apart: coordinates are checked to be finite before.
-[[gnu::always_inline]] inline simd::Bits overlapping(const BoxRow& row, const FloatBox& box) noexcept {
+[[gnu::always_inline]] inline simd::Bits overlapping(const BoxRow& row, const BoxLanes& box) noexcept {
   using simd::Float16;
   constexpr std::size_t n = BoxRow::size;
-  simd::Bits bits = simd::all_bits;
-  for (std::size_t k = 0; k < 3; ++k)
-    bits &= less_equal(Float16(row.lower.data() + k * n), Float16(box.upper[k])) &
-            less_equal(Float16(box.lower[k]), Float16(row.upper.data() + k * n));
-  return bits;
+  const auto axis = [&](std::size_t k) __attribute__((always_inline)) {
+    return less_equal(Float16(row.lower.data() + k * n), box.upper[k]) &
+           less_equal(box.lower[k], Float16(row.upper.data() + k * n));
+  };
+  return axis(0) & axis(1) & axis(2);
 }
 
 }  // namespace hinge

@@ -52,25 +52,47 @@ struct Batch {
   }
 
   /// Lanes that share a point with the box.
-  [[gnu::always_inline]] static simd::Bits inside(const float* at, const FloatBox& box) noexcept {
-    simd::Bits bits = simd::all_bits;
-    for (std::size_t k = 0; k < 3; ++k)
-      bits &= less_equal(simd::Float16(at + k * simd::width), simd::Float16(box.upper[k])) &
-              less_equal(simd::Float16(box.lower[k]), simd::Float16(at + (3 + k) * simd::width));
-    return bits;
+  [[gnu::always_inline]] static simd::Bits inside(const float* at, const BoxLanes& box) noexcept {
+    const auto axis = [&](std::size_t k) __attribute__((always_inline)) {
+      return less_equal(simd::Float16(at + k * simd::width), box.upper[k]) &
+             less_equal(box.lower[k], simd::Float16(at + (3 + k) * simd::width));
+    };
+    return axis(0) & axis(1) & axis(2);
   }
+
+  /// All sixteen grown by r, ready to be held against many boxes.
+  class Grown {
+   public:
+    Grown(const float* at, float r) noexcept {
+      for (std::size_t k = 0; k < 3; ++k) {
+        lower_[k] = simd::Float16(at + k * simd::width) - simd::Float16(r);
+        upper_[k] = simd::Float16(at + (3 + k) * simd::width) + simd::Float16(r);
+      }
+    }
+    /// Lanes that share a point with the box, up to rounding.
+    [[gnu::always_inline]] simd::Bits meets(const FloatBox& box) const noexcept {
+      const auto axis = [&](std::size_t k) __attribute__((always_inline)) {
+        return less_equal(lower_[k], simd::Float16(box.upper[k])) & less_equal(simd::Float16(box.lower[k]), upper_[k]);
+      };
+      return axis(0) & axis(1) & axis(2);
+    }
+
+   private:
+    std::array<simd::Float16, 3> lower_, upper_;
+  };
 
   /// One primitive, moved by `shift` and scaled, against the sixteen of another batch: a lower bound of the squared
   /// distance, up to rounding.
   class One {
    public:
-    One(const float* at, std::size_t lane) noexcept {
+    /// The floats of lane l start at l.
+    explicit One(const float* at) noexcept {
       for (std::size_t k = 0; k < 3; ++k) {
-        lower_[k] = at[k * simd::width + lane];
-        upper_[k] = at[(3 + k) * simd::width + lane];
+        lower_[k] = at[k * simd::width];
+        upper_[k] = at[(3 + k) * simd::width];
       }
     }
-    One(const float* at, std::size_t lane, float scale, const std::array<float, 3>& shift) noexcept : One(at, lane) {
+    One(const float* at, float scale, const std::array<float, 3>& shift) noexcept : One(at) {
       for (std::size_t k = 0; k < 3; ++k) {
         lower_[k] = lower_[k] * scale + shift[k];
         upper_[k] = upper_[k] * scale + shift[k];
@@ -134,36 +156,53 @@ struct Batch<Point> {
     return box;
   }
 
-  [[gnu::always_inline]] static simd::Bits inside(const float* at, const FloatBox& box) noexcept {
-    simd::Bits bits = simd::all_bits;
-    for (std::size_t k = 0; k < 3; ++k) {
+  [[gnu::always_inline]] static simd::Bits inside(const float* at, const BoxLanes& box) noexcept {
+    const auto axis = [&](std::size_t k) __attribute__((always_inline)) {
       const simd::Float16 x(at + k * simd::width);
-      bits &= less_equal(x, simd::Float16(box.upper[k])) & less_equal(simd::Float16(box.lower[k]), x);
-    }
-    return bits;
+      return less_equal(x, box.upper[k]) & less_equal(box.lower[k], x);
+    };
+    return axis(0) & axis(1) & axis(2);
   }
+
+  class Grown {
+   public:
+    Grown(const float* at, float r) noexcept {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const simd::Float16 x(at + k * simd::width);
+        lower_[k] = x - simd::Float16(r);
+        upper_[k] = x + simd::Float16(r);
+      }
+    }
+    [[gnu::always_inline]] simd::Bits meets(const FloatBox& box) const noexcept {
+      const auto axis = [&](std::size_t k) __attribute__((always_inline)) {
+        return less_equal(lower_[k], simd::Float16(box.upper[k])) & less_equal(simd::Float16(box.lower[k]), upper_[k]);
+      };
+      return axis(0) & axis(1) & axis(2);
+    }
+
+   private:
+    std::array<simd::Float16, 3> lower_, upper_;
+  };
 
   /// rotation (column by column) * local + translation, for all sixteen; returns the box around them.
   [[gnu::always_inline]] static FloatBox turn(const float* local, const std::array<float, 9>& rotation,
                                               const std::array<float, 3>& translation, float* to) noexcept {
     using simd::Float16;
     const Float16 x(local), y(local + simd::width), z(local + 2 * simd::width);
-    FloatBox box;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Float16 turned = x * Float16(rotation[k]) + y * Float16(rotation[3 + k]) + z * Float16(rotation[6 + k]) +
-                             Float16(translation[k]);
-      turned.store(to + k * simd::width);
-      box.lower[k] = smallest(turned);
-      box.upper[k] = largest(turned);
-    }
-    return box;
+    const auto turned = [&](std::size_t k) __attribute__((always_inline)) {
+      const Float16 r = x * Float16(rotation[k]) + y * Float16(rotation[3 + k]) + z * Float16(rotation[6 + k]) +
+                        Float16(translation[k]);
+      r.store(to + k * simd::width);
+      return r;
+    };
+    const Float16 a = turned(0), b = turned(1), c = turned(2);
+    return {{smallest(a), smallest(b), smallest(c)}, {largest(a), largest(b), largest(c)}};
   }
 
   class One {
    public:
-    One(const float* at, std::size_t lane) noexcept
-        : x_{at[lane], at[simd::width + lane], at[2 * simd::width + lane]} {}
-    One(const float* at, std::size_t lane, float scale, const std::array<float, 3>& shift) noexcept : One(at, lane) {
+    explicit One(const float* at) noexcept : x_{at[0], at[simd::width], at[2 * simd::width]} {}
+    One(const float* at, float scale, const std::array<float, 3>& shift) noexcept : One(at) {
       for (std::size_t k = 0; k < 3; ++k) x_[k] = x_[k] * scale + shift[k];
     }
     [[gnu::always_inline]] simd::Float16 squared_distances(const float* to) const noexcept {

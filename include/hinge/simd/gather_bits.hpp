@@ -30,6 +30,19 @@ namespace hinge::simd {
 #endif
 }
 
+/// Writes values[lane] for every set bit, the same way.
+[[gnu::always_inline]] inline std::size_t append_chosen(Bits mask, const std::uint32_t* values,
+                                                        std::uint32_t* to) noexcept {
+#if defined(__AVX512F__)
+  _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(mask), _mm512_loadu_si512(values)));
+  return static_cast<std::size_t>(std::popcount(mask));
+#else
+  std::size_t n = 0;
+  for (; mask != 0; mask &= mask - 1) to[n++] = values[std::countr_zero(mask)];
+  return n;
+#endif
+}
+
 /// Sixteen numbers below 16, prepared for look_up. (The zero-masked forms because g++ 12 warns about the others'
 /// undefined pass-through operand.)
 class Index16 {

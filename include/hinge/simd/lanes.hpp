@@ -2,10 +2,12 @@
 // Lanes<T, N>: N numbers worked on together, the same N on every instruction set: as many native registers as it takes.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <experimental/simd>
+#include <vector>
 
 namespace hinge::simd {
 
@@ -41,6 +43,15 @@ class Lanes {
   }
   [[gnu::always_inline]] void store(T* to) const noexcept {
     for (std::size_t p = 0; p < parts; ++p) v_[p].copy_to(to + p * part_size, std::experimental::element_aligned);
+  }
+
+  /// Only the lanes first ... last - 1; the others keep what they hold.
+  [[gnu::always_inline]] void store_lanes(std::size_t first, std::size_t last, T* to) const noexcept {
+    for (std::size_t p = 0; p < parts; ++p) {
+      const Vector lane([&](auto k) { return static_cast<T>(p * part_size + k); });
+      where(lane >= static_cast<T>(first) && lane < static_cast<T>(last), v_[p])
+          .copy_to(to + p * part_size, std::experimental::element_aligned);
+    }
   }
 
   /// Rounded to float.
@@ -81,20 +92,37 @@ class Lanes {
   }
   [[gnu::always_inline]] friend Lanes abs(const Lanes& a) noexcept { return max(a, -a); }
 
+  /// The lanes where a comparison holds.
+  class Mask {
+   public:
+    using Parts = std::array<typename Vector::mask_type, parts>;
+    [[gnu::always_inline]] explicit Mask(const Parts& m) noexcept : m_(m) {}
+    [[gnu::always_inline]] friend Mask operator&(const Mask& a, const Mask& b) noexcept {
+      Parts m;
+      for (std::size_t p = 0; p < parts; ++p) m[p] = a.m_[p] & b.m_[p];
+      return Mask(m);
+    }
+    [[gnu::always_inline]] operator Bits() const noexcept {
+      Bits r = 0;
+      for (std::size_t p = 0; p < parts; ++p) r |= static_cast<Bits>(m_[p].__to_bitset().to_ulong()) << (p * part_size);
+      return r;
+    }
+
+   private:
+    Parts m_;
+  };
+
   /// Where a < b; false for NaN.
-  [[gnu::always_inline]] friend Bits less(const Lanes& a, const Lanes& b) noexcept {
-    return bits(
-        a, b, [](const Vector& x, const Vector& y) __attribute__((always_inline)) { return x < y; });
+  [[gnu::always_inline]] friend Mask less(const Lanes& a, const Lanes& b) noexcept {
+    typename Mask::Parts m;
+    for (std::size_t p = 0; p < parts; ++p) m[p] = a.v_[p] < b.v_[p];
+    return Mask(m);
   }
   /// Where a <= b; false for NaN.
-  [[gnu::always_inline]] friend Bits less_equal(const Lanes& a, const Lanes& b) noexcept {
-    return bits(
-        a, b, [](const Vector& x, const Vector& y) __attribute__((always_inline)) { return x <= y; });
-  }
-  /// Where a == b.
-  [[gnu::always_inline]] friend Bits equal(const Lanes& a, const Lanes& b) noexcept {
-    return bits(
-        a, b, [](const Vector& x, const Vector& y) __attribute__((always_inline)) { return x == y; });
+  [[gnu::always_inline]] friend Mask less_equal(const Lanes& a, const Lanes& b) noexcept {
+    typename Mask::Parts m;
+    for (std::size_t p = 0; p < parts; ++p) m[p] = a.v_[p] <= b.v_[p];
+    return Mask(m);
   }
   /// a where x < y, else b.
   [[gnu::always_inline]] friend Lanes choose_less(const Lanes& x, const Lanes& y, const Lanes& a,
@@ -122,16 +150,12 @@ class Lanes {
     for (std::size_t p = 0; p < parts; ++p) r.v_[p] = op(a.v_[p], b.v_[p]);
     return r;
   }
-  template <class Op>
-  [[gnu::always_inline]] static Bits bits(const Lanes& a, const Lanes& b, const Op& op) noexcept {
-    Bits r = 0;
-    for (std::size_t p = 0; p < parts; ++p)
-      r |= static_cast<Bits>(op(a.v_[p], b.v_[p]).__to_bitset().to_ulong()) << (p * part_size);
-    return r;
-  }
-
   std::array<Vector, parts> v_;
 };
+
+/// Numbers that lanes are loaded from: whole registers then never cross a cache line, which would halve their rate.
+template <class T>
+using AlignedVector = std::vector<T, Eigen::aligned_allocator<T>>;
 
 /// The width of blocks, nodes and tasks on every instruction set: measured to pay also where it takes four registers.
 inline constexpr std::size_t width = 16;

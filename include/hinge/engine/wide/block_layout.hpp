@@ -18,15 +18,17 @@ namespace hinge {
 
 /// Sixteen primitives or fewer. Rigid: all of one large group. Mixed: of several small groups next to each other.
 struct Block {
-  std::uint32_t first_group = 0, group_count = 0;  ///< its groups, in BlockLayout::groups
-  simd::Bits real = 0;                             ///< lanes that hold a primitive
+  std::uint32_t first_group = 0,
+                group_count = 0;  ///< its groups, in BlockLayout::groups
+  simd::Bits real = 0;            ///< lanes that hold a primitive
   bool rigid = false;
 };
 
 /// What the sweep holds one box for: one block, or all blocks of a group large enough for a tree of its own.
 struct Unit {
   std::uint32_t first_block = 0, block_count = 1;
-  std::uint32_t sweep_end = 0;   ///< units before this one can hold partners; those of the same rigid group come after
+  std::uint32_t sweep_end = 0;   ///< units before this one can hold partners;
+                                 ///< those of the same rigid group come after
   std::uint32_t last_group = 0;  ///< forward kinematics must have come this far
 };
 
@@ -35,7 +37,7 @@ struct Unit {
 struct BlockLayout {
   static constexpr std::uint32_t none = ~std::uint32_t{0};
   /// Rigid groups with more blocks than this are searched through a tree, others block by block.
-  static constexpr std::size_t largest_flat_group = simd::width;
+  static constexpr std::size_t largest_flat_group = 64;
 
   /// By rigid groups, for configurations and poses.
   template <Primitive P>
@@ -58,14 +60,16 @@ struct BlockLayout {
     return end;
   }
 
-  std::vector<std::uint32_t> primitive;  ///< per slot (sixteen per block); padding repeats the block's first
+  std::vector<std::uint32_t> primitive;  ///< per slot (sixteen per block);
+                                         ///< padding repeats the block's first
   std::vector<Block> blocks;
   std::vector<Unit> units;
   std::vector<GroupId> groups;          ///< of all blocks, each block's sorted without repetition
   std::vector<std::uint32_t> block_of;  ///< per primitive
   std::size_t static_units = 0;         ///< leading units that hold primitives of group 0 only
   Vec3 origin = Vec3::Zero();           ///< about the middle of the model at the reference
-  double scale = 1.0;                   ///< power of two that brings the model to a size where float squares are safe
+  double scale = 1.0;                   ///< power of two that brings the model to a size where
+                                        ///< float squares are safe
 
  private:
   struct Piece {
@@ -173,7 +177,7 @@ inline void BlockLayout::measure(const std::vector<Vec3>& middles) {
   // To a size of about 64: room for squares on both sides of it. A model of one point keeps its unit.
   int exponent = 0;
   if (size > 0.0) std::frexp(size, &exponent);
-  scale = size > 0.0 ? std::ldexp(1.0, 6 - exponent) : 1.0;
+  scale = size > 0.0 ? std::ldexp(1.0, std::min(6 - exponent, 1000)) : 1.0;
 }
 
 }  // namespace hinge

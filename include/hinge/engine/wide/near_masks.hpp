@@ -16,49 +16,54 @@
 
 namespace hinge {
 
-/// One array of masks, looked up by position: first one mask per block (its real lanes), then sixteen rows for every
-/// near pair of blocks (b, a), a <= b: bit l of row k tells whether lane k of b is tested with lane l of a. Near pairs
-/// are those with a pair the filter lists as excluded, and every block with itself. What a filter that lists no
-/// exclusions forbids is found out pair by pair.
+/// A near pair of blocks (b, a), a <= b, has sixteen rows: bit l of row k tells
+/// whether lane k of b is tested with lane l of a. Near pairs are those with a
+/// pair the filter lists as excluded, and every block with itself. What a
+/// filter that lists no exclusions forbids is found out pair by pair.
 class NearMasks {
  public:
-  static constexpr std::uint32_t none = ~std::uint32_t{0};
-
   /// inside_groups: are pairs within one rigid group tested?
   template <Primitive P, PairFilter F>
   NearMasks(const BlockLayout& layout, const SelectedModel<P>& model, const F& filter, bool inside_groups);
 
-  simd::Bits mask(std::uint32_t position) const noexcept { return masks_[position]; }
-  const std::uint16_t* masks() const noexcept { return masks_.data(); }
-
-  /// Position of the first row of the pair, or none; a <= b.
-  std::uint32_t find(std::uint32_t b, std::uint32_t a) const noexcept {
-    for (std::uint32_t k = start_[b]; k < start_[b + 1]; ++k)
-      if (partner_[k] == a) return row_[k];
-    return none;
-  }
+  /// The rows of the pair, or nullptr; a < b.
+  const simd::Bits* find(std::uint32_t b, std::uint32_t a) const noexcept { return Partners(*this, b).find(a); }
   /// Rows of b with itself; only when self_lanes(b) is not empty.
-  std::uint32_t self_rows(std::uint32_t b) const noexcept { return row_[start_[b + 1] - 1]; }
+  const simd::Bits* self_rows(std::uint32_t b) const noexcept { return rows_.data() + row_[start_[b + 1] - 1]; }
   /// Those of its rows that admit anything.
   simd::Bits self_lanes(std::uint32_t b) const noexcept { return self_lanes_[b]; }
 
+  /// The near blocks of one block, to be asked for in increasing order.
+  class Partners {
+   public:
+    Partners(const NearMasks& near, std::uint32_t b) noexcept : near_(near), next_(near.start_[b]) {}
+    /// The rows with block a, or nullptr; a < b.
+    const simd::Bits* find(std::uint32_t a) noexcept {
+      while (near_.partner_[next_] < a) ++next_;
+      return near_.partner_[next_] == a ? near_.rows_.data() + near_.row_[next_] : nullptr;
+    }
+
+   private:
+    const NearMasks& near_;
+    std::size_t next_;
+  };
+
   std::size_t bytes() const noexcept {
-    return masks_.size() * sizeof(masks_[0]) + (start_.size() + partner_.size() + row_.size()) * 4 +
+    return (rows_.size() + start_.size() + partner_.size() + row_.size()) * 4 +
            self_lanes_.size() * sizeof(self_lanes_[0]);
   }
 
  private:
-  std::vector<std::uint16_t> masks_;
+  simd::AlignedVector<simd::Bits> rows_;
   std::vector<std::uint16_t> self_lanes_;
   std::vector<std::uint32_t> start_;    // per block, in partner_ and row_
-  std::vector<std::uint32_t> partner_;  // sorted, the block itself last
+  std::vector<std::uint32_t> partner_;  // sorted; the block itself ends every list
   std::vector<std::uint32_t> row_;
 };
 
 template <Primitive P, PairFilter F>
 NearMasks::NearMasks(const BlockLayout& layout, const SelectedModel<P>& model, const F& filter, bool inside_groups) {
   const std::size_t blocks = layout.block_count();
-  for (const Block& block : layout.blocks) masks_.push_back(static_cast<std::uint16_t>(block.real));
   start_.assign(1, 0);
   std::vector<std::uint32_t> near;
   for (std::uint32_t b = 0; b < blocks; ++b) {
@@ -77,10 +82,15 @@ NearMasks::NearMasks(const BlockLayout& layout, const SelectedModel<P>& model, c
     for (const std::uint32_t a : near) {
       // Two blocks of one rigid group never meet, unless groups deform.
       if (!inside_groups && mine.rigid && layout.blocks[a].rigid &&
-          layout.groups_of(mine).front() == layout.groups_of(layout.blocks[a]).front())
+          layout.groups_of(mine).front() == layout.groups_of(layout.blocks[a]).front()) {
+        if (a == b) {
+          partner_.push_back(b);
+          row_.push_back(0);
+        }
         continue;
+      }
       partner_.push_back(a);
-      row_.push_back(static_cast<std::uint32_t>(masks_.size()));
+      row_.push_back(static_cast<std::uint32_t>(rows_.size()));
       for (std::size_t k = 0; k < simd::width; ++k) {
         simd::Bits row = 0;
         const std::size_t end = a == b ? k : simd::width;  // each pair of a block with itself once
@@ -92,7 +102,7 @@ NearMasks::NearMasks(const BlockLayout& layout, const SelectedModel<P>& model, c
           if constexpr (ListsExclusions<F>) admitted = admitted && filter.admits(i, j);
           if (admitted) row |= simd::Bits{1} << l;
         }
-        masks_.push_back(static_cast<std::uint16_t>(row));
+        rows_.push_back(row);
         if (a == b && row != 0) self_lanes |= simd::Bits{1} << k;
       }
     }

@@ -43,15 +43,21 @@ template <Primitive P>
 struct RigidBlocks {
   RigidBlocks(const BlockLayout& layout, const SelectedModel<P>& model, const ThresholdClasses& classes);
 
-  std::vector<LocalBox> block;    ///< per block; meaningless for mixed ones
-  std::vector<LocalBox> unit;     ///< per first unit of a rigid group: around the whole group
-  std::vector<float> offsets;     ///< per block, for primitives whose batches turn: from the block's middle, scaled
-  std::vector<float> reach;       ///< per block: largest reach, scaled, rounded up
-  std::vector<float> unit_reach;  ///< per unit: the largest of its group's, or of its block
-  std::vector<BlockTree> tree;    ///< per first unit of a rigid group
-  std::vector<LocalRow> rows;     ///< of all trees
-  float largest_half = 0.0F;      ///< over all blocks
-  double largest_local = 0.0;     ///< largest magnitude of a coordinate in its group's frame, model unit
+  std::vector<LocalBox> block;         ///< per block; meaningless for mixed ones
+  std::vector<LocalBox> unit;          ///< per first unit of a rigid group: around the whole group
+  simd::AlignedVector<float> offsets;  ///< per block, for primitives whose batches turn:
+                                       ///< from the block's middle, scaled
+  std::vector<float> reach;            ///< per block: largest reach, scaled, rounded up
+  std::vector<float> unit_reach;       ///< per unit: the largest of its group's, or of its block
+  float largest_reach = 0.0F;          ///< over all blocks
+  std::vector<BlockTree> tree;         ///< per unit that has one
+  /// Per first unit of a rigid group without a tree: how many units, and the first of their rows, in which every box
+  /// has the lane of its unit.
+  std::vector<std::uint32_t> flat_count, flat_row;
+  std::vector<LocalRow> rows;  ///< of all trees, and of groups without
+  float largest_half = 0.0F;   ///< over all blocks
+  double largest_local = 0.0;  ///< largest magnitude of a coordinate in its
+                               ///< group's frame, model unit
 
  private:
   static LocalBox local_box(const Aabb& box, double scale) noexcept {
@@ -65,24 +71,30 @@ struct RigidBlocks {
     return local;
   }
   void make_tree(const BlockLayout& layout, std::size_t u, std::vector<Aabb> level);
+  static void set(LocalRow& row, std::size_t lane, const Aabb& box, const LocalBox& whole, double scale) noexcept;
 };
 
 template <Primitive P>
 RigidBlocks<P>::RigidBlocks(const BlockLayout& layout, const SelectedModel<P>& model, const ThresholdClasses& classes)
-    : block(layout.block_count()), unit(layout.units.size()), tree(layout.units.size()) {
+    : block(layout.block_count()),
+      unit(layout.units.size()),
+      tree(layout.units.size()),
+      flat_count(layout.units.size()),
+      flat_row(layout.units.size()) {
   std::vector<Aabb> boxes(layout.block_count());
   if constexpr (TurnsBatch<P>) offsets.resize(layout.block_count() * Batch<P>::floats);
   for (std::size_t b = 0; b < layout.block_count(); ++b) {
-    double largest_reach = 0.0;
+    double block_reach = 0.0;
     for (std::size_t k = 0; k < simd::width; ++k) {
       const std::uint32_t i = layout.primitive[b * simd::width + k];
       const Aabb box = model.primitives()[i].bounds();
       boxes[b].extend(box);
-      largest_reach = std::max(largest_reach, classes.reach(classes.class_of(i)));
+      block_reach = std::max(block_reach, classes.reach(classes.class_of(i)));
       for (int axis = 0; axis < 3; ++axis)
         largest_local = std::max({largest_local, std::abs(box.lower[axis]), std::abs(box.upper[axis])});
     }
-    reach.push_back(float_above(largest_reach * layout.scale));
+    reach.push_back(float_above(block_reach * layout.scale));
+    largest_reach = std::max(largest_reach, reach.back());
     if (!layout.blocks[b].rigid) continue;
     block[b] = local_box(boxes[b], layout.scale);
     largest_half = std::max({largest_half, block[b].half[0], block[b].half[1], block[b].half[2]});
@@ -101,19 +113,42 @@ RigidBlocks<P>::RigidBlocks(const BlockLayout& layout, const SelectedModel<P>& m
     std::fill(unit_reach.begin() + static_cast<std::ptrdiff_t>(u),
               unit_reach.begin() + static_cast<std::ptrdiff_t>(end),
               *std::max_element(reach.begin() + first, reach.begin() + last));
-    if (layout.blocks[first].rigid) make_tree(layout, u, {boxes.begin() + first, boxes.begin() + last});
+    if (layout.blocks[first].rigid) {
+      Aabb whole;
+      for (std::uint32_t b = first; b < last; ++b) whole.extend(boxes[b]);
+      unit[u] = local_box(whole, layout.scale);
+      if (layout.units[u].block_count > 1) {
+        make_tree(layout, u, {boxes.begin() + first, boxes.begin() + last});
+      } else {
+        flat_count[u] = static_cast<std::uint32_t>(end - u);
+        flat_row[u] = static_cast<std::uint32_t>(rows.size());
+        rows.resize(rows.size() + (end - 1) / simd::width - u / simd::width + 1);
+        for (std::size_t w = u; w < end; ++w)
+          set(rows[flat_row[u] + w / simd::width - u / simd::width], w % simd::width,
+              boxes[layout.units[w].first_block], unit[u], layout.scale);
+      }
+    }
     u = end;
   }
 }
 
 template <Primitive P>
-void RigidBlocks<P>::make_tree(const BlockLayout& layout, std::size_t u, std::vector<Aabb> level) {
-  Aabb whole;
-  for (const Aabb& box : level) whole.extend(box);
-  unit[u] = local_box(whole, layout.scale);
-  const std::array<double, 3>& origin = unit[u].middle;
+void RigidBlocks<P>::set(LocalRow& row, std::size_t lane, const Aabb& box, const LocalBox& whole,
+                         double scale) noexcept {
   // A middle turned in float is off by less than this share of its size, counted over its three products and sums.
   constexpr double turning_error = 16 * 0x1p-24;
+  const LocalBox local = local_box(box, scale);
+  double size = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    size += std::abs(local.middle[axis] - whole.middle[axis]) * scale + static_cast<double>(local.half[axis]);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    row.middle[axis * simd::width + lane] = static_cast<float>((local.middle[axis] - whole.middle[axis]) * scale);
+    row.half[axis * simd::width + lane] = float_above(static_cast<double>(local.half[axis]) + turning_error * size);
+  }
+}
+
+template <Primitive P>
+void RigidBlocks<P>::make_tree(const BlockLayout& layout, std::size_t u, std::vector<Aabb> level) {
   do {
     std::vector<Aabb> above;
     tree[u].levels.push_back({static_cast<std::uint32_t>(rows.size()), static_cast<std::uint32_t>(level.size())});
@@ -121,15 +156,8 @@ void RigidBlocks<P>::make_tree(const BlockLayout& layout, std::size_t u, std::ve
       LocalRow row;
       Aabb all;
       for (std::size_t k = 0; k < simd::width && first + k < level.size(); ++k) {
-        const LocalBox box = local_box(level[first + k], layout.scale);
+        set(row, k, level[first + k], unit[u], layout.scale);
         all.extend(level[first + k]);
-        double size = 0.0;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-          size += std::abs(box.middle[axis] - origin[axis]) * layout.scale + static_cast<double>(box.half[axis]);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          row.middle[axis * simd::width + k] = static_cast<float>((box.middle[axis] - origin[axis]) * layout.scale);
-          row.half[axis * simd::width + k] = float_above(static_cast<double>(box.half[axis]) + turning_error * size);
-        }
       }
       rows.push_back(row);
       above.push_back(all);

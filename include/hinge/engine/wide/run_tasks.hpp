@@ -17,8 +17,8 @@ namespace hinge {
 /// Coordinates of one model as they are.
 template <Primitive P>
 struct Exactly {
-  [[gnu::always_inline]] typename Batch<P>::One operator()(const float* at, std::size_t lane) const noexcept {
-    return {at, lane};
+  [[gnu::always_inline]] typename Batch<P>::One operator()(const float* at) const noexcept {
+    return typename Batch<P>::One(at);
   }
   float scale = 1.0F;
 };
@@ -33,8 +33,8 @@ struct Into {
       shift[k] = static_cast<float>((from.state().origin()[i] - to.state().origin()[i]) * to.layout().scale);
     }
   }
-  [[gnu::always_inline]] typename Batch<P>::One operator()(const float* at, std::size_t lane) const noexcept {
-    return {at, lane, scale, shift};
+  [[gnu::always_inline]] typename Batch<P>::One operator()(const float* at) const noexcept {
+    return {at, scale, shift};
   }
   FloatBox operator()(FloatBox box) const noexcept {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -64,47 +64,81 @@ class Thresholds16 {
       const simd::Float16 near = simd::Float16(table.row.data() + c * simd::width) + simd::Float16(margin);
       near.store(plain_.data() + c * simd::width);
       (near * near).store(squares_.data() + c * simd::width);
+      largest_squares_[c] = largest(near * near);
+      largest_plain_[c] = largest(near);
     }
   }
   float margin() const noexcept { return margin_; }
   const float* plain() const noexcept { return plain_.data(); }
   const float* squares() const noexcept { return squares_.data(); }
+  /// The largest of each row.
+  const float* largest_plain() const noexcept { return largest_plain_.data(); }
+  const float* largest_squares() const noexcept { return largest_squares_.data(); }
 
  private:
   float margin_ = 0.0F;
   alignas(64) std::array<float, simd::width * simd::width> plain_{};
   alignas(64) std::array<float, simd::width * simd::width> squares_{};
+  std::array<float, simd::width> largest_plain_{}, largest_squares_{};
 };
 
-/// Calls visit(slot of `one`, block of `sixteen`, lanes) for every task that floats cannot rule out; visit may lower
-/// the thresholds and answers false to stop.
+/// Calls visit(position of the one, position of the sixteen, lanes) for every task that floats cannot rule out; visit
+/// may lower the thresholds and answers false to stop. First all tasks are held against the largest threshold of their
+/// one; what is left, lane by lane against its own.
 template <Primitive P, class Convert, class Visit>
-void run_tasks(const Tasks& tasks, const WideSide<P>& one, const WideSide<P>& sixteen, const Convert& convert,
+void run_tasks(Tasks& tasks, const WideSide<P>& one, const WideSide<P>& sixteen, const Convert& convert,
                const Thresholds16& thresholds, const Visit& visit) {
-  constexpr std::size_t n = simd::width;
   const float *single = one.state().packed(0), *packed = sixteen.state().packed(0);
-  const std::uint8_t *single_class = one.parts().slot_class.data(), *classes = sixteen.parts().slot_class.data();
-  const std::uint16_t* masks = sixteen.near().masks();
-  const float *plain = thresholds.plain(), *squares = thresholds.squares();
-  const bool extra = one.has_extra() || sixteen.has_extra();
-  const std::uint32_t *slots = tasks.slots(), *blocks = tasks.blocks(), *mask = tasks.masks();
-  const std::size_t size = tasks.size();
-  for (std::size_t t = 0; t < size; ++t) {
-    const std::uint32_t slot = slots[t], block = blocks[t];
-    const std::size_t own = slot / n;
-    const simd::Float16 squared =
-        convert(single + own * Batch<P>::floats, slot % n).squared_distances(packed + block * Batch<P>::floats);
-    const std::size_t row = single_class[slot] * n;
-    const simd::Index16 index(classes + block * n);
-    simd::Float16 near = look_up(squares + row, index);
-    if (extra) {
-      const float more = one.extra(static_cast<std::uint32_t>(own)) * convert.scale + sixteen.extra(block);
-      near = look_up(plain + row, index) + simd::Float16(more);
+  const std::uint8_t *single_class = one.parts().position_class.data(),
+                     *classes = sixteen.parts().position_class.data();
+  const std::uint32_t *ones = tasks.ones(), *sixteens = tasks.sixteens();
+  const simd::Bits* masks = tasks.masks();
+  const auto squared_distances = [&](std::size_t t) __attribute__((always_inline)) {
+    return convert(single + ones[t]).squared_distances(packed + sixteens[t]);
+  };
+  const auto extra = [&](std::size_t t) {
+    return one.extra(ones[t] / Batch<P>::floats) * convert.scale + sixteen.extra(sixteens[t] / Batch<P>::floats);
+  };
+  const bool has_extra = one.has_extra() || sixteen.has_extra();
+  Tasks::Left* left = tasks.left();
+  std::size_t left_count = 0;
+  const auto rule_out = [&](const auto& near) __attribute__((always_inline)) {
+    const auto lanes = [&](std::size_t t) __attribute__((always_inline)) {
+      // Not "where it is less": what overflowed or is no number has to be looked at.
+      return ~less(simd::Float16(near(t)), squared_distances(t)) & masks[t];
+    };
+    // A branch is cheaper while it is never taken, and half as cheap as none when nobody can foretell it.
+    if (tasks.many_left()) {
+      for (std::size_t t = 0; t < tasks.size(); ++t) {
+        left[left_count] = {static_cast<std::uint32_t>(t), lanes(t)};
+        left_count += left[left_count].lanes != 0;
+      }
+    } else {
+      for (std::size_t t = 0; t < tasks.size(); ++t)
+        if (const simd::Bits bits = lanes(t); bits != 0) [[unlikely]]
+          left[left_count++] = {static_cast<std::uint32_t>(t), bits};
+    }
+    tasks.set_left(left_count);
+  };
+  if (has_extra) {
+    rule_out([&](std::size_t t) {
+      const float near = thresholds.largest_plain()[single_class[ones[t]]] + extra(t);
+      return near * near;
+    });
+  } else {
+    rule_out([ near = thresholds.largest_squares(), ones, single_class ](std::size_t t)
+                 __attribute__((always_inline)) { return near[single_class[ones[t]]]; });
+  }
+  for (std::size_t k = 0; k < left_count; ++k) {
+    const std::size_t t = left[k].task, row = single_class[ones[t]] * simd::width;
+    const simd::Index16 index(classes + sixteens[t]);
+    simd::Float16 near = look_up(thresholds.squares() + row, index);
+    if (has_extra) {
+      near = look_up(thresholds.plain() + row, index) + simd::Float16(extra(t));
       near = near * near;
     }
-    // Not "where it is less": what overflowed or is no number has to be looked at.
-    const simd::Bits bits = ~less(near, squared) & masks[mask[t]];
-    if (bits != 0 && !visit(slot, block, bits)) return;
+    const simd::Bits bits = left[k].lanes & ~less(near, squared_distances(t));
+    if (bits != 0 && !visit(ones[t], sixteens[t], bits)) return;
   }
 }
 

@@ -7,50 +7,70 @@
 #include <cstdint>
 #include <vector>
 
-#include "hinge/engine/wide/near_masks.hpp"
 #include "hinge/simd/gather_bits.hpp"
 #include "hinge/simd/lanes.hpp"
 
 namespace hinge {
 
-/// Three arrays: the slot of the one, the block of the sixteen, and where NearMasks says which of them count.
+/// Three arrays: where the floats of the one start, where those of the sixteen
+/// start, and which of the sixteen count.
 class Tasks {
  public:
+  /// A task that floats did not rule out, and the lanes that are left of it.
+  struct Left {
+    std::uint32_t task;
+    simd::Bits lanes;
+  };
+
   void clear() noexcept { size_ = 0; }
   std::size_t size() const noexcept { return size_; }
-  const std::uint32_t* slots() const noexcept { return slot_.data(); }
-  const std::uint32_t* blocks() const noexcept { return block_.data(); }
-  const std::uint32_t* masks() const noexcept { return mask_.data(); }
+  const std::uint32_t* ones() const noexcept { return one_.data(); }
+  const std::uint32_t* sixteens() const noexcept { return sixteen_.data(); }
+  const simd::Bits* masks() const noexcept { return mask_.data(); }
+  /// Room for all tasks and one more.
+  Left* left() noexcept { return left_.data(); }
+  /// How many were left, which tells what to expect of the next ones.
+  void set_left(std::size_t count) noexcept { many_left_ = 16 * count > size_; }
+  bool many_left() const noexcept { return many_left_; }
 
-  /// The lanes of a block that starts at first_slot, each against `block` under one mask.
-  void add(simd::Bits lanes, std::uint32_t first_slot, std::uint32_t block, std::uint32_t mask) {
+  /// The lanes of the block at first_one, each against the block at `sixteen`
+  /// under one mask.
+  [[gnu::always_inline]] void add(simd::Bits lanes, std::uint32_t first_one, std::uint32_t sixteen, simd::Bits mask) {
     make_room();
     std::fill_n(mask_.data() + size_, simd::width, mask);
-    push(lanes, first_slot, block);
+    push(lanes, first_one, sixteen);
   }
-  /// The same with a row of masks per lane.
-  void add_rows(simd::Bits lanes, std::uint32_t first_slot, std::uint32_t block, std::uint32_t first_mask) {
+  /// The same with a mask per lane.
+  [[gnu::always_inline]] void add_rows(simd::Bits lanes, std::uint32_t first_one, std::uint32_t sixteen,
+                                       const simd::Bits* masks) {
     make_room();
-    simd::append_lanes(lanes, first_mask, mask_.data() + size_);
-    push(lanes, first_slot, block);
+    simd::append_chosen(lanes, masks, mask_.data() + size_);
+    push(lanes, first_one, sixteen);
   }
 
  private:
-  void make_room() {
+  [[gnu::always_inline]] void make_room() {
     // Lists are written sixteen at a time, whatever counts.
-    if (size_ + simd::width <= slot_.size()) return;
-    const std::size_t room = 2 * size_ + 16 * simd::width;
-    slot_.resize(room);
-    block_.resize(room);
-    mask_.resize(room);
+    if (size_ + simd::width > one_.size()) [[unlikely]]
+      grow();
   }
-  void push(simd::Bits lanes, std::uint32_t first_slot, std::uint32_t block) noexcept {
-    std::fill_n(block_.data() + size_, simd::width, block);
-    size_ += simd::append_lanes(lanes, first_slot, slot_.data() + size_);
+  [[gnu::noinline]] void grow() {
+    const std::size_t room = 2 * size_ + 16 * simd::width;
+    one_.resize(room);
+    sixteen_.resize(room);
+    mask_.resize(room);
+    left_.resize(room + 1);
+  }
+  [[gnu::always_inline]] void push(simd::Bits lanes, std::uint32_t first_one, std::uint32_t sixteen) noexcept {
+    std::fill_n(sixteen_.data() + size_, simd::width, sixteen);
+    size_ += simd::append_lanes(lanes, first_one, one_.data() + size_);
   }
 
   std::size_t size_ = 0;
-  std::vector<std::uint32_t> slot_, block_, mask_;
+  bool many_left_ = false;
+  std::vector<std::uint32_t> one_, sixteen_;
+  std::vector<simd::Bits> mask_;
+  std::vector<Left> left_;
 };
 
 }  // namespace hinge

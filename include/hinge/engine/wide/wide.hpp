@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "hinge/core/id.hpp"
 #include "hinge/engine/engine.hpp"
@@ -45,11 +46,12 @@ class Wide {
   void self_query(C& collector, const QueryOptions& options) {
     QueryCounts counts;
     const SelfRules<P, F, D> rules{placement_, filter_, matrix_, options};
-    const auto decide = [&](PrimitiveId i, PrimitiveId j) {
-      if (j < i) std::swap(i, j);
-      offer(collector, i, j, placement_.at(i), placement_.at(j), rules.threshold(i, j), [&] {
-        if constexpr (ListsExclusions<F>) return rules.counts(i, j);
-        return rules.admits(i, j);
+    const auto decide = [&](PrimitiveId i, PrimitiveId j, const P& p, const P& q) __attribute__((always_inline)) {
+      const bool turned = j < i;
+      const PrimitiveId first = turned ? j : i, second = turned ? i : j;
+      offer(collector, first, second, turned ? q : p, turned ? p : q, rules.threshold(first, second), [&] {
+        if constexpr (ListsExclusions<F>) return rules.counts(first, second);
+        return rules.admits(first, second);
       });
     };
     if constexpr (C::ranks) {
@@ -62,6 +64,13 @@ class Wide {
     WideSide<P>& side = present_side();
     side.begin(placement_, options.moved_only, options.clearance);
     const BlockLayout& layout = side.layout();
+    tasks_.clear();
+    const auto run_listed = [&] {
+      run(
+          side, side, placement_, side.table(), Exactly<P>{}, [&] { return margin(side, collector.cutoff()); }, decide,
+          collector, counts);
+    };
+    std::size_t patience = 1;
     float extent = -1.0F;
     double cutoff = 0.0;
     for (std::size_t u = 0; u < layout.units.size() && !collector.done(); ++u) {
@@ -74,10 +83,13 @@ class Wide {
         thresholds_.set(side.table(), margin(side, cutoff));
       }
       collect_self(side, u, counts);
-      run(
-          side, side, side.table(), Exactly<P>{}, [&] { return margin(side, collector.cutoff()); }, decide, collector,
-          counts);
+      // Soon at first: a hit at the root saves placing the rest. Then in longer
+      // runs, which cost less.
+      if (tasks_.size() < patience) continue;
+      patience = std::min(2 * patience, longest_run);
+      run_listed();
     }
+    if (!collector.done()) run_listed();
     if constexpr (C::ranks)
       if (collector.hit()) witness_.emplace(collector.hit()->first, collector.hit()->second);
     add(options.counts, counts);
@@ -89,22 +101,31 @@ class Wide {
   void query(Wide& other, const G& across, C& collector, const QueryOptions& options) {
     QueryCounts counts;
     const CrossRules<P, G, D> rules{placement_, other.placement_, across, matrix_, other.matrix_, options};
-    const auto decide = [&](PrimitiveId i, PrimitiveId j) {
-      offer(collector, i, j, placement_.at(i), other.placement_.at(j), rules.threshold(i, j),
-            [&] { return rules.admits(i, j); });
+    const auto decide = [&](PrimitiveId i, PrimitiveId j, const P& p, const P& q) {
+      offer(collector, i, j, p, q, rules.threshold(i, j), [&] { return rules.admits(i, j); });
     };
     WideSide<P>&mine = present_side(), &theirs = other.present_side();
     mine.begin(placement_, false, options.clearance);
     theirs.begin(other.placement_, false, options.other_clearance);
     for (std::size_t u = 0; u < mine.layout().units.size(); ++u) mine.state().refresh(u, placement_);
     for (std::size_t u = 0; u < theirs.layout().units.size(); ++u) theirs.state().refresh(u, other.placement_);
+    const double ratio = theirs.layout().scale / mine.layout().scale;
+    if (!(ratio >= 0x1p-60 && ratio <= 0x1p60)) {
+      // No float holds both models.
+      for (std::size_t k = 0; k < placement_.model().size() && !collector.done(); ++k)
+        for (std::size_t l = 0; l < other.placement_.model().size() && !collector.done(); ++l) {
+          const auto i = id<PrimitiveId>(k), j = id<PrimitiveId>(l);
+          decide(i, j, placement_.at(i), other.placement_.at(j));
+        }
+      return add(options.counts, counts);
+    }
     const Into<P> into(mine, theirs);
     const ThresholdTable table = mine.parts().classes.table(theirs.parts().classes, theirs.layout().scale);
     const auto between = [&] { return margin(mine, theirs, table, into, collector.cutoff()); };
     for (std::size_t u = 0; u < mine.layout().units.size() && !collector.done(); ++u) {
       thresholds_.set(table, between());
       collect_cross(mine, u, other, theirs, into, options.moved_only, counts);
-      run(mine, theirs, table, into, between, decide, collector, counts);
+      run(mine, theirs, other.placement_, table, into, between, decide, collector, counts);
     }
     add(options.counts, counts);
   }
@@ -145,62 +166,86 @@ class Wide {
     return float_above(scaled + theirs.state().band(largest) + 2 * ratio * mine.state().band(0.0));
   }
 
+  /// A block held against others.
+  struct Facing {
+    Facing(WideSide<P>& side, std::uint32_t b, Placement<P>& placement, float more) noexcept
+        : block(b),
+          lanes(side.state().block(b, placement), more + side.parts().rigid.reach[b]),
+          box(side.state().block_box(b).grown(more + side.parts().rigid.largest_reach)),
+          partners(side.near(), b) {}
+    std::uint32_t block;
+    typename Batch<P>::Grown lanes;  // by its reach and more
+    BoxLanes box;                    // by all reaches and more
+    NearMasks::Partners partners;
+  };
+
   /// Lists the tasks between a unit and the ones before it, and inside it.
   void collect_self(WideSide<P>& side, std::size_t u, QueryCounts& counts) {
-    tasks_.clear();
     const Unit& unit = side.layout().units[u];
     const std::uint32_t first = unit.first_block;
-    const float m = thresholds_.margin();
-    if (const simd::Bits lanes = side.near().self_lanes(first); lanes != 0 && !side.kept_apart(u, u))
-      tasks_.add_rows(lanes, first * static_cast<std::uint32_t>(simd::width), first, side.near().self_rows(first));
-    const float reach = m + side.extra(first) + side.largest_extra();
-    side.sweep(side.state().box(u).grown(reach), unit.sweep_end, counts, [&](std::uint32_t w) {
-      if (side.kept_apart(u, w)) return;
-      const Unit& partner = side.layout().units[w];
-      const float own = m + side.extra(first) + side.extra(partner.first_block);
-      if (unit.block_count == 1) {
-        meet(side, first, w, own, counts);
-      } else if (partner.block_count == 1) {
-        side.state().block(partner.first_block, placement_);
-        side.descend(u, reached(side, partner.first_block, own), placement_, counts,
-                     [&](std::uint32_t b) { add_pair(side, b, partner.first_block, own); });
-      } else {
-        side.descend(u, side.state().box(w).grown(own), placement_, counts,
-                     [&](std::uint32_t b) { meet(side, b, w, own, counts); });
+    const simd::Bits lanes = side.near().self_lanes(first);
+    if (lanes != 0 && !side.kept_apart(u, u))
+      tasks_.add_rows(lanes, position(first), position(first), side.near().self_rows(first));
+    const float more = thresholds_.margin() + side.extra(first) + side.largest_extra();
+    const auto found = side.sweep(side.state().box(u).grown(more), unit.sweep_end, counts);
+    if (found.empty()) return;
+    if (unit.block_count == 1) {
+      Facing facing(side, first, placement_, more);
+      for (const std::uint32_t w : found) {
+        if (side.kept_apart(u, w)) continue;
+        const Unit& partner = side.layout().units[w];
+        if (partner.block_count == 1) {
+          add_pair(side, facing, partner.first_block, facing.partners.find(partner.first_block));
+        } else {
+          side.descend(w, side.state().block_box(first).grown(more), placement_, counts, theirs_);
+          add_found(side, facing);
+        }
       }
-    });
+      return;
+    }
+    for (const std::uint32_t w : found) {
+      if (side.kept_apart(u, w)) continue;
+      side.descend(u, side.state().box(w).grown(more), placement_, counts, mine_);
+      for (const std::uint32_t b : mine_) {
+        // Placed only when it meets something.
+        if (side.layout().units[w].block_count == 1)
+          theirs_.assign(1, side.layout().units[w].first_block);
+        else
+          side.descend(w, side.state().tree_box(u, b, placement_).grown(more), placement_, counts, theirs_);
+        if (theirs_.empty()) continue;
+        add_found(side, Facing(side, b, placement_, more));
+      }
+    }
   }
 
-  /// A block against all of an earlier unit.
-  void meet(WideSide<P>& side, std::uint32_t b, std::size_t w, float own, QueryCounts& counts) {
-    const Unit& partner = side.layout().units[w];
-    if (partner.block_count == 1) return add_pair(side, b, partner.first_block, own);
-    side.state().block(b, placement_);
-    side.descend(w, reached(side, b, own), placement_, counts, [&](std::uint32_t a) { add_pair(side, b, a, own); });
+  static std::uint32_t position(std::uint32_t block) noexcept {
+    return block * static_cast<std::uint32_t>(Batch<P>::floats);
+  }
+  static std::uint32_t slot(std::uint32_t position) noexcept {
+    constexpr auto floats = static_cast<std::uint32_t>(Batch<P>::floats);
+    return position / floats * static_cast<std::uint32_t>(simd::width) + position % floats;
   }
 
-  /// The box of a placed block, grown by its reach and more.
-  static FloatBox reached(WideSide<P>& side, std::uint32_t b, float more) noexcept {
-    return side.state().block_box(b).grown(side.parts().rigid.reach[b] + more);
+  /// A block against those found in trees.
+  [[gnu::noinline]] void add_found(WideSide<P>& side, const Facing& facing) {
+    for (const std::uint32_t a : theirs_) add_pair(side, facing, a, side.near().find(facing.block, a));
   }
 
-  /// Block b against block a < b: whichever side has fewer primitives near the other's box goes one by one.
-  void add_pair(WideSide<P>& side, std::uint32_t b, std::uint32_t a, float own) {
-    const float* at_b = side.state().block(b, placement_);
+  /// A block against block a before it: whichever side has fewer primitives
+  /// near the other's box goes one by one.
+  [[gnu::always_inline]] void add_pair(WideSide<P>& side, const Facing& facing, std::uint32_t a,
+                                       const simd::Bits* rows) {
     const float* at_a = side.state().block(a, placement_);
-    const float both = side.parts().rigid.reach[a] + side.parts().rigid.reach[b] + own;
-    const NearMasks& near = side.near();
-    const simd::Bits in_b = Batch<P>::inside(at_b, side.state().block_box(a).grown(both)) & near.mask(b);
-    if (in_b == 0) return;
-    constexpr auto n = static_cast<std::uint32_t>(simd::width);
-    const std::uint32_t rows = near.find(b, a);
-    if (rows != NearMasks::none) return tasks_.add_rows(in_b, b * n, a, rows);
-    const simd::Bits in_a = Batch<P>::inside(at_a, side.state().block_box(b).grown(both)) & near.mask(a);
-    if (in_a == 0) return;
-    if (std::popcount(in_b) <= std::popcount(in_a))
-      tasks_.add(in_b, b * n, a, a);
-    else
-      tasks_.add(in_a, a * n, b, b);
+    const std::uint32_t b = facing.block;
+    const simd::Bits real_b = side.layout().blocks[b].real, real_a = side.layout().blocks[a].real;
+    const simd::Bits in_b = facing.lanes.meets(side.state().block_box(a)) & real_b;
+    if (rows != nullptr) [[unlikely]]
+      return tasks_.add_rows(in_b, position(b), position(a), rows);
+    const simd::Bits in_a = Batch<P>::inside(at_a, facing.box) & real_a;
+    // Without branches, which nobody could foretell: an empty side lists nothing.
+    const bool b_by_one = std::popcount(in_b) <= std::popcount(in_a);
+    tasks_.add(b_by_one ? in_b : in_a, position(b_by_one ? b : a), position(b_by_one ? a : b),
+               b_by_one ? real_a : real_b);
   }
 
   /// Lists the tasks of a unit against another model.
@@ -217,52 +262,65 @@ class Wide {
       return false;
     };
     const bool stood_still = moved_only && !moved(mine, u, placement_);
-    theirs.sweep(box, theirs.layout().units.size(), counts, [&](std::uint32_t w) {
-      if (stood_still && !moved(theirs, w, other.placement_)) return;
+    for (const std::uint32_t w : theirs.sweep(box, theirs.layout().units.size(), counts)) {
+      if (stood_still && !moved(theirs, w, other.placement_)) continue;
       const Unit& partner = theirs.layout().units[w];
       const float own = m + extra + theirs.extra(partner.first_block);
-      const auto with_block = [&](std::uint32_t b) {
+      if (unit.block_count == 1)
+        mine_.assign(1, unit.first_block);
+      else
+        mine.descend(u, into.back(theirs.state().box(w).grown(own)), placement_, counts, mine_);
+      for (const std::uint32_t b : mine_) {
         const float* at = mine.state().block(b, placement_);
-        const float reach = mine.parts().rigid.reach[b] * into.scale + own;
-        const auto pair = [&](std::uint32_t a) {
+        const float more = own + mine.parts().rigid.reach[b] * into.scale;
+        if (partner.block_count == 1)
+          theirs_.assign(1, partner.first_block);
+        else
+          theirs.descend(w, into(mine.state().block_box(b)).grown(own), other.placement_, counts, theirs_);
+        for (const std::uint32_t a : theirs_) {
           theirs.state().block(a, other.placement_);
-          const FloatBox near = theirs.state().block_box(a).grown(reach + theirs.parts().rigid.reach[a]);
-          const simd::Bits lanes = Batch<P>::inside(at, into.back(near)) & mine.near().mask(b);
-          if (lanes != 0) tasks_.add(lanes, b * static_cast<std::uint32_t>(simd::width), a, a);
-        };
-        if (partner.block_count == 1) return pair(partner.first_block);
-        theirs.descend(w, into(mine.state().block_box(b)).grown(reach), other.placement_, counts, pair);
-      };
-      if (unit.block_count == 1) return with_block(unit.first_block);
-      mine.descend(u, into.back(theirs.state().box(w).grown(own)), placement_, counts, with_block);
-    });
+          const FloatBox near = into.back(theirs.state().block_box(a).grown(more));
+          const simd::Bits lanes = Batch<P>::inside(at, BoxLanes(near)) & mine.layout().blocks[b].real;
+          if (lanes != 0) tasks_.add(lanes, position(b), position(a), theirs.layout().blocks[a].real);
+        }
+      }
+    }
   }
 
   /// Runs the listed tasks: lanes of `one` against blocks of `sixteen`; what floats cannot rule out goes to `decide`.
   template <class Convert, class Margin, class Decide, Collector C>
-  void run(WideSide<P>& one, WideSide<P>& sixteen, const ThresholdTable& table, const Convert& convert,
-           const Margin& present_margin, const Decide& decide, C& collector, QueryCounts& counts) {
+  void run(WideSide<P>& one, WideSide<P>& sixteen, Placement<P>& others, const ThresholdTable& table,
+           const Convert& convert, const Margin& present_margin, const Decide& decide, C& collector,
+           QueryCounts& counts) {
     counts.pairs_tested += tasks_.size();
-    run_tasks(tasks_, one, sixteen, convert, thresholds_,
-              [&](std::uint32_t slot, std::uint32_t block, simd::Bits bits) {
-                const auto i = id<PrimitiveId>(one.layout().primitive[slot]);
-                const double before = collector.cutoff();
-                for (; bits != 0 && !collector.done(); bits &= bits - 1) {
-                  const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-                  decide(i, id<PrimitiveId>(sixteen.layout().primitive[block * simd::width + lane]));
-                }
-                if (collector.cutoff() != before) thresholds_.set(table, present_margin());
-                return !collector.done();
-              });
+    run_tasks(
+        tasks_, one, sixteen, convert, thresholds_,
+        [&](std::uint32_t at_one, std::uint32_t at_sixteen, simd::Bits bits) __attribute__((always_inline)) {
+          const auto i = id<PrimitiveId>(one.layout().primitive[slot(at_one)]);
+          const std::uint32_t* const lanes = sixteen.layout().primitive.data() + slot(at_sixteen);
+          const P& p = placement_.at(i);
+          const double before = collector.cutoff();
+          for (; bits != 0 && !collector.done(); bits &= bits - 1) {
+            const auto j = id<PrimitiveId>(lanes[std::countr_zero(bits)]);
+            decide(i, j, p, others.at(j));
+          }
+          if (collector.cutoff() != before) thresholds_.set(table, present_margin());
+          return !collector.done();
+        });
+    tasks_.clear();
   }
+
+  /// Tasks listed before they are run.
+  static constexpr std::size_t longest_run = 16 * simd::width;
 
   Placement<P> placement_;
   F filter_;
   D matrix_;
   WideSide<P> by_groups_;
-  std::optional<WideSide<P>> by_index_;  // made when coordinates from elsewhere first come
-  Tasks tasks_;                          // scratch
-  Thresholds16 thresholds_;              // scratch: of the present margin
+  std::optional<WideSide<P>> by_index_;       // made when coordinates from elsewhere first come
+  Tasks tasks_;                               // scratch
+  Thresholds16 thresholds_;                   // scratch: of the present margin
+  std::vector<std::uint32_t> mine_, theirs_;  // scratch: blocks found in trees
   std::optional<std::pair<PrimitiveId, PrimitiveId>> witness_;
 };
 

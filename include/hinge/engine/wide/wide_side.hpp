@@ -31,7 +31,8 @@ class WideSide {
            bool inside_groups)
       : near_(std::make_shared<const NearMasks>(parts->layout, model, filter, inside_groups)),
         table_(parts->classes.table(parts->layout.scale)),
-        state_(std::move(parts)) {}
+        state_(std::move(parts)),
+        found_(layout().units.size() + simd::width) {}
 
   const BlockLayout& layout() const noexcept { return state_.parts().layout; }
   const WideParts<P>& parts() const noexcept { return state_.parts(); }
@@ -72,28 +73,39 @@ class WideSide {
     return !component_.empty() && component_[u] == component_[w] && component_[u] != no_component;
   }
 
-  /// Calls visit(unit) for the units before `end` whose boxes share a point with `box`.
-  template <class Visit>
-  void sweep(const FloatBox& box, std::size_t end, QueryCounts& counts, const Visit& visit) {
-    const std::size_t full = end / simd::width;
+  /// The units before `end` whose boxes share a point with `box`, in order;
+  /// valid until the next sweep.
+  std::span<const std::uint32_t> sweep(const FloatBox& box, std::size_t end, QueryCounts& counts) {
+    const BoxLanes probe(box);
+    const std::size_t full = end / simd::width, rest = end % simd::width;
+    std::size_t n = 0;
+    const auto row = [&](std::size_t r, simd::Bits mask) __attribute__((always_inline)) {
+      n += simd::append_lanes(overlapping(state_.boxes(r), probe) & mask, static_cast<std::uint32_t>(r * simd::width),
+                              found_.data() + n);
+    };
+    counts.boxes_tested += full + (rest != 0);
     if (full <= simd::width) {
-      for (std::size_t r = 0; r < full; ++r) sweep_row(box, r, simd::all_bits, counts, visit);
+      for (std::size_t r = 0; r < full; ++r) row(r, simd::all_bits);
     } else {
+      counts.boxes_tested -= full;
       std::array<std::uint32_t, simd::width> rows;
       for (std::size_t h = 0; h * simd::width < full; ++h) {
-        simd::Bits bits = overlapping(state_.hulls(h), box);
+        simd::Bits bits = overlapping(state_.hulls(h), probe);
         if (full - h * simd::width < simd::width) bits &= (simd::Bits{1} << (full - h * simd::width)) - 1;
-        ++counts.boxes_tested;
-        const std::size_t n = simd::append_lanes(bits, static_cast<std::uint32_t>(h * simd::width), rows.data());
-        for (std::size_t k = 0; k < n; ++k) sweep_row(box, rows[k], simd::all_bits, counts, visit);
+        const std::size_t k = simd::append_lanes(bits, static_cast<std::uint32_t>(h * simd::width), rows.data());
+        counts.boxes_tested += 1 + k;
+        for (std::size_t i = 0; i < k; ++i) row(rows[i], simd::all_bits);
       }
     }
-    if (end % simd::width != 0) sweep_row(box, full, (simd::Bits{1} << (end % simd::width)) - 1, counts, visit);
+    if (rest != 0) row(full, (simd::Bits{1} << rest) - 1);
+    return {found_.data(), n};
   }
 
-  /// Calls visit(block) for the blocks of a unit's tree whose boxes share a point with `box`.
-  template <class Visit>
-  void descend(std::size_t u, const FloatBox& box, Placement<P>& placement, QueryCounts& counts, const Visit& visit) {
+  /// The blocks in a unit's tree whose boxes share a point with `box`, into `blocks`.
+  void descend(std::size_t u, const FloatBox& box, Placement<P>& placement, QueryCounts& counts,
+               std::vector<std::uint32_t>& blocks) {
+    blocks.clear();
+    const BoxLanes probe(box);
     const std::vector<BlockTree::Level>& levels = parts().rigid.tree[u].levels;
     struct Node {
       std::uint32_t row, level;
@@ -109,14 +121,14 @@ class WideSide {
       const BoxRow& boxes = state_.tree_row(u, levels[node.level].first_row + node.row, placement);
       ++counts.boxes_tested;
       const auto first = static_cast<std::uint32_t>(node.row * simd::width);
-      simd::Bits bits = overlapping(boxes, box);
+      simd::Bits bits = overlapping(boxes, probe);
       // Said in numbers: an infinite box shares points with the places that hold none.
       if (levels[node.level].boxes - first < simd::width)
         bits &= (simd::Bits{1} << (levels[node.level].boxes - first)) - 1;
       const std::size_t n = simd::append_lanes(bits, first, found.data());
       for (std::size_t k = 0; k < n; ++k) {
         if (node.level == 0)
-          visit(layout().units[u].first_block + found[k]);
+          blocks.push_back(layout().units[u].first_block + found[k]);
         else
           stack[waiting++] = {found[k], node.level - 1};
       }
@@ -124,21 +136,13 @@ class WideSide {
   }
 
  private:
-  template <class Visit>
-  void sweep_row(const FloatBox& box, std::size_t row, simd::Bits mask, QueryCounts& counts, const Visit& visit) {
-    std::array<std::uint32_t, simd::width> found;
-    ++counts.boxes_tested;
-    const std::size_t n = simd::append_lanes(overlapping(state_.boxes(row), box) & mask,
-                                             static_cast<std::uint32_t>(row * simd::width), found.data());
-    for (std::size_t k = 0; k < n; ++k) visit(found[k]);
-  }
-
   std::shared_ptr<const NearMasks> near_;
   ThresholdTable table_;
   WideState<P> state_;
   std::vector<float> extra_;  // per block, scaled; empty: none
   float largest_extra_ = 0.0F;
   std::vector<std::size_t> component_;  // per unit; empty: every pair of units counts
+  std::vector<std::uint32_t> found_;    // scratch
 };
 
 }  // namespace hinge

@@ -24,10 +24,13 @@ namespace hinge {
 template <Primitive P>
 struct WideParts {
   WideParts(BlockLayout blocks, ThresholdClasses threshold_classes, const SelectedModel<P>& model)
-      : layout(std::move(blocks)), classes(std::move(threshold_classes)), rigid(layout, model, classes) {
+      : layout(std::move(blocks)),
+        classes(std::move(threshold_classes)),
+        rigid(layout, model, classes),
+        position_class(layout.block_count() * Batch<P>::floats) {
     for (std::size_t slot = 0; slot < layout.primitive.size(); ++slot) {
       const std::uint32_t i = layout.primitive[slot];
-      slot_class.push_back(classes.class_of(i));
+      position_class[slot / simd::width * Batch<P>::floats + slot % simd::width] = classes.class_of(i);
       if (slot % simd::width == 0) mixed_slot.push_back(static_cast<std::uint32_t>(mixed_group.size()));
       if (layout.blocks[slot / simd::width].rigid) continue;
       mixed.push_back(model.primitives()[i]);
@@ -38,10 +41,12 @@ struct WideParts {
   BlockLayout layout;
   ThresholdClasses classes;
   RigidBlocks<P> rigid;
-  std::vector<std::uint8_t> slot_class;    ///< threshold class per slot
-  std::vector<std::uint32_t> mixed_slot;   ///< per block: where its slots start in the next two, if it is mixed
-  std::vector<P> mixed;                    ///< in their groups' frames
-  std::vector<std::uint32_t> mixed_group;  ///< their groups
+  std::vector<std::uint8_t> position_class;  ///< threshold classes, where the
+                                             ///< floats of a primitive start
+  std::vector<std::uint32_t> mixed_slot;     ///< per block: where its slots start
+                                             ///< in the next two, if it is mixed
+  std::vector<P> mixed;                      ///< in their groups' frames
+  std::vector<std::uint32_t> mixed_group;    ///< their groups
 };
 
 /// Coordinates are (world - origin) * scale in float. Everything is made from the placement when first asked for in an
@@ -55,8 +60,8 @@ class WideState {
         block_box_(parts_->layout.block_count()),
         block_at_(parts_->layout.block_count(), 0),
         unit_at_(parts_->layout.units.size(), 0),
-        unit_extent_(parts_->layout.units.size(), 0.0F),
         boxes_((parts_->layout.units.size() + simd::width - 1) / simd::width),
+        unit_extent_(boxes_.size() * simd::width, 0.0F),
         hulls_((boxes_.size() + simd::width - 1) / simd::width),
         tree_rows_(parts_->rigid.rows.size()),
         row_at_(parts_->rigid.rows.size(), 0),
@@ -102,17 +107,28 @@ class WideState {
     return packed(b);
   }
   const float* packed(std::uint32_t b) const noexcept { return packed_.data() + b * Batch<P>::floats; }
-  /// Not grown by the reach; of blocks that were touched.
+  /// Grown by the block's reach; of blocks that were touched.
   const FloatBox& block_box(std::uint32_t b) const noexcept { return block_box_[b]; }
 
   /// World boxes of a row of a unit's tree, grown by the unit's reach.
   const BoxRow& tree_row(std::size_t u, std::uint32_t row, Placement<P>& placement) noexcept {
     if (row_at_[row] != update_) {
       const Block& block = parts_->layout.blocks[parts_->layout.units[u].first_block];
-      if (!is_current(block, row_at_[row], placement)) turn_row(u, row, frame_of(block, placement));
+      if (!is_current(block, row_at_[row], placement)) {
+        const Frame& frame = frame_of(block, placement);
+        std::array<float, simd::width> extents;
+        turn_row(parts_->rigid.rows[row], rotation(frame), placed(parts_->rigid.unit[u].middle, frame),
+                 parts_->rigid.unit_reach[u], 0, simd::width, tree_rows_[row], extents.data());
+      }
       row_at_[row] = update_;
     }
     return tree_rows_[row];
+  }
+
+  /// Box of a block in the tree of a unit, grown by the unit's reach, whether the block is placed or not.
+  FloatBox tree_box(std::size_t u, std::uint32_t b, Placement<P>& placement) noexcept {
+    const std::uint32_t k = b - parts_->layout.units[u].first_block, row = k / static_cast<std::uint32_t>(simd::width);
+    return tree_row(u, parts_->rigid.tree[u].levels.front().first_row + row, placement).get(k % simd::width);
   }
 
   /// Largest magnitude of a coordinate seen since begin(), scaled, rounded up.
@@ -121,11 +137,11 @@ class WideState {
   /// How far float distances and boxes may be off, scaled, for things of the size seen since begin(), with thresholds
   /// and cutoffs up to `largest` (scaled). docs/explanation/float_filter.md derives it.
   double band(double largest) const noexcept {
-    constexpr double u = 0x1p-24, v = 0x1p-53;
+    constexpr double u = 0x1p-24, v = 0x1p-53, underflow = 0x1p-60;
     const auto extent = static_cast<double>(extent_), half = static_cast<double>(parts_->rigid.largest_half);
     const double size = extent + parts_->layout.scale * (4 * parts_->rigid.largest_local + 2 * std::abs(origin_[0]) +
                                                          2 * std::abs(origin_[1]) + 2 * std::abs(origin_[2]));
-    return 6 * u * (2 * extent + 10 * half) + 8 * u * largest + 16 * v * size;
+    return 6 * u * (2 * extent + 10 * half) + 8 * u * largest + 16 * v * size + underflow;
   }
 
  private:
@@ -146,7 +162,11 @@ class WideState {
     return true;
   }
 
-  static FloatBox checked(const FloatBox& box) noexcept { return box.extent() <= far ? box : FloatBox::everything(); }
+  [[gnu::always_inline]] static FloatBox checked(const FloatBox& box) noexcept {
+    if (!(box.extent() <= far)) [[unlikely]]
+      return FloatBox::everything();
+    return box;
+  }
 
   void set_unit(std::size_t u, const FloatBox& box) noexcept {
     unit_extent_[u] = box.extent();
@@ -165,15 +185,24 @@ class WideState {
     const float reach = parts_->rigid.unit_reach[u];
     if (!block.rigid) {
       place_mixed(unit.first_block, placement);
-      set_unit(u, block_box_[unit.first_block].grown(reach));
+      set_unit(u, block_box_[unit.first_block]);
     } else if (unit.block_count > 1) {
       set_unit(u, turned(parts_->rigid.unit[u], frame_of(block, placement)).grown(reach));
     } else {
       // All units of the group in one go; u is the first.
-      const std::uint32_t row = parts_->rigid.tree[u].levels.front().first_row;
-      turn_row(u, row, frame_of(block, placement));
-      const std::uint32_t count = parts_->rigid.tree[u].levels.front().boxes;
-      for (std::uint32_t k = 0; k < count; ++k) set_unit(u + k, checked(tree_rows_[row].get(k)));
+      const Frame& frame = frame_of(block, placement);
+      const std::array<float, 9> turn = rotation(frame);
+      const std::array<float, 3> middle = placed(parts_->rigid.unit[u].middle, frame);
+      const LocalRow* local = &parts_->rigid.rows[parts_->rigid.flat_row[u]];
+      const std::size_t end = u + parts_->rigid.flat_count[u];
+      for (std::size_t first = u; first < end; ++local) {
+        const std::size_t row = first / simd::width, last = std::min(end, (row + 1) * simd::width);
+        turn_row(*local, turn, middle, reach, first - row * simd::width, last - row * simd::width, boxes_[row],
+                 unit_extent_.data() + row * simd::width);
+        first = last;
+      }
+      std::fill(unit_at_.begin() + static_cast<std::ptrdiff_t>(u), unit_at_.begin() + static_cast<std::ptrdiff_t>(end),
+                update_);
     }
   }
 
@@ -196,7 +225,7 @@ class WideState {
       box = Batch<P>::place(at, parts_->mixed.data() + first, parts_->mixed_group.data() + first,
                             placement.frames_through(layout.groups_of(layout.blocks[b]).back()), origin_, layout.scale);
     }
-    block_box_[b] = checked(box);
+    block_box_[b] = checked(box).grown(parts_->rigid.reach[b]);
     block_at_[b] = update_;
   }
 
@@ -214,7 +243,7 @@ class WideState {
                       origin_, layout.scale);
       box = Batch<P>::hull(at);
     }
-    block_box_[b] = checked(box);
+    block_box_[b] = checked(box).grown(parts_->rigid.reach[b]);
   }
 
   static std::array<float, 9> rotation(const Frame& frame) noexcept {
@@ -246,37 +275,42 @@ class WideState {
     return checked(box);
   }
 
-  void turn_row(std::size_t u, std::uint32_t row, const Frame& frame) noexcept {
+  /// Boxes around the turned boxes of lanes first ... last - 1, and their largest magnitudes.
+  static void turn_row(const LocalRow& local, const std::array<float, 9>& turn, const std::array<float, 3>& middle,
+                       float reach, std::size_t first, std::size_t last, BoxRow& boxes, float* extents) noexcept {
     using simd::Float16;
     constexpr std::size_t n = simd::width;
-    const LocalRow& local = parts_->rigid.rows[row];
-    const std::array<float, 9> r = rotation(frame);
-    const std::array<float, 3> middle = placed(parts_->rigid.unit[u].middle, frame);
-    const Float16 reach(parts_->rigid.unit_reach[u]);
-    BoxRow& boxes = tree_rows_[row];
+    Float16 extent(0.0F);
     for (std::size_t k = 0; k < 3; ++k) {
       Float16 m(middle[k]), h(0.0F);
       for (std::size_t j = 0; j < 3; ++j) {
-        m = m + Float16(r[3 * j + k]) * Float16(local.middle.data() + j * n);
-        h = h + Float16(std::abs(r[3 * j + k])) * Float16(local.half.data() + j * n);
+        m = m + Float16(turn[3 * j + k]) * Float16(local.middle.data() + j * n);
+        h = h + Float16(std::abs(turn[3 * j + k])) * Float16(local.half.data() + j * n);
       }
-      h = h * Float16(half_rounding) + reach;
-      (m - h).store(boxes.lower.data() + k * n);
-      (m + h).store(boxes.upper.data() + k * n);
+      h = h * Float16(half_rounding) + Float16(reach);
+      (m - h).store_lanes(first, last, boxes.lower.data() + k * n);
+      (m + h).store_lanes(first, last, boxes.upper.data() + k * n);
+      extent = max(extent, abs(m) + h);
     }
-    if (!(std::max({std::abs(middle[0]), std::abs(middle[1]), std::abs(middle[2])}) <= far / 2))
-      for (std::size_t k = 0; k < n; ++k) boxes.set(k, FloatBox::everything());
+    extent.store_lanes(first, last, extents);
+    const simd::Bits sane = less_equal(extent, Float16(far));
+    for (std::size_t k = first; sane != simd::all_bits && k < last; ++k)
+      if ((sane >> k & 1U) == 0) {
+        boxes.set(k, FloatBox::everything());
+        extents[k] = std::numeric_limits<float>::infinity();
+      }
   }
 
   static constexpr float half_rounding = 1.0F + 8 * 0x1p-24F;
 
   std::shared_ptr<const WideParts<P>> parts_;
-  std::vector<float> packed_;
+  simd::AlignedVector<float> packed_;
   std::vector<FloatBox> block_box_;
-  std::vector<std::uint64_t> block_at_;  // per block: the last update its coordinates are known to be of
+  std::vector<std::uint64_t> block_at_;  // per block: the last update its
+                                         // coordinates are known to be of
   std::vector<std::uint64_t> unit_at_;   // per unit: the same for its box
-  std::vector<float> unit_extent_;       // per unit: largest magnitude in its box
   std::vector<BoxRow> boxes_;            // of units, grown by their reach
+  std::vector<float> unit_extent_;       // per place in boxes_: largest magnitude in the box
   std::vector<BoxRow> hulls_;            // of rows of units
   std::vector<BoxRow> tree_rows_;
   std::vector<std::uint64_t> row_at_;
