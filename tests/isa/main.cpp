@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Compiled for the baseline whatever answers.cpp is compiled for, and without functions that both use: the linker could
+// take the copy of answers.cpp. Exit status 0: the same answers; 1: others; 77: this CPU cannot tell.
+#include <cstdio>
+
+#include "hinge/simd/instruction_set.hpp"
+#include "isa/answers.hpp"
+
+int main() {
+  const auto best = static_cast<unsigned>(hinge::simd::of_this_cpu());
+  if (needed_instruction_set > best) {
+    std::printf("skipped: compiled for instruction set %u, this CPU has %u (baseline 0, avx2 1, avx512 2)\n",
+                static_cast<unsigned>(needed_instruction_set), best);
+    return 77;
+  }
+  return compare_answers() == 0 ? 0 : 1;
+}

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// biocd's output is a function of the question: the same bytes on every instruction set, thread count and engine.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "hinge/molecular/read_structure.hpp"
+#include "hinge/simd/instruction_set.hpp"
+#include "molecular/run_biocd.hpp"
+#include "molecular/test_files.hpp"
+
+namespace hinge::molecular {
+namespace {
+
+using simd::InstructionSet;
+using test::run_biocd;
+using test::Said;
+
+std::string file() { return test::ubiquitin().string(); }
+
+/// Several models, some free and some not, written by biocd itself; removed with the object.
+class Sampled {
+ public:
+  Sampled() : file_("") {
+    said_ = run_biocd("sample " + file() + " -n 12 --seed 4 --sigma 0.4 --rho 0.7 --csv --mode any --out " + path());
+  }
+  std::string path() const { return file_.path().string(); }
+  const Said& said() const { return said_; }
+
+ private:
+  test::TemporaryFile file_;
+  Said said_;
+};
+
+/// Both commands in every mode and output: full turns, small ones, and selections with few and with large groups.
+std::vector<std::string> questions(const std::string& models) {
+  std::vector<std::string> all;
+  for (const char* output : {"--json", "--csv"})
+    for (const char* mode : {"any", "all", "within:0.4", "closest"}) {
+      const std::string how = std::string(" --mode ") + mode + " " + output;
+      for (const char* what :
+           {"-n 40 --seed 3", "-n 60 --seed 5 --sigma 0.5 --free loops --exempt-reference",
+            "-n 60 --seed 7 --free count:4 --radii amber", "-n 20 --seed 8 --sigma 2 --free chi --rho 0.9"})
+        all.push_back("sample " + file() + " " + what + how);
+      all.push_back("check " + models + how);
+      all.push_back("check " + models + " --rho 0.7" + how);
+    }
+  return all;
+}
+
+/// What every variation of a question must give, byte for byte.
+void expect_same(const std::string& question, const std::vector<std::string>& variations,
+                 const std::string& environment) {
+  const Said expected = run_biocd(question + " 2>/dev/null", "HINGE_ISA=baseline");
+  ASSERT_TRUE(expected.status == 0 || expected.status == 1) << question;
+  ASSERT_FALSE(expected.out.empty()) << question;
+  for (const std::string& variation : variations) {
+    const Said said = run_biocd(question + variation + " 2>/dev/null", environment);
+    EXPECT_EQ(said.status, expected.status) << environment << ' ' << question << variation;
+    // Not EXPECT_EQ: it would print megabytes.
+    EXPECT_TRUE(said.out == expected.out) << environment << ' ' << question << variation << ": " << said.out.size()
+                                          << " bytes, expected " << expected.out.size();
+  }
+}
+
+TEST(BiocdBytes, AreTheSameOnEveryInstructionSet) {
+  const Sampled sampled;
+  ASSERT_NE(sampled.said().out.find(",1,"), std::string::npos) << "no model collides: the comparison says too little";
+  ASSERT_NE(sampled.said().out.find(",0,"), std::string::npos) << "no model is free: the comparison says too little";
+  std::string compared;
+  for (const InstructionSet set : {InstructionSet::avx2, InstructionSet::avx512}) {
+    const std::string name(simd::name(set)), environment = "HINGE_ISA=" + name;
+    if (set > simd::of_this_cpu()) {
+      EXPECT_EQ(run_biocd("--version 2>&1", environment).status, 2) << "this CPU lacks " << name;
+      continue;
+    }
+    // Where speed is no matter there is no program for it, and the baseline answers in its place.
+    if (run_biocd("--version", environment).out.find("(" + name + ")") == std::string::npos) continue;
+    compared += name;
+    for (const std::string& question : questions(sampled.path())) expect_same(question, {""}, environment);
+  }
+  if (compared.empty()) GTEST_SKIP() << "biocd comes for the baseline only, or the CPU has no more";
+}
+
+TEST(BiocdBytes, AreTheSameForEveryEngineAndThreadCount) {
+  const Sampled sampled;
+  for (const std::string& question : questions(sampled.path()))
+    expect_same(question, {" --threads 2", " --threads 8", " --engine lazy", " --engine brute --threads 2"}, "");
+}
+
+}  // namespace
+}  // namespace hinge::molecular
