@@ -12,7 +12,7 @@
 
 namespace hinge {
 
-/// Joints of eight consecutive rigid groups. Unused places turn about z by the first value of the configuration.
+/// Joints of eight consecutive rigid groups. What unused places compute is never read.
 struct alignas(64) JointBatch {
   static constexpr std::size_t size = 8;
   std::array<double, 3 * size> axis{};   // x of all, y of all, z of all

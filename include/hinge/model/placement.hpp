@@ -30,8 +30,7 @@ class Placement {
         poses_(model_->groups(), model_->selection().size()),
         placed_(model_->primitives().begin(), model_->primitives().end()),
         moved_at_(model_->groups()->size(), 0),
-        placed_at_(model_->groups()->size(), 0),
-        primitive_placed_at_(model_->size(), 0) {}
+        placed_at_(model_->groups()->size(), 0) {}
 
   /// See PoseSource::set_configuration.
   void update(std::span<const double> q) {
@@ -63,22 +62,21 @@ class Placement {
     if (source_ == Source::coordinates) return;
     const Pose pose = poses_.pose(group);
     // The identity is skipped so that coordinates keep their bits, negative zeros included.
-    const bool still = pose == Pose{};
+    const bool still = group == GroupId{0};
     const auto local = model_->primitives();
     for (const PrimitiveId i : model_->primitives_of(group))
       placed_[index(i)] = still ? local[index(i)] : local[index(i)].placed(pose);
   }
 
-  /// World coordinates of one primitive, brought up to date alone.
-  const P& at(PrimitiveId i) noexcept {
-    if (primitive_placed_at_[index(i)] != update_) {
-      primitive_placed_at_[index(i)] = update_;
-      const P& local = model_->primitives()[index(i)];
-      const GroupId group = model_->group_of(i);
-      if (source_ != Source::coordinates)
-        placed_[index(i)] = group == GroupId{0} ? local : local.placed(poses_.frame(group).pose());
+  /// World coordinates of some primitives of a group, written to `to`; not from coordinates computed elsewhere.
+  void place(GroupId group, std::span<const std::uint32_t> primitives, P* to) noexcept {
+    const auto local = model_->primitives();
+    if (group == GroupId{0}) {
+      for (const std::uint32_t i : primitives) *to++ = local[i];
+      return;
     }
-    return placed_[index(i)];
+    const Pose pose = poses_.frame(group).pose();
+    for (const std::uint32_t i : primitives) *to++ = local[i].placed(pose);
   }
 
   /// The number of the last update. Starts at 1.
@@ -147,10 +145,9 @@ class Placement {
   std::uint64_t update_ = 1;
   std::uint64_t all_moved_at_ = 1;
   std::uint64_t world_moved_at_ = 1;
-  bool settled_ = true;                             // moved_at_ knows about the last update
-  std::vector<std::uint64_t> moved_at_;             // per group: an update
-  std::vector<std::uint64_t> placed_at_;            // per group: the version placed_ holds
-  std::vector<std::uint64_t> primitive_placed_at_;  // the update in which at() placed it
+  bool settled_ = true;                   // moved_at_ knows about the last update
+  std::vector<std::uint64_t> moved_at_;   // per group: an update
+  std::vector<std::uint64_t> placed_at_;  // per group: the version placed_ holds
   Source source_ = Source::configuration;
 };
 

@@ -42,9 +42,14 @@ class SelectedModel {
   }
 
   /// Can the distance of i and j never change under this selection? So it is when both are fixed in one group's frame.
-  bool constant(PrimitiveId i, PrimitiveId j) const noexcept {
+  [[gnu::always_inline]] bool constant(PrimitiveId i, PrimitiveId j) const noexcept {
     // Nearly every pair that is asked for has no group in common.
-    if ((fixed_in_bits_[index(i)] & fixed_in_bits_[index(j)]) == 0) return false;
+    return (fixed_in_bits_[index(i)] & fixed_in_bits_[index(j)]) != 0 && share_a_group(i, j);
+  }
+
+ private:
+  void find_axis_primitives();
+  [[gnu::noinline]] bool share_a_group(PrimitiveId i, PrimitiveId j) const noexcept {
     const GroupId gi = group_of(i), gj = group_of(j);
     if (gi == gj) return true;
     const auto more_i = also_fixed_in(i), more_j = also_fixed_in(j);
@@ -52,9 +57,6 @@ class SelectedModel {
       if (g == gj || std::find(more_j.begin(), more_j.end(), g) != more_j.end()) return true;
     return std::find(more_j.begin(), more_j.end(), gi) != more_j.end();
   }
-
- private:
-  void find_axis_primitives();
 
   Model<P> model_;
   DofSelection selection_;

@@ -34,7 +34,7 @@ struct SelfRules {
            (clearance_of(options.clearance, model.group_of(i)) + clearance_of(options.clearance, model.group_of(j)));
   }
   /// Admission beyond the filter: pairs of constant distance, and moved-only queries.
-  bool counts(PrimitiveId i, PrimitiveId j) const noexcept {
+  [[gnu::always_inline]] bool counts(PrimitiveId i, PrimitiveId j) const noexcept {
     const auto& model = placement.model();
     return !placement.constant(i, j) &&
            (!options.moved_only || placement.moved_apart(model.group_of(i), model.group_of(j)));

@@ -11,6 +11,13 @@
 
 namespace hinge::simd {
 
+// libstdc++ 12 takes an AVX-512 mask for a single truth value where clang compiles its where().
+#if defined(__clang__) && defined(__AVX512F__)
+inline constexpr bool has_blends = false;
+#else
+inline constexpr bool has_blends = true;
+#endif
+
 /// One bit per lane, lane 0 lowest.
 using Bits = std::uint32_t;
 
@@ -47,10 +54,14 @@ class Lanes {
 
   /// Only the lanes first ... last - 1; the others keep what they hold.
   [[gnu::always_inline]] void store_lanes(std::size_t first, std::size_t last, T* to) const noexcept {
-    for (std::size_t p = 0; p < parts; ++p) {
-      const Vector lane([&](auto k) { return static_cast<T>(p * part_size + k); });
-      where(lane >= static_cast<T>(first) && lane < static_cast<T>(last), v_[p])
-          .copy_to(to + p * part_size, std::experimental::element_aligned);
+    if constexpr (has_blends) {
+      for (std::size_t p = 0; p < parts; ++p) {
+        const Vector lane([&](auto k) { return static_cast<T>(p * part_size + k); });
+        where(lane >= static_cast<T>(first) && lane < static_cast<T>(last), v_[p])
+            .copy_to(to + p * part_size, std::experimental::element_aligned);
+      }
+    } else {
+      for (std::size_t k = first; k < last; ++k) to[k] = v_[k / part_size][k % part_size];
     }
   }
 
@@ -127,9 +138,19 @@ class Lanes {
   /// a where x < y, else b.
   [[gnu::always_inline]] friend Lanes choose_less(const Lanes& x, const Lanes& y, const Lanes& a,
                                                   const Lanes& b) noexcept {
-    Lanes r = b;
-    for (std::size_t p = 0; p < parts; ++p) where(x.v_[p] < y.v_[p], r.v_[p]) = a.v_[p];
-    return r;
+    if constexpr (has_blends) {
+      Lanes r = b;
+      for (std::size_t p = 0; p < parts; ++p) where(x.v_[p] < y.v_[p], r.v_[p]) = a.v_[p];
+      return r;
+    } else {
+      std::array<T, N> of_x, of_y, of_a, of_b;
+      x.store(of_x.data());
+      y.store(of_y.data());
+      a.store(of_a.data());
+      b.store(of_b.data());
+      for (std::size_t k = 0; k < N; ++k) of_b[k] = of_x[k] < of_y[k] ? of_a[k] : of_b[k];
+      return Lanes(of_b.data());
+    }
   }
 
   [[gnu::always_inline]] friend T smallest(const Lanes& a) noexcept {

@@ -46,10 +46,13 @@ class Wide {
   void self_query(C& collector, const QueryOptions& options) {
     QueryCounts counts;
     const SelfRules<P, F, D> rules{placement_, filter_, matrix_, options};
+    WideSide<P>& side = present_side();
+    side.begin(placement_, options.moved_only, options.clearance);
     const auto decide = [&](PrimitiveId i, PrimitiveId j, const P& p, const P& q) __attribute__((always_inline)) {
       const bool turned = j < i;
       const PrimitiveId first = turned ? j : i, second = turned ? i : j;
       offer(collector, first, second, turned ? q : p, turned ? p : q, rules.threshold(first, second), [&] {
+        // Blocks that hold listed exclusions are tested under masks.
         if constexpr (ListsExclusions<F>) return rules.counts(first, second);
         return rules.admits(first, second);
       });
@@ -57,12 +60,8 @@ class Wide {
     if constexpr (C::ranks) {
       // The pair that was closest last time bounds the answer from the start; it is no part of the answer by itself.
       if (witness_)
-        offer(collector, witness_->first, witness_->second, placement_.at(witness_->first),
-              placement_.at(witness_->second), rules.threshold(witness_->first, witness_->second),
-              [&] { return rules.admits(witness_->first, witness_->second); });
+        decide(witness_->first, witness_->second, exact(side, witness_->first), exact(side, witness_->second));
     }
-    WideSide<P>& side = present_side();
-    side.begin(placement_, options.moved_only, options.clearance);
     const BlockLayout& layout = side.layout();
     tasks_.clear();
     const auto run_listed = [&] {
@@ -115,7 +114,7 @@ class Wide {
       for (std::size_t k = 0; k < placement_.model().size() && !collector.done(); ++k)
         for (std::size_t l = 0; l < other.placement_.model().size() && !collector.done(); ++l) {
           const auto i = id<PrimitiveId>(k), j = id<PrimitiveId>(l);
-          decide(i, j, placement_.at(i), other.placement_.at(j));
+          decide(i, j, exact(mine, i), other.exact(theirs, j));
         }
       return add(options.counts, counts);
     }
@@ -140,6 +139,13 @@ class Wide {
                         model, filter_, true);
     }
     return *by_index_;
+  }
+
+  /// A primitive of this model in double.
+  const P& exact(WideSide<P>& side, PrimitiveId i) noexcept {
+    const std::uint32_t b = side.layout().block_of[index(i)];
+    const std::uint32_t* const first = side.layout().primitive.data() + b * simd::width;
+    return side.state().exact(b, placement_)[std::find(first, first + simd::width, index(i)) - first];
   }
 
   static void add(QueryCounts* total, const QueryCounts& counts) noexcept {
@@ -289,20 +295,22 @@ class Wide {
 
   /// Runs the listed tasks: lanes of `one` against blocks of `sixteen`; what floats cannot rule out goes to `decide`.
   template <class Convert, class Margin, class Decide, Collector C>
-  void run(WideSide<P>& one, WideSide<P>& sixteen, Placement<P>& others, const ThresholdTable& table,
+  void run(WideSide<P>& one, WideSide<P>& sixteen, Placement<P>& placement_of_sixteen, const ThresholdTable& table,
            const Convert& convert, const Margin& present_margin, const Decide& decide, C& collector,
            QueryCounts& counts) {
     counts.pairs_tested += tasks_.size();
     run_tasks(
         tasks_, one, sixteen, convert, thresholds_,
         [&](std::uint32_t at_one, std::uint32_t at_sixteen, simd::Bits bits) __attribute__((always_inline)) {
-          const auto i = id<PrimitiveId>(one.layout().primitive[slot(at_one)]);
-          const std::uint32_t* const lanes = sixteen.layout().primitive.data() + slot(at_sixteen);
-          const P& p = placement_.at(i);
+          const std::uint32_t own = slot(at_one), first = slot(at_sixteen);
+          const auto i = id<PrimitiveId>(one.layout().primitive[own]);
+          const std::uint32_t* const others = sixteen.layout().primitive.data() + first;
+          const P& p = one.state().exact(own / simd::width, placement_)[own % simd::width];
+          const P* const q = sixteen.state().exact(first / simd::width, placement_of_sixteen);
           const double before = collector.cutoff();
           for (; bits != 0 && !collector.done(); bits &= bits - 1) {
-            const auto j = id<PrimitiveId>(lanes[std::countr_zero(bits)]);
-            decide(i, j, p, others.at(j));
+            const int lane = std::countr_zero(bits);
+            decide(i, id<PrimitiveId>(others[lane]), p, q[lane]);
           }
           if (collector.cutoff() != before) thresholds_.set(table, present_margin());
           return !collector.done();

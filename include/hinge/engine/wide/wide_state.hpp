@@ -59,6 +59,8 @@ class WideState {
         packed_(parts_->layout.block_count() * Batch<P>::floats),
         block_box_(parts_->layout.block_count()),
         block_at_(parts_->layout.block_count(), 0),
+        exact_(parts_->layout.primitive.size()),
+        exact_at_(parts_->layout.block_count(), 0),
         unit_at_(parts_->layout.units.size(), 0),
         boxes_((parts_->layout.units.size() + simd::width - 1) / simd::width),
         unit_extent_(boxes_.size() * simd::width, 0.0F),
@@ -105,6 +107,11 @@ class WideState {
   const float* block(std::uint32_t b, Placement<P>& placement) noexcept {
     if (block_at_[b] != update_) touch(b, placement);
     return packed(b);
+  }
+  /// The sixteen primitives of a block themselves, placed in double when first touched.
+  [[gnu::always_inline]] const P* exact(std::uint32_t b, Placement<P>& placement) noexcept {
+    if (exact_at_[b] != update_) place_exact(b, placement);
+    return exact_.data() + b * simd::width;
   }
   const float* packed(std::uint32_t b) const noexcept { return packed_.data() + b * Batch<P>::floats; }
   /// Grown by the block's reach; of blocks that were touched.
@@ -246,6 +253,25 @@ class WideState {
     block_box_[b] = checked(box).grown(parts_->rigid.reach[b]);
   }
 
+  [[gnu::noinline]] void place_exact(std::uint32_t b, Placement<P>& placement) noexcept {
+    const BlockLayout& layout = parts_->layout;
+    const Block& block = layout.blocks[b];
+    const bool current = is_current(block, exact_at_[b], placement);
+    exact_at_[b] = update_;
+    if (current) return;
+    P* to = exact_.data() + b * simd::width;
+    const std::uint32_t* primitive = layout.primitive.data() + b * simd::width;
+    if (given_) {
+      for (std::size_t k = 0; k < simd::width; ++k) to[k] = placement.placed()[primitive[k]];
+    } else if (block.rigid) {
+      placement.place(layout.groups_of(block).front(), std::span(primitive, simd::width), to);
+    } else {
+      for (std::size_t k = 0; k < simd::width; ++k)
+        placement.place(id<GroupId>(parts_->mixed_group[parts_->mixed_slot[b] + k]), std::span(primitive + k, 1),
+                        to + k);
+    }
+  }
+
   static std::array<float, 9> rotation(const Frame& frame) noexcept {
     std::array<float, 9> r;
     for (std::size_t k = 0; k < 9; ++k) r[k] = static_cast<float>(frame.column[k / 3 * 4 + k % 3]);
@@ -308,6 +334,8 @@ class WideState {
   std::vector<FloatBox> block_box_;
   std::vector<std::uint64_t> block_at_;  // per block: the last update its
                                          // coordinates are known to be of
+  std::vector<P> exact_;                 // per slot
+  std::vector<std::uint64_t> exact_at_;  // per block: the same for its primitives in exact_
   std::vector<std::uint64_t> unit_at_;   // per unit: the same for its box
   std::vector<BoxRow> boxes_;            // of units, grown by their reach
   std::vector<float> unit_extent_;       // per place in boxes_: largest magnitude in the box
