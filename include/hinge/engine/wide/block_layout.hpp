@@ -27,8 +27,7 @@ struct Block {
 /// What the sweep holds one box for: one block, or all blocks of a group large enough for a tree of its own.
 struct Unit {
   std::uint32_t first_block = 0, block_count = 1;
-  std::uint32_t sweep_end = 0;   ///< units before this one can hold partners;
-                                 ///< those of the same rigid group come after
+  std::uint32_t sweep_end = 0;   ///< units before this one can hold partners; those of the same rigid group come after
   std::uint32_t last_group = 0;  ///< forward kinematics must have come this far
 };
 
@@ -37,7 +36,7 @@ struct Unit {
 struct BlockLayout {
   static constexpr std::uint32_t none = ~std::uint32_t{0};
   /// Rigid groups with more blocks than this are searched through a tree, others block by block.
-  static constexpr std::size_t largest_flat_group = 64;
+  static constexpr std::size_t largest_flat_group = simd::width * simd::width;
 
   /// By rigid groups, for configurations and poses.
   template <Primitive P>
@@ -60,16 +59,14 @@ struct BlockLayout {
     return end;
   }
 
-  std::vector<std::uint32_t> primitive;  ///< per slot (sixteen per block);
-                                         ///< padding repeats the block's first
+  std::vector<std::uint32_t> primitive;  ///< per slot (sixteen per block); padding repeats the block's first
   std::vector<Block> blocks;
   std::vector<Unit> units;
   std::vector<GroupId> groups;          ///< of all blocks, each block's sorted without repetition
   std::vector<std::uint32_t> block_of;  ///< per primitive
   std::size_t static_units = 0;         ///< leading units that hold primitives of group 0 only
   Vec3 origin = Vec3::Zero();           ///< about the middle of the model at the reference
-  double scale = 1.0;                   ///< power of two that brings the model to a size where
-                                        ///< float squares are safe
+  double scale = 1.0;                   ///< power of two that brings the model to a size where float squares are safe
 
  private:
   struct Piece {

@@ -45,8 +45,7 @@ struct RigidBlocks {
 
   std::vector<LocalBox> block;         ///< per block; meaningless for mixed ones
   std::vector<LocalBox> unit;          ///< per first unit of a rigid group: around the whole group
-  simd::AlignedVector<float> offsets;  ///< per block, for primitives whose batches turn:
-                                       ///< from the block's middle, scaled
+  simd::AlignedVector<float> offsets;  ///< per block, where batches turn: from the block's middle, scaled
   std::vector<float> reach;            ///< per block: largest reach, scaled, rounded up
   std::vector<float> unit_reach;       ///< per unit: the largest of its group's, or of its block
   float largest_reach = 0.0F;          ///< over all blocks
@@ -56,8 +55,7 @@ struct RigidBlocks {
   std::vector<std::uint32_t> flat_count, flat_row;
   std::vector<LocalRow> rows;  ///< of all trees, and of groups without
   float largest_half = 0.0F;   ///< over all blocks
-  double largest_local = 0.0;  ///< largest magnitude of a coordinate in its
-                               ///< group's frame, model unit
+  double largest_local = 0.0;  ///< largest magnitude of a coordinate in its group's frame, model unit
 
  private:
   static LocalBox local_box(const Aabb& box, double scale) noexcept {

@@ -7,52 +7,13 @@
 #include <cstdint>
 
 #include "hinge/bounds/float_box.hpp"
+#include "hinge/engine/wide/into.hpp"
 #include "hinge/engine/wide/tasks.hpp"
 #include "hinge/engine/wide/wide_side.hpp"
 #include "hinge/primitive/batch.hpp"
 #include "hinge/simd/gather_bits.hpp"
 
 namespace hinge {
-
-/// Coordinates of one model as they are.
-template <Primitive P>
-struct Exactly {
-  [[gnu::always_inline]] typename Batch<P>::One operator()(const float* at) const noexcept {
-    return typename Batch<P>::One(at);
-  }
-  float scale = 1.0F;
-};
-
-/// Coordinates of one model in the origin and scale of another.
-template <Primitive P>
-struct Into {
-  Into(const WideSide<P>& from, const WideSide<P>& to) noexcept
-      : scale(static_cast<float>(to.layout().scale / from.layout().scale)) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto i = static_cast<Eigen::Index>(k);
-      shift[k] = static_cast<float>((from.state().origin()[i] - to.state().origin()[i]) * to.layout().scale);
-    }
-  }
-  [[gnu::always_inline]] typename Batch<P>::One operator()(const float* at) const noexcept {
-    return {at, scale, shift};
-  }
-  FloatBox operator()(FloatBox box) const noexcept {
-    for (std::size_t k = 0; k < 3; ++k) {
-      box.lower[k] = box.lower[k] * scale + shift[k];
-      box.upper[k] = box.upper[k] * scale + shift[k];
-    }
-    return box;
-  }
-  FloatBox back(FloatBox box) const noexcept {
-    for (std::size_t k = 0; k < 3; ++k) {
-      box.lower[k] = (box.lower[k] - shift[k]) / scale;
-      box.upper[k] = (box.upper[k] - shift[k]) / scale;
-    }
-    return box;
-  }
-  float scale = 1.0F;
-  std::array<float, 3> shift{};
-};
 
 /// Thresholds plus a margin, and their squares, row by row.
 class Thresholds16 {

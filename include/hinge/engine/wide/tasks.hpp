@@ -12,8 +12,7 @@
 
 namespace hinge {
 
-/// Three arrays: where the floats of the one start, where those of the sixteen
-/// start, and which of the sixteen count.
+/// Three arrays: where the floats of the one start, where those of the sixteen start, and which of the sixteen count.
 class Tasks {
  public:
   /// A task that floats did not rule out, and the lanes that are left of it.
@@ -33,8 +32,7 @@ class Tasks {
   void set_left(std::size_t count) noexcept { many_left_ = 16 * count > size_; }
   bool many_left() const noexcept { return many_left_; }
 
-  /// The lanes of the block at first_one, each against the block at `sixteen`
-  /// under one mask.
+  /// The lanes of the block at first_one, each against the block at `sixteen` under one mask.
   [[gnu::always_inline]] void add(simd::Bits lanes, std::uint32_t first_one, std::uint32_t sixteen, simd::Bits mask) {
     make_room();
     std::fill_n(mask_.data() + size_, simd::width, mask);

@@ -31,7 +31,7 @@ class WideSide {
            bool inside_groups)
       : near_(std::make_shared<const NearMasks>(parts->layout, model, filter, inside_groups)),
         table_(parts->classes.table(parts->layout.scale)),
-        state_(std::move(parts)),
+        state_(std::move(parts), model),
         found_(layout().units.size() + simd::width) {}
 
   const BlockLayout& layout() const noexcept { return state_.parts().layout; }
@@ -73,8 +73,14 @@ class WideSide {
     return !component_.empty() && component_[u] == component_[w] && component_[u] != no_component;
   }
 
-  /// The units before `end` whose boxes share a point with `box`, in order;
-  /// valid until the next sweep.
+  /// Could the unit have moved in the last update?
+  bool moved(std::size_t u, Placement<P>& placement) const noexcept {
+    for (const GroupId g : layout().groups_of(layout().blocks[layout().units[u].first_block]))
+      if (placement.moved(g)) return true;
+    return false;
+  }
+
+  /// The units before `end` whose boxes share a point with `box`, in order; valid until the next sweep.
   std::span<const std::uint32_t> sweep(const FloatBox& box, std::size_t end, QueryCounts& counts) {
     const BoxLanes probe(box);
     const std::size_t full = end / simd::width, rest = end % simd::width;

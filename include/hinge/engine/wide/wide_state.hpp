@@ -13,6 +13,7 @@
 
 #include "hinge/bounds/float_box.hpp"
 #include "hinge/engine/wide/block_layout.hpp"
+#include "hinge/engine/wide/float_turn.hpp"
 #include "hinge/engine/wide/rigid_blocks.hpp"
 #include "hinge/kinematics/frame.hpp"
 #include "hinge/model/placement.hpp"
@@ -41,10 +42,8 @@ struct WideParts {
   BlockLayout layout;
   ThresholdClasses classes;
   RigidBlocks<P> rigid;
-  std::vector<std::uint8_t> position_class;  ///< threshold classes, where the
-                                             ///< floats of a primitive start
-  std::vector<std::uint32_t> mixed_slot;     ///< per block: where its slots start
-                                             ///< in the next two, if it is mixed
+  std::vector<std::uint8_t> position_class;  ///< threshold classes, where the floats of a primitive start
+  std::vector<std::uint32_t> mixed_slot;     ///< per block: where its slots start in the next two, if it is mixed
   std::vector<P> mixed;                      ///< in their groups' frames
   std::vector<std::uint32_t> mixed_group;    ///< their groups
 };
@@ -54,12 +53,11 @@ struct WideParts {
 template <Primitive P>
 class WideState {
  public:
-  explicit WideState(std::shared_ptr<const WideParts<P>> parts)
+  WideState(std::shared_ptr<const WideParts<P>> parts, const SelectedModel<P>& model)
       : parts_(std::move(parts)),
         packed_(parts_->layout.block_count() * Batch<P>::floats),
         block_box_(parts_->layout.block_count()),
         block_at_(parts_->layout.block_count(), 0),
-        exact_(parts_->layout.primitive.size()),
         exact_at_(parts_->layout.block_count(), 0),
         unit_at_(parts_->layout.units.size(), 0),
         boxes_((parts_->layout.units.size() + simd::width - 1) / simd::width),
@@ -67,7 +65,9 @@ class WideState {
         hulls_((boxes_.size() + simd::width - 1) / simd::width),
         tree_rows_(parts_->rigid.rows.size()),
         row_at_(parts_->rigid.rows.size(), 0),
-        origin_(parts_->layout.origin) {}
+        origin_(parts_->layout.origin) {
+    for (const std::uint32_t i : parts_->layout.primitive) exact_.push_back(model.primitives()[i]);
+  }
 
   const WideParts<P>& parts() const noexcept { return *parts_; }
   const Vec3& origin() const noexcept { return origin_; }
@@ -122,10 +122,10 @@ class WideState {
     if (row_at_[row] != update_) {
       const Block& block = parts_->layout.blocks[parts_->layout.units[u].first_block];
       if (!is_current(block, row_at_[row], placement)) {
-        const Frame& frame = frame_of(block, placement);
         std::array<float, simd::width> extents;
-        turn_row(parts_->rigid.rows[row], rotation(frame), placed(parts_->rigid.unit[u].middle, frame),
-                 parts_->rigid.unit_reach[u], 0, simd::width, tree_rows_[row], extents.data());
+        turn(block, placement)
+            .turn_row(parts_->rigid.rows[row], parts_->rigid.unit[u], parts_->rigid.unit_reach[u], 0, simd::width,
+                      tree_rows_[row], extents.data());
       }
       row_at_[row] = update_;
     }
@@ -152,11 +152,9 @@ class WideState {
   }
 
  private:
-  /// Beyond this squares leave the range of floats: such units overlap everything and are judged in double.
-  static constexpr float far = 1e15F;
-
-  const Frame& frame_of(const Block& block, Placement<P>& placement) const noexcept {
-    return placement.frame(parts_->layout.groups_of(block).front());
+  /// How the floats of a rigid block's group are turned.
+  FloatTurn turn(const Block& block, Placement<P>& placement) const noexcept {
+    return {placement.frame(parts_->layout.groups_of(block).front()), origin_, parts_->layout.scale};
   }
 
   /// Did the block's groups stand still since an update?
@@ -167,12 +165,6 @@ class WideState {
     for (const GroupId g : groups)
       if (placement.version(g) > since) return false;
     return true;
-  }
-
-  [[gnu::always_inline]] static FloatBox checked(const FloatBox& box) noexcept {
-    if (!(box.extent() <= far)) [[unlikely]]
-      return FloatBox::everything();
-    return box;
   }
 
   void set_unit(std::size_t u, const FloatBox& box) noexcept {
@@ -194,18 +186,16 @@ class WideState {
       place_mixed(unit.first_block, placement);
       set_unit(u, block_box_[unit.first_block]);
     } else if (unit.block_count > 1) {
-      set_unit(u, turned(parts_->rigid.unit[u], frame_of(block, placement)).grown(reach));
+      set_unit(u, turn(block, placement)(parts_->rigid.unit[u]).grown(reach));
     } else {
       // All units of the group in one go; u is the first.
-      const Frame& frame = frame_of(block, placement);
-      const std::array<float, 9> turn = rotation(frame);
-      const std::array<float, 3> middle = placed(parts_->rigid.unit[u].middle, frame);
+      const FloatTurn turn_group = turn(block, placement);
       const LocalRow* local = &parts_->rigid.rows[parts_->rigid.flat_row[u]];
       const std::size_t end = u + parts_->rigid.flat_count[u];
       for (std::size_t first = u; first < end; ++local) {
         const std::size_t row = first / simd::width, last = std::min(end, (row + 1) * simd::width);
-        turn_row(*local, turn, middle, reach, first - row * simd::width, last - row * simd::width, boxes_[row],
-                 unit_extent_.data() + row * simd::width);
+        turn_group.turn_row(*local, parts_->rigid.unit[u], reach, first - row * simd::width, last - row * simd::width,
+                            boxes_[row], unit_extent_.data() + row * simd::width);
         first = last;
       }
       std::fill(unit_at_.begin() + static_cast<std::ptrdiff_t>(u), unit_at_.begin() + static_cast<std::ptrdiff_t>(end),
@@ -215,7 +205,7 @@ class WideState {
 
   void touch(std::uint32_t b, Placement<P>& placement) noexcept {
     const Block& block = parts_->layout.blocks[b];
-    if (!is_current(block, block_at_[b], placement)) place_rigid(b, frame_of(block, placement), placement);
+    if (!is_current(block, block_at_[b], placement)) place_rigid(b, placement);
     block_at_[b] = update_;
   }
 
@@ -232,25 +222,27 @@ class WideState {
       box = Batch<P>::place(at, parts_->mixed.data() + first, parts_->mixed_group.data() + first,
                             placement.frames_through(layout.groups_of(layout.blocks[b]).back()), origin_, layout.scale);
     }
-    block_box_[b] = checked(box).grown(parts_->rigid.reach[b]);
+    block_box_[b] = sane(box).grown(parts_->rigid.reach[b]);
     block_at_[b] = update_;
   }
 
-  void place_rigid(std::uint32_t b, const Frame& frame, Placement<P>& placement) noexcept {
+  void place_rigid(std::uint32_t b, Placement<P>& placement) noexcept {
     const BlockLayout& layout = parts_->layout;
+    const Block& block = layout.blocks[b];
     float* at = packed_.data() + b * Batch<P>::floats;
     FloatBox box;
     if constexpr (TurnsBatch<P>) {
-      box = Batch<P>::turn(parts_->rigid.offsets.data() + b * Batch<P>::floats, rotation(frame),
-                           placed(parts_->rigid.block[b].middle, frame), at);
+      const FloatTurn turn_group = turn(block, placement);
+      box = Batch<P>::turn(parts_->rigid.offsets.data() + b * Batch<P>::floats, turn_group.rotation(),
+                           turn_group(parts_->rigid.block[b].middle), at);
     } else {
-      const Pose pose = frame.pose();
+      const Pose pose = placement.frame(layout.groups_of(block).front()).pose();
       for (std::size_t k = 0; k < simd::width; ++k)
         Batch<P>::set(at, k, placement.model().primitives()[layout.primitive[b * simd::width + k]].placed(pose),
                       origin_, layout.scale);
       box = Batch<P>::hull(at);
     }
-    block_box_[b] = checked(box).grown(parts_->rigid.reach[b]);
+    block_box_[b] = sane(box).grown(parts_->rigid.reach[b]);
   }
 
   [[gnu::noinline]] void place_exact(std::uint32_t b, Placement<P>& placement) noexcept {
@@ -272,68 +264,10 @@ class WideState {
     }
   }
 
-  static std::array<float, 9> rotation(const Frame& frame) noexcept {
-    std::array<float, 9> r;
-    for (std::size_t k = 0; k < 9; ++k) r[k] = static_cast<float>(frame.column[k / 3 * 4 + k % 3]);
-    return r;
-  }
-  std::array<float, 3> placed(const std::array<double, 3>& point, const Frame& frame) const noexcept {
-    std::array<float, 4> x;
-    ((FrameColumns(frame).place(point[0], point[1], point[2]) -
-      simd::Double4::of(origin_[0], origin_[1], origin_[2], 0.0)) *
-     simd::Double4(parts_->layout.scale))
-        .store_rounded(x.data());
-    return {x[0], x[1], x[2]};
-  }
-
-  /// The box around the turned box. Its half lengths grow by the rounding of rotation, products and sums.
-  FloatBox turned(const LocalBox& local, const Frame& frame) const noexcept {
-    const std::array<float, 3> middle = placed(local.middle, frame);
-    const std::array<float, 9> r = rotation(frame);
-    FloatBox box;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const float half =
-          (std::abs(r[k]) * local.half[0] + std::abs(r[3 + k]) * local.half[1] + std::abs(r[6 + k]) * local.half[2]) *
-          half_rounding;
-      box.lower[k] = middle[k] - half;
-      box.upper[k] = middle[k] + half;
-    }
-    return checked(box);
-  }
-
-  /// Boxes around the turned boxes of lanes first ... last - 1, and their largest magnitudes.
-  static void turn_row(const LocalRow& local, const std::array<float, 9>& turn, const std::array<float, 3>& middle,
-                       float reach, std::size_t first, std::size_t last, BoxRow& boxes, float* extents) noexcept {
-    using simd::Float16;
-    constexpr std::size_t n = simd::width;
-    Float16 extent(0.0F);
-    for (std::size_t k = 0; k < 3; ++k) {
-      Float16 m(middle[k]), h(0.0F);
-      for (std::size_t j = 0; j < 3; ++j) {
-        m = m + Float16(turn[3 * j + k]) * Float16(local.middle.data() + j * n);
-        h = h + Float16(std::abs(turn[3 * j + k])) * Float16(local.half.data() + j * n);
-      }
-      h = h * Float16(half_rounding) + Float16(reach);
-      (m - h).store_lanes(first, last, boxes.lower.data() + k * n);
-      (m + h).store_lanes(first, last, boxes.upper.data() + k * n);
-      extent = max(extent, abs(m) + h);
-    }
-    extent.store_lanes(first, last, extents);
-    const simd::Bits sane = less_equal(extent, Float16(far));
-    for (std::size_t k = first; sane != simd::all_bits && k < last; ++k)
-      if ((sane >> k & 1U) == 0) {
-        boxes.set(k, FloatBox::everything());
-        extents[k] = std::numeric_limits<float>::infinity();
-      }
-  }
-
-  static constexpr float half_rounding = 1.0F + 8 * 0x1p-24F;
-
   std::shared_ptr<const WideParts<P>> parts_;
   simd::AlignedVector<float> packed_;
   std::vector<FloatBox> block_box_;
-  std::vector<std::uint64_t> block_at_;  // per block: the last update its
-                                         // coordinates are known to be of
+  std::vector<std::uint64_t> block_at_;  // per block: the last update its coordinates are known to be of
   std::vector<P> exact_;                 // per slot
   std::vector<std::uint64_t> exact_at_;  // per block: the same for its primitives in exact_
   std::vector<std::uint64_t> unit_at_;   // per unit: the same for its box
