@@ -31,10 +31,11 @@ void near_points(const PointTasks& tasks, std::uint32_t* bits) {
 
 std::size_t touching_boxes(const BoxTasks& tasks, std::uint32_t* hits) {
   std::size_t count = 0;
-  for (std::size_t b = 0; b < tasks.box_count; ++b)
+  for (std::size_t b = 0; b < tasks.box_count; ++b) {
+    const BoxLanes box(tasks.boxes[b]);
     for (std::size_t r = 0; r < tasks.row_count; ++r)
-      count += simd::append_lanes(overlapping(tasks.rows[r], tasks.boxes[b]), static_cast<std::uint32_t>(r * n),
-                                  hits + count);
+      count += simd::append_lanes(overlapping(tasks.rows[r], box), static_cast<std::uint32_t>(r * n), hits + count);
+  }
   return count;
 }
 
