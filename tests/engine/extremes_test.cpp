@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sizes that leave the range of floats, where engine/wide must answer as brute force does.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "hinge/engine/brute/brute.hpp"
+#include "hinge/hierarchy.hpp"
+#include "hinge/policy/pair_filter.hpp"
+
+namespace hinge {
+namespace {
+
+template <template <class, class, class> class EngineOf>
+using PointsOn = Hierarchy<Point, AdmitAll, UniformClearance, EngineOf>;
+
+/// Each point on a slider of its own.
+Model<Point> sliders(const std::vector<Vec3>& points) {
+  ModelBuilder<Point> builder;
+  for (const Vec3& x : points) builder.add_link(world, Prismatic{{1, 0, 0}, {}, {}}, {Point{x}});
+  return builder.finish();
+}
+
+/// Two rigid groups of twenty points, twisted into each other.
+Model<Point> two_groups(double size) {
+  ModelBuilder<Point> builder;
+  for (int h = 0; h < 2; ++h) {
+    std::vector<Point> points;
+    for (int k = 0; k < 20; ++k)
+      points.push_back({Vec3(k * size / 20, (k * 7 % 5) * size / 20 + h * size * 0.1, (k * 3 % 7) * size / 20)});
+    builder.add_link(world, Prismatic{{1, 0, 0}, {}, {}}, points);
+  }
+  return builder.finish();
+}
+
+void expect_equal(PointsOn<Wide>& wide, PointsOn<Brute>& brute, double margin) {
+  const std::vector<Hit> all = brute.self_collisions();
+  EXPECT_EQ(wide.self_collides(), !all.empty());
+  EXPECT_EQ(wide.self_collisions(), all);
+  EXPECT_EQ(wide.self_within(margin), brute.self_within(margin));
+  EXPECT_EQ(wide.self_closest().value().gap(), brute.self_closest().value().gap());
+}
+
+void expect_equal_on(const Model<Point>& model, double clearance, const std::vector<double>& q = {}) {
+  PointsOn<Wide> wide(model, AdmitAll{}, UniformClearance(clearance));
+  PointsOn<Brute> brute(model, AdmitAll{}, UniformClearance(clearance));
+  if (!q.empty()) {
+    wide.update(q);
+    brute.update(q);
+  }
+  expect_equal(wide, brute, clearance);
+}
+
+TEST(WideExtremes, HoldAtAnySizeOfTheModel) {
+  for (const double size : {4e-322, 1e-310, 1e-300, 1e-160, 1e-30, 1.0, 1e30, 1e150}) {
+    SCOPED_TRACE(size);
+    expect_equal_on(sliders({{0, 0, 0}, {size, 0, 0}, {0, size * 3, 0}}), size * 2);
+    expect_equal_on(two_groups(size), size * 0.1);
+  }
+}
+
+TEST(WideExtremes, HoldForAnyClearanceAndTravel) {
+  const Model<Point> model = sliders({{0, 0, 0}, {1, 0, 0}, {0, 0.25, 0}});
+  for (const double clearance : {0.0, 1e-200, 0.5, 1e20, 1e45}) expect_equal_on(model, clearance);
+  for (const double travel : {1e-200, 1e20, 1e100})
+    for (const auto& q : {std::vector<double>{travel, travel, travel}, {travel, 0, 0}, {travel, -travel, 0}})
+      expect_equal_on(model, 0.5, q);
+}
+
+TEST(WideExtremes, HoldForTwoModelsOfVeryDifferentSize) {
+  const Model<Point> model = sliders({{0, 0, 0}, {1, 0, 0}, {0, 0.25, 0}});
+  for (const double size : {1e-300, 1e-60, 1e-42, 1e-38, 1e-30, 1e-10, 1e10, 1e30, 1e60, 1e150}) {
+    SCOPED_TRACE(size);
+    const Model<Point> other = sliders({{0, 0, 0}, {size, 0, 0}});
+    PointsOn<Wide> a(model, AdmitAll{}, UniformClearance(0.5)), b(other, AdmitAll{}, UniformClearance(0.5));
+    PointsOn<Brute> c(model, AdmitAll{}, UniformClearance(0.5)), d(other, AdmitAll{}, UniformClearance(0.5));
+    EXPECT_EQ(a.collisions(b), c.collisions(d));
+    EXPECT_EQ(b.collisions(a), d.collisions(c));
+    EXPECT_EQ(a.within(b, 0.5), c.within(d, 0.5));
+    EXPECT_EQ(a.closest(b).value().gap(), c.closest(d).value().gap());
+    EXPECT_EQ(b.closest(a).value().gap(), d.closest(c).value().gap());
+  }
+}
+
+TEST(WideExtremes, HoldWhereSquaresUnderflow) {
+  const double w = std::ldexp(1.0, -75);
+  const Model<Point> model = sliders(std::vector<Vec3>(4, Vec3::Zero()));
+  for (const double clearance : {0.0, 1.5 * w}) {
+    PointsOn<Wide> wide(model, AdmitAll{}, UniformClearance(clearance));
+    PointsOn<Brute> brute(model, AdmitAll{}, UniformClearance(clearance));
+    for (const auto& points :
+         {std::vector<Point>{
+              {Vec3(0, 0, 0)}, {Vec3(1.516 * w, 0, 0)}, {Vec3(4e-20, 0, 0)}, {Vec3(4e-20, 1.0353 * w, 1.0353 * w)}},
+          {{Vec3(0, 0, 0)}, {Vec3(1.035 * w, 1.035 * w, 0)}, {Vec3(4e-20, 0, 0)}, {Vec3(4e-20, 0, 1.2 * w)}}}) {
+      wide.update_placed(points);
+      brute.update_placed(points);
+      expect_equal(wide, brute, w);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hinge

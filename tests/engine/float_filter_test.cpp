@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The band of engine/wide against observed errors: floats against the double coordinates verdicts are about.
+// docs/explanation/float_filter.md derives it and tells the worst shares found here.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "engine/random_mechanism.hpp"
+#include "hinge/engine/wide/into.hpp"
+#include "hinge/engine/wide/wide_side.hpp"
+#include "hinge/model/placement.hpp"
+#include "hinge/model/selected_model.hpp"
+#include "hinge/policy/pair_filter.hpp"
+
+namespace hinge {
+namespace {
+
+using test::Random;
+constexpr std::size_t n = simd::width;
+constexpr double u = 0x1p-24;
+
+/// One model as engine/wide keeps it, all of it placed.
+struct Placed {
+  Placed(const Model<Point>& model, bool inside_groups)
+      : selected(std::make_shared<const SelectedModel<Point>>(model, DofSelection::all(model.tree()))),
+        placement(selected),
+        side(std::make_shared<const WideParts<Point>>(
+                 inside_groups ? BlockLayout::by_index(*selected) : BlockLayout::by_groups(*selected),
+                 ThresholdClasses(UniformClearance(0.0), model.size()), *selected),
+             *selected, AdmitAll{}, inside_groups) {}
+
+  void make() {
+    side.begin(placement, false, {});
+    for (std::size_t k = 0; k < side.layout().units.size(); ++k) side.state().refresh(k, placement);
+    for (std::uint32_t b = 0; b < side.layout().block_count(); ++b) side.state().block(b, placement);
+  }
+  /// A slot's coordinates in double, as verdicts see them.
+  Vec3 at(std::size_t slot) {
+    return side.state().exact(static_cast<std::uint32_t>(slot / n), placement)[slot % n].position;
+  }
+  bool rigid(std::size_t slot) const { return side.layout().blocks[slot / n].rigid; }
+  std::size_t slots() const { return side.layout().primitive.size(); }
+
+  std::shared_ptr<const SelectedModel<Point>> selected;
+  Placement<Point> placement;
+  WideSide<Point> side;
+};
+
+/// Worst share of the band that an error took, by what the two points belong to.
+struct Worst {
+  double mixed = 0, rigid = 0, boxes = 0, trees = 0;
+  void take(double& worst, double share) {
+    if (!(share <= worst)) worst = share;
+  }
+  void print(const char* what) const {
+    std::printf("%-44s mixed %.3f rigid %.3f boxes %.3f trees %.3f\n", what, mixed, rigid, boxes, trees);
+    for (const double share : {mixed, rigid, boxes, trees}) EXPECT_LT(share, 1.0) << what;
+  }
+};
+
+/// A threshold of exactly the distance: by how much must floats be allowed to be off, so that the pair is looked at?
+void check_pairs(Placed& m, Random& random, std::size_t count, Worst& worst) {
+  if (m.slots() < 2) return;
+  const double scale = m.side.layout().scale;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = random.below(m.slots());
+    const std::size_t b = random.below(m.slots()) / n;
+    float squared[n];
+    Batch<Point>::One(m.side.state().packed(static_cast<std::uint32_t>(i / n)) + i % n)
+        .squared_distances(m.side.state().packed(static_cast<std::uint32_t>(b)))
+        .store(squared);
+    const Vec3 x = m.at(i);
+    for (std::size_t lane = 0; lane < n; ++lane) {
+      const double d = std::sqrt(squared_norm(Vec3(x - m.at(b * n + lane)))) * scale;
+      const double share = (std::sqrt(static_cast<double>(squared[lane])) - d) / m.side.state().band(d);
+      worst.take(m.rigid(i) && m.rigid(b * n) ? worst.rigid : worst.mixed, share);
+    }
+  }
+}
+
+/// How far points stick out of their boxes: two boxes may take half of the band each.
+void check_boxes(Placed& m, Worst& worst) {
+  const BlockLayout& layout = m.side.layout();
+  const double half_band = m.side.state().band(0.0) / 2;
+  const auto outside = [&](const FloatBox& box, std::uint32_t block) {
+    double out = 0.0;
+    for (std::size_t lane = 0; lane < n; ++lane)
+      for (int k = 0; k < 3; ++k) {
+        const double x = (m.at(block * n + lane)[k] - m.side.state().origin()[k]) * layout.scale;
+        const auto axis = static_cast<std::size_t>(k);
+        out = std::max({out, x - static_cast<double>(box.upper[axis]), static_cast<double>(box.lower[axis]) - x});
+      }
+    return out / half_band;
+  };
+  for (std::size_t w = 0; w < layout.units.size(); ++w) {
+    const Unit& unit = layout.units[w];
+    for (std::uint32_t b = unit.first_block; b < unit.first_block + unit.block_count; ++b) {
+      worst.take(worst.boxes, outside(m.side.state().box(w), b));
+      if (unit.block_count == 1) continue;
+      const std::uint32_t child = b - unit.first_block;
+      const auto& levels = m.side.parts().rigid.tree[w].levels;
+      std::uint32_t place = child;
+      for (const BlockTree::Level& level : levels) {
+        const BoxRow& row =
+            m.side.state().tree_row(w, level.first_row + place / static_cast<std::uint32_t>(n), m.placement);
+        worst.take(worst.trees, outside(row.get(place % n), b));
+        place /= static_cast<std::uint32_t>(n);
+      }
+    }
+  }
+}
+
+Model<Point> model_of(std::size_t links, std::size_t per_link, double size, const Vec3& offset, Random& random) {
+  ModelBuilder<Point> builder;
+  for (std::size_t l = 0; l < links; ++l) {
+    std::vector<Point> points;
+    for (std::size_t k = 0; k < per_link; ++k) points.push_back({Vec3(random.vector(size) + offset)});
+    builder.add_link(world, Revolute{{0, 0, 1}, offset, {}, {}}, points);
+  }
+  return builder.finish();
+}
+
+/// Rotations whose entries' magnitudes add up to the most, with noise, and any others.
+Mat3 rotation(Random& random) {
+  Mat3 r = random.pose(1.0).rotation;
+  if (random.one_in(2)) {
+    const Vec3 axis = Vec3(Vec3(1, 1, 1) + random.vector(1e-3)).normalized();
+    r = rotation_about(axis, std::numbers::pi);  // entries 1/3 and 2/3
+  }
+  return r;
+}
+
+/// Rigid groups turned about the model's place and moved by up to `travel`.
+void turn(Placed& m, const Vec3& offset, double travel, Random& random) {
+  std::vector<Pose> poses(m.selected->groups()->size());
+  for (std::size_t g = 1; g < poses.size(); ++g) {
+    poses[g].rotation = rotation(random);
+    poses[g].translation = Vec3(offset - poses[g].rotation * offset + random.vector(travel));
+  }
+  m.placement.update_poses(poses);
+  m.make();
+}
+
+TEST(FloatFilter, BandCoversTurnedGroups) {
+  Random random(1);
+  for (const double far : {0.0, 1e3, 1e6, 1e9, 1e12})
+    for (const double travel : {0.0, 1.0, 100.0, 1e6}) {
+      Worst worst;
+      for (int repetition = 0; repetition < 12; ++repetition) {
+        const Vec3 offset = random.vector(far);
+        const std::size_t per_link = repetition % 4 == 0   ? 5
+                                     : repetition % 4 == 1 ? 16
+                                     : repetition % 4 == 2 ? 100
+                                     : repetition == 3     ? 4200  // with a tree
+                                                           : 600;
+        Placed m(model_of(repetition == 3       ? 1
+                          : repetition % 4 == 3 ? 3
+                                                : 12,
+                          per_link, repetition % 2 == 0 ? 1.0 : 30.0, offset, random),
+                 false);
+        for (int k = 0; k < 6; ++k) {
+          turn(m, offset, travel, random);
+          check_pairs(m, random, 400, worst);
+          check_boxes(m, worst);
+        }
+      }
+      char what[80];
+      std::snprintf(what, sizeof what, "turned, %g from the origin, travel %g", far, travel);
+      worst.print(what);
+    }
+}
+
+TEST(FloatFilter, BandCoversConfigurations) {
+  Random random(2);
+  Worst worst;
+  for (int repetition = 0; repetition < 60; ++repetition) {
+    const auto model = test::random_model(random, 12, repetition % 3 == 0 ? 60 : 6, false,
+                                          [](Random& r, const Vec3&, const Vec3&) { return Point{r.vector(2.0)}; });
+    Placed m(model, false);
+    std::vector<double> q(m.selected->selection().size());
+    for (int k = 0; k < 5; ++k) {
+      for (double& value : q) value = random.uniform(-4, 4);
+      m.placement.update(q);
+      m.make();
+      check_pairs(m, random, 200, worst);
+      check_boxes(m, worst);
+    }
+  }
+  worst.print("random mechanisms");
+}
+
+/// Coordinates from elsewhere, each half a unit in the last place from a float and pushed apart by its rounding.
+TEST(FloatFilter, BandCoversAlignedRoundings) {
+  Random random(3);
+  Worst worst;
+  for (int repetition = 0; repetition < 200; ++repetition) {
+    Placed m(model_of(4, 8, 1.0, Vec3::Zero(), random), true);
+    const double scale = m.side.layout().scale, size = std::ldexp(1.0, static_cast<int>(random.below(12))) / scale;
+    std::vector<Point> points(m.selected->size());
+    for (std::size_t i = 1; i < points.size(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        const double sign = i % 2 == 0 ? 1.0 : -1.0, ulp = size * 0x1p-24;
+        const double x = size - ulp * (std::floor(random.uniform(1, 1000)) + 0.499999);
+        points[i].position[k] = sign * x;
+      }
+    m.placement.update_placed(points);
+    m.make();
+    check_pairs(m, random, 200, worst);
+    check_boxes(m, worst);
+  }
+  worst.print("aligned roundings");
+}
+
+/// Two models with origins and scales of their own; the margin as Wide makes it.
+TEST(FloatFilter, BandCoversTwoModels) {
+  Random random(4);
+  for (const double far : {0.0, 10.0, 1e3, 1e6}) {
+    double worst = 0.0;
+    for (int repetition = 0; repetition < 40; ++repetition) {
+      const Vec3 offset = random.vector(far), away = Vec3(offset + random.vector(10));
+      Placed a(model_of(3, repetition % 2 == 0 ? 5 : 40, random.uniform(0.1, 20), offset, random), false),
+          b(model_of(3, repetition % 3 == 0 ? 5 : 40, random.uniform(0.1, 20), away, random), false);
+      turn(a, offset, 1.0, random);
+      turn(b, away, 1.0, random);
+      const Into<Point> into(a.side, b.side);
+      const double scale = b.side.layout().scale, ratio = static_cast<double>(into.scale);
+      for (int k = 0; k < 500; ++k) {
+        const std::size_t i = random.below(a.slots()), block = random.below(b.slots()) / n;
+        float squared[n];
+        into(a.side.state().packed(static_cast<std::uint32_t>(i / n)) + i % n)
+            .squared_distances(b.side.state().packed(static_cast<std::uint32_t>(block)))
+            .store(squared);
+        for (std::size_t lane = 0; lane < n; ++lane) {
+          const double d = std::sqrt(squared_norm(Vec3(a.at(i) - b.at(block * n + lane)))) * scale;
+          double largest = d;
+          for (const float s : into.shift) largest += 2 * std::abs(static_cast<double>(s));
+          const double band = b.side.state().band(largest) + 2 * ratio * a.side.state().band(0.0);
+          worst = std::max(worst, (std::sqrt(static_cast<double>(squared[lane])) - d) / band);
+        }
+      }
+    }
+    std::printf("two models, %g from the origin: %.3f\n", far, worst);
+    EXPECT_LT(worst, 1.0);
+  }
+}
+
+/// Threshold plus margin, squared, in float against the numbers they stand for; and the arithmetic of a distance.
+TEST(FloatFilter, ArithmeticTakesLessThanItsShare) {
+  Random random(5);
+  double thresholds = 0.0, extras = 0.0, distances = 0.0;
+  for (int k = 0; k < 2'000'000; ++k) {
+    const double t = std::exp(random.uniform(-8, 8)), m = t * std::exp(random.uniform(-20, 2));
+    const float row = float_above(t), margin = float_above(m), more = float_above(t * random.uniform(0, 1));
+    const float near = row + margin, square = near * near;
+    const double whole = static_cast<double>(row) + static_cast<double>(margin);
+    thresholds = std::max(thresholds, (whole - std::sqrt(static_cast<double>(square))) / (u * whole));
+    const float wider = near + more, wide_square = wider * wider;
+    const double all = whole + static_cast<double>(more);
+    extras = std::max(extras, (all - std::sqrt(static_cast<double>(wide_square))) / (u * all));
+    float a[3], b[3], sum = 0.0F;
+    double exact = 0.0;
+    for (int c = 0; c < 3; ++c) {
+      a[c] = static_cast<float>(random.uniform(-4, 4));
+      b[c] = static_cast<float>(random.uniform(-4, 4));
+      const float d = a[c] - b[c];
+      sum += d * d;
+      const double e = static_cast<double>(a[c]) - static_cast<double>(b[c]);
+      exact += e * e;
+    }
+    distances = std::max(distances, (std::sqrt(static_cast<double>(sum) / exact) - 1) / u);
+  }
+  std::printf("in u: threshold %.3f (counted 1.5), with extra %.3f (2.5), distance %.3f (2.5); of 8\n", thresholds,
+              extras, distances);
+  EXPECT_LT(thresholds, 1.5);
+  EXPECT_LT(extras, 2.5);
+  EXPECT_LT(distances, 2.5);
+}
+
+}  // namespace
+}  // namespace hinge
