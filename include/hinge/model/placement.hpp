@@ -78,6 +78,12 @@ class Placement {
     const Pose pose = poses_.frame(group).pose();
     for (const std::uint32_t i : primitives) *to++ = local[i].placed(pose);
   }
+  /// The same of one primitive.
+  P alone(PrimitiveId i) noexcept {
+    const P& local = model_->primitives()[index(i)];
+    const GroupId group = model_->group_of(i);
+    return group == GroupId{0} ? local : local.placed(poses_.frame(group).pose());
+  }
 
   /// The number of the last update. Starts at 1.
   std::uint64_t update_number() const noexcept { return update_; }

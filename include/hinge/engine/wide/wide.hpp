@@ -64,6 +64,7 @@ class Wide {
     }
     const BlockLayout& layout = side.layout();
     lister_.tasks.clear();
+    visits_ = 0;
     const auto run_listed = [&] {
       run(
           side, side, placement_, side.table(), Exactly<P>{}, [&] { return margin(side, collector.cutoff()); }, decide,
@@ -117,6 +118,7 @@ class Wide {
         }
       return add(options.counts, counts);
     }
+    visits_ = 0;
     const Into<P> into(mine, theirs);
     const ThresholdTable table = mine.parts().classes.table(theirs.parts().classes, theirs.layout().scale);
     const auto between = [&] { return margin(mine, theirs, table, into, collector.cutoff()); };
@@ -184,12 +186,19 @@ class Wide {
           const std::uint32_t own = slot<P>(at_one), first = slot<P>(at_sixteen);
           const auto i = id<PrimitiveId>(one.layout().primitive[own]);
           const std::uint32_t* const others = sixteen.layout().primitive.data() + first;
-          const P& p = one.state().exact(own / simd::width, placement_)[own % simd::width];
-          const P* const q = sixteen.state().exact(first / simd::width, placement_of_sixteen);
           const double before = collector.cutoff();
+          // For the first few only what they need is placed: often one of them answers the question.
+          const bool few = visits_ < placed_alone;
+          visits_ += few;
+          constexpr auto n = static_cast<std::uint32_t>(simd::width);
+          const std::uint32_t b = own / n, a = first / n;
+          const simd::Bits alone = simd::Bits{1} << own % n;
+          const P& p = (few ? one.state().exact(b, alone, placement_) : one.state().exact(b, placement_))[own % n];
+          const P* const q = few ? sixteen.state().exact(a, bits, placement_of_sixteen)
+                                 : sixteen.state().exact(a, placement_of_sixteen);
           for (; bits != 0 && !collector.done(); bits &= bits - 1) {
-            const int lane = std::countr_zero(bits);
-            decide(i, id<PrimitiveId>(others[lane]), p, q[lane]);
+            const int k = std::countr_zero(bits);
+            decide(i, id<PrimitiveId>(others[k]), p, q[k]);
           }
           if (collector.cutoff() != before) thresholds_.set(table, present_margin());
           return !collector.done();
@@ -197,6 +206,8 @@ class Wide {
     lister_.tasks.clear();
   }
 
+  /// Tasks with hits decided on primitives placed one by one.
+  static constexpr std::size_t placed_alone = 4;
   /// Tasks listed before they are run.
   static constexpr std::size_t longest_run = 16 * simd::width;
 
@@ -206,6 +217,7 @@ class Wide {
   WideSide<P> by_groups_;
   std::optional<WideSide<P>> by_index_;  // made when coordinates from elsewhere first come
   TaskLister<P> lister_;                 // scratch
+  std::size_t visits_ = 0;               // scratch: tasks decided so far in a query, up to placed_alone
   Thresholds16 thresholds_;              // scratch: of the present margin
   std::optional<std::pair<PrimitiveId, PrimitiveId>> witness_;
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -111,6 +112,11 @@ class WideState {
   /// The sixteen primitives of a block themselves, placed in double when first touched.
   [[gnu::always_inline]] const P* exact(std::uint32_t b, Placement<P>& placement) noexcept {
     if (exact_at_[b] != update_) place_exact(b, placement);
+    return exact_.data() + b * simd::width;
+  }
+  /// The same where only some of them are up to date.
+  [[gnu::always_inline]] const P* exact(std::uint32_t b, simd::Bits lanes, Placement<P>& placement) noexcept {
+    if (exact_at_[b] != update_) place_exact(b, lanes, placement);
     return exact_.data() + b * simd::width;
   }
   const float* packed(std::uint32_t b) const noexcept { return packed_.data() + b * Batch<P>::floats; }
@@ -246,21 +252,23 @@ class WideState {
   }
 
   [[gnu::noinline]] void place_exact(std::uint32_t b, Placement<P>& placement) noexcept {
-    const BlockLayout& layout = parts_->layout;
-    const Block& block = layout.blocks[b];
-    const bool current = is_current(block, exact_at_[b], placement);
+    const Block& block = parts_->layout.blocks[b];
+    if (!is_current(block, exact_at_[b], placement)) {
+      if (block.rigid && !given_)
+        placement.place(parts_->layout.groups_of(block).front(),
+                        std::span(parts_->layout.primitive).subspan(b * simd::width, simd::width),
+                        exact_.data() + b * simd::width);
+      else
+        place_exact(b, simd::all_bits, placement);
+    }
     exact_at_[b] = update_;
-    if (current) return;
-    P* to = exact_.data() + b * simd::width;
-    const std::uint32_t* primitive = layout.primitive.data() + b * simd::width;
-    if (given_) {
-      for (std::size_t k = 0; k < simd::width; ++k) to[k] = placement.placed()[primitive[k]];
-    } else if (block.rigid) {
-      placement.place(layout.groups_of(block).front(), std::span(primitive, simd::width), to);
-    } else {
-      for (std::size_t k = 0; k < simd::width; ++k)
-        placement.place(id<GroupId>(parts_->mixed_group[parts_->mixed_slot[b] + k]), std::span(primitive + k, 1),
-                        to + k);
+  }
+  [[gnu::noinline]] void place_exact(std::uint32_t b, simd::Bits lanes, Placement<P>& placement) noexcept {
+    const BlockLayout& layout = parts_->layout;
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const std::size_t slot = b * simd::width + static_cast<std::size_t>(std::countr_zero(lanes));
+      const auto i = id<PrimitiveId>(layout.primitive[slot]);
+      exact_[slot] = given_ ? placement.placed()[index(i)] : placement.alone(i);
     }
   }
 
