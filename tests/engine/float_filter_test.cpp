@@ -103,7 +103,7 @@ void check_boxes(Placed& m, Worst& worst) {
   for (std::size_t w = 0; w < layout.units.size(); ++w) {
     const Unit& unit = layout.units[w];
     for (std::uint32_t b = unit.first_block; b < unit.first_block + unit.block_count; ++b) {
-      worst.take(worst.boxes, outside(m.side.state().box(w), b));
+      worst.take(worst.boxes, outside(m.side.state().units().get(w), b));
       if (unit.block_count == 1) continue;
       const std::uint32_t child = b - unit.first_block;
       const auto& levels = m.side.parts().rigid.tree[w].levels;

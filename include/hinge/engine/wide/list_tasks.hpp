@@ -44,7 +44,7 @@ class TaskLister {
     if (lanes != 0 && !side.kept_apart(u, u))
       tasks.add_rows(lanes, position<P>(first), position<P>(first), side.near().self_rows(first));
     const float more = margin + side.extra(first) + side.largest_extra();
-    const auto found = side.sweep(side.state().box(u).grown(more), unit.sweep_end, counts);
+    const auto found = side.state().units().sweep(side.state().units().get(u).grown(more), unit.sweep_end, counts);
     if (found.empty()) return;
     if (unit.block_count == 1) {
       Facing facing(side, first, placement, more);
@@ -62,7 +62,7 @@ class TaskLister {
     }
     for (const std::uint32_t w : found) {
       if (side.kept_apart(u, w)) continue;
-      side.descend(u, side.state().box(w).grown(more), placement, counts, mine_);
+      side.descend(u, side.state().units().get(w).grown(more), placement, counts, mine_);
       for (const std::uint32_t b : mine_) {
         // Placed only when it meets something.
         if (side.layout().units[w].block_count == 1)
@@ -79,16 +79,16 @@ class TaskLister {
               Placement<P>& other_placement, const Into<P>& into, float margin, bool moved_only, QueryCounts& counts) {
     const Unit& unit = mine.layout().units[u];
     const float extra = mine.extra(unit.first_block) * into.scale;
-    const FloatBox box = into(mine.state().box(u)).grown(margin + extra + theirs.largest_extra());
+    const FloatBox box = into(mine.state().units().get(u)).grown(margin + extra + theirs.largest_extra());
     const bool stood_still = moved_only && !mine.moved(u, placement);
-    for (const std::uint32_t w : theirs.sweep(box, theirs.layout().units.size(), counts)) {
+    for (const std::uint32_t w : theirs.state().units().sweep(box, theirs.layout().units.size(), counts)) {
       if (stood_still && !theirs.moved(w, other_placement)) continue;
       const Unit& partner = theirs.layout().units[w];
       const float own = margin + extra + theirs.extra(partner.first_block);
       if (unit.block_count == 1)
         mine_.assign(1, unit.first_block);
       else
-        mine.descend(u, into.back(theirs.state().box(w).grown(own)), placement, counts, mine_);
+        mine.descend(u, into.back(theirs.state().units().get(w).grown(own)), placement, counts, mine_);
       for (const std::uint32_t b : mine_) {
         const float* at = mine.state().block(b, placement);
         const float more = own + mine.parts().rigid.reach[b] * into.scale;

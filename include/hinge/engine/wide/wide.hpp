@@ -73,7 +73,7 @@ class Wide {
     std::size_t patience = 1;
     float extent = -1.0F;
     double cutoff = 0.0;
-    for (std::size_t u = 0; u < layout.units.size() && !collector.done(); ++u) {
+    for (std::size_t u = side.state().first_unit(); u < layout.units.size() && !collector.done(); ++u) {
       side.state().refresh(u, placement_);
       if (u < layout.static_units) continue;
       // Margins depend on the size of what was placed so far, in powers of two, and on the cutoff.
@@ -106,8 +106,10 @@ class Wide {
     WideSide<P>&mine = present_side(), &theirs = other.present_side();
     mine.begin(placement_, false, options.clearance);
     theirs.begin(other.placement_, false, options.other_clearance);
-    for (std::size_t u = 0; u < mine.layout().units.size(); ++u) mine.state().refresh(u, placement_);
-    for (std::size_t u = 0; u < theirs.layout().units.size(); ++u) theirs.state().refresh(u, other.placement_);
+    for (std::size_t u = mine.state().first_unit(); u < mine.layout().units.size(); ++u)
+      mine.state().refresh(u, placement_);
+    for (std::size_t u = theirs.state().first_unit(); u < theirs.layout().units.size(); ++u)
+      theirs.state().refresh(u, other.placement_);
     const double ratio = theirs.layout().scale / mine.layout().scale;
     if (!(ratio >= 0x1p-60 && ratio <= 0x1p60)) {
       // No float holds both models.

@@ -31,8 +31,7 @@ class WideSide {
            bool inside_groups)
       : near_(std::make_shared<const NearMasks>(parts->layout, model, filter, inside_groups)),
         table_(parts->classes.table(parts->layout.scale)),
-        state_(std::move(parts), model),
-        found_(layout().units.size() + simd::width) {}
+        state_(std::move(parts), model) {}
 
   const BlockLayout& layout() const noexcept { return state_.parts().layout; }
   const WideParts<P>& parts() const noexcept { return state_.parts(); }
@@ -80,33 +79,6 @@ class WideSide {
     return false;
   }
 
-  /// The units before `end` whose boxes share a point with `box`, in order; valid until the next sweep.
-  std::span<const std::uint32_t> sweep(const FloatBox& box, std::size_t end, QueryCounts& counts) {
-    const BoxLanes probe(box);
-    const std::size_t full = end / simd::width, rest = end % simd::width;
-    std::size_t n = 0;
-    const auto row = [&](std::size_t r, simd::Bits mask) __attribute__((always_inline)) {
-      n += simd::append_lanes(overlapping(state_.boxes(r), probe) & mask, static_cast<std::uint32_t>(r * simd::width),
-                              found_.data() + n);
-    };
-    counts.boxes_tested += full + (rest != 0);
-    if (full <= simd::width) {
-      for (std::size_t r = 0; r < full; ++r) row(r, simd::all_bits);
-    } else {
-      counts.boxes_tested -= full;
-      std::array<std::uint32_t, simd::width> rows;
-      for (std::size_t h = 0; h * simd::width < full; ++h) {
-        simd::Bits bits = overlapping(state_.hulls(h), probe);
-        if (full - h * simd::width < simd::width) bits &= (simd::Bits{1} << (full - h * simd::width)) - 1;
-        const std::size_t k = simd::append_lanes(bits, static_cast<std::uint32_t>(h * simd::width), rows.data());
-        counts.boxes_tested += 1 + k;
-        for (std::size_t i = 0; i < k; ++i) row(rows[i], simd::all_bits);
-      }
-    }
-    if (rest != 0) row(full, (simd::Bits{1} << rest) - 1);
-    return {found_.data(), n};
-  }
-
   /// The blocks in a unit's tree whose boxes share a point with `box`, into `blocks`.
   void descend(std::size_t u, const FloatBox& box, Placement<P>& placement, QueryCounts& counts,
                std::vector<std::uint32_t>& blocks) {
@@ -148,7 +120,6 @@ class WideSide {
   std::vector<float> extra_;  // per block, scaled; empty: none
   float largest_extra_ = 0.0F;
   std::vector<std::size_t> component_;  // per unit; empty: every pair of units counts
-  std::vector<std::uint32_t> found_;    // scratch
 };
 
 }  // namespace hinge

@@ -16,6 +16,7 @@
 #include "hinge/engine/wide/block_layout.hpp"
 #include "hinge/engine/wide/float_turn.hpp"
 #include "hinge/engine/wide/rigid_blocks.hpp"
+#include "hinge/engine/wide/unit_boxes.hpp"
 #include "hinge/kinematics/frame.hpp"
 #include "hinge/model/placement.hpp"
 #include "hinge/primitive/batch.hpp"
@@ -61,9 +62,8 @@ class WideState {
         block_at_(parts_->layout.block_count(), 0),
         exact_at_(parts_->layout.block_count(), 0),
         unit_at_(parts_->layout.units.size(), 0),
-        boxes_((parts_->layout.units.size() + simd::width - 1) / simd::width),
-        unit_extent_(boxes_.size() * simd::width, 0.0F),
-        hulls_((boxes_.size() + simd::width - 1) / simd::width),
+        units_(parts_->layout.units.size()),
+        unit_extent_(units_.rows() * simd::width, 0.0F),
         tree_rows_(parts_->rigid.rows.size()),
         row_at_(parts_->rigid.rows.size(), 0),
         origin_(parts_->layout.origin) {
@@ -75,7 +75,7 @@ class WideState {
 
   /// To be called before the units of an update are asked for.
   void begin(Placement<P>& placement) noexcept {
-    extent_ = 0.0F;
+    extent_ = static_extent_;
     update_ = placement.update_number();
     few_moved_ = placement.few_moved();
     given_ = placement.groups_may_deform();
@@ -94,15 +94,17 @@ class WideState {
       std::frexp(std::min(unit_extent_[u], 0x1p126F), &exponent);
       extent_ = std::ldexp(1.0F, exponent);
     }
-    if (boxes_.size() > simd::width && (u % simd::width == simd::width - 1 || u + 1 == unit_at_.size()))
-      hulls_[u / simd::width / simd::width].set(u / simd::width % simd::width, boxes_[u / simd::width].hull());
+    units_.close(u);
+    if (u + 1 == parts_->layout.static_units) {
+      static_refreshed_ = true;
+      static_extent_ = extent_;
+    }
   }
+  /// The first unit that may have moved since it was last refreshed: static ones are placed once.
+  std::size_t first_unit() const noexcept { return static_refreshed_ ? parts_->layout.static_units : 0; }
 
-  const BoxRow& boxes(std::size_t row) const noexcept { return boxes_[row]; }
-  /// Boxes around rows of boxes, where there are more than sixteen; only of rows all of whose units were refreshed.
-  const BoxRow& hulls(std::size_t row) const noexcept { return hulls_[row]; }
-  /// Grown by the unit's reach.
-  FloatBox box(std::size_t u) const noexcept { return boxes_[u / simd::width].get(u % simd::width); }
+  /// Boxes of units, grown by their reach.
+  UnitBoxes& units() noexcept { return units_; }
 
   /// Float coordinates of a block of a refreshed unit, placed when first touched.
   const float* block(std::uint32_t b, Placement<P>& placement) noexcept {
@@ -175,7 +177,7 @@ class WideState {
 
   void set_unit(std::size_t u, const FloatBox& box) noexcept {
     unit_extent_[u] = box.extent();
-    boxes_[u / simd::width].set(u % simd::width, box);
+    units_.set(u, box);
     unit_at_[u] = update_;
   }
 
@@ -201,7 +203,7 @@ class WideState {
       for (std::size_t first = u; first < end; ++local) {
         const std::size_t row = first / simd::width, last = std::min(end, (row + 1) * simd::width);
         turn_group.turn_row(*local, parts_->rigid.unit[u], reach, first - row * simd::width, last - row * simd::width,
-                            boxes_[row], unit_extent_.data() + row * simd::width);
+                            units_.row(row), unit_extent_.data() + row * simd::width);
         first = last;
       }
       std::fill(unit_at_.begin() + static_cast<std::ptrdiff_t>(u), unit_at_.begin() + static_cast<std::ptrdiff_t>(end),
@@ -279,14 +281,15 @@ class WideState {
   std::vector<P> exact_;                 // per slot
   std::vector<std::uint64_t> exact_at_;  // per block: the same for its primitives in exact_
   std::vector<std::uint64_t> unit_at_;   // per unit: the same for its box
-  std::vector<BoxRow> boxes_;            // of units, grown by their reach
-  std::vector<float> unit_extent_;       // per place in boxes_: largest magnitude in the box
-  std::vector<BoxRow> hulls_;            // of rows of units
+  UnitBoxes units_;
+  std::vector<float> unit_extent_;  // per place in units_: largest magnitude in the box
   std::vector<BoxRow> tree_rows_;
   std::vector<std::uint64_t> row_at_;
   Vec3 origin_;
   std::uint64_t update_ = 0;
   float extent_ = 0.0F;
+  float static_extent_ = 0.0F;
+  bool static_refreshed_ = false;
   bool few_moved_ = false;
   bool given_ = false;  // coordinates come from elsewhere
 };
