@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Error-free transforms: a sum, difference or product of two doubles as its rounded value and the exact rest.
+#pragma once
+
+#include <cfloat>
+
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "hinge/exact needs IEEE arithmetic: compile without -ffast-math (or -Ofast)"
+#endif
+
+namespace hinge::exact {
+
+static_assert(FLT_EVAL_METHOD == 0, "every operation has to round to double");
+
+/// Half an ulp of 1: the largest relative error of one rounding to nearest.
+inline constexpr double half_ulp = 0x1p-53;
+
+/// value + rest, exactly; value is that sum rounded to nearest.
+struct Exactly {
+  double value = 0.0;
+  double rest = 0.0;
+};
+
+/// a + b (Knuth, The Art of Computer Programming 2, 4.2.2, theorem B); any finite a and b whose sum is finite.
+constexpr Exactly two_sum(double a, double b) noexcept {
+  const double sum = a + b, of_b = sum - a, of_a = sum - of_b;
+  return {sum, (a - of_a) + (b - of_b)};
+}
+
+/// a + b when |a| >= |b| or a = 0 (Dekker 1971).
+constexpr Exactly fast_two_sum(double a, double b) noexcept {
+  const double sum = a + b;
+  return {sum, b - (sum - a)};
+}
+
+constexpr Exactly two_difference(double a, double b) noexcept { return two_sum(a, -b); }
+
+/// a b (Veltkamp's splitting, Dekker's product): no fused multiply-add, so the same operations on every CPU. Holds for
+/// |a|, |b| <= 2^995 and a product that is 0 or has a magnitude in [2^-967, 2^1022]; beyond, the halves overflow or the
+/// rest underflows.
+constexpr Exactly two_product(double a, double b) noexcept {
+  constexpr double splitter = 0x1p27 + 1.0;
+  const double ca = splitter * a, cb = splitter * b;
+  const double high_a = ca - (ca - a), low_a = a - high_a, high_b = cb - (cb - b), low_b = b - high_b;
+  const double product = a * b;
+  return {product, low_a * low_b - (((product - high_a * high_b) - low_a * high_b) - high_a * low_b)};
+}
+
+}  // namespace hinge::exact
