@@ -89,7 +89,7 @@ class Wide {
       run_listed();
     }
     if (!collector.done()) run_listed();
-    if constexpr (C::ranks)
+    if constexpr (C::ranks && requires { collector.hit()->first; })
       if (collector.hit()) witness_.emplace(collector.hit()->first, collector.hit()->second);
     add(options.counts, counts);
   }
