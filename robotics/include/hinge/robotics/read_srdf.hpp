@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// read_srdf: disabled pairs of links, groups of joints and named configurations from an SRDF file.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hinge/robotics/link_pairs.hpp"
+#include "hinge/robotics/robot.hpp"
+
+namespace hinge::robotics {
+
+struct JointGroup {
+  std::string name;
+  std::vector<std::size_t> joints;  ///< movable ones, followers included: positions in description().joints, sorted
+};
+
+/// Values (rad or m) of independent joints; followers follow.
+struct NamedConfiguration {
+  std::string name;
+  std::string group;
+  std::vector<std::pair<std::size_t, double>> values;  ///< position in independent_joints(), value
+
+  /// Puts its values into a configuration of the independent joints, leaving the others.
+  void apply(std::span<double> independent) const noexcept {
+    for (const auto& [position, value] : values) independent[position] = value;
+  }
+};
+
+struct Srdf {
+  LinkPairs disabled;
+  std::vector<JointGroup> groups;
+  std::vector<NamedConfiguration> configurations;
+  std::vector<std::string> notes;  ///< what was left out, one sentence each
+};
+
+/// What to do when a pair names a link the robot does not have. SRDF files of several variants of a robot do.
+enum class UnknownLinks : std::uint8_t { refused, noted };
+
+/// Virtual joints, end effectors and passive joints have no part in collisions and are passed over; so are joints of
+/// groups and configurations that the robot does not have (the virtual joint, mostly), with a note.
+/// LoadError, one line naming file, line and element: bad XML, an unknown link (unless noted) or subgroup, a
+/// value that is not a finite number.
+Srdf read_srdf(const std::filesystem::path& path, const Robot& robot, UnknownLinks unknown = UnknownLinks::refused);
+
+/// Adds the pairs of a text file, two link names a line; `#` starts a comment. LoadError: a line with other than two
+/// names, an unknown link.
+void read_link_pairs(const std::filesystem::path& path, const Robot& robot, LinkPairs& pairs);
+
+}  // namespace hinge::robotics

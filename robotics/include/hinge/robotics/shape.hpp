@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Shapes of links as URDF knows them, in metres, centred on their own frame; cylinders stand along z.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "hinge/core/vec3.hpp"
+#include "hinge/primitive/triangle.hpp"
+
+namespace hinge::robotics {
+
+struct BoxShape {
+  Vec3 size = Vec3::Ones();  ///< edge lengths
+};
+
+struct SphereShape {
+  double radius = 1.0;
+};
+
+struct CylinderShape {
+  double radius = 1.0;
+  double length = 1.0;
+};
+
+/// A surface; closed or not, nothing is assumed.
+struct TriangleMesh {
+  std::vector<Triangle> triangles;
+};
+
+struct MeshShape {
+  std::shared_ptr<const TriangleMesh> mesh;  ///< shared by the links that use the same file
+  Vec3 scale = Vec3::Ones();                 ///< factor per axis, negative ones mirror; none is 0
+  std::filesystem::path file{};              ///< where it was read from; empty when made in code
+};
+
+using Shape = std::variant<BoxShape, SphereShape, CylinderShape, MeshShape>;
+
+}  // namespace hinge::robotics

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// assimp as a reader only: none of its processing steps, all of which drop, join or move something.
+#include "hinge/robotics/read_mesh.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <assimp/config.h>
+#include <assimp/scene.h>
+#include <assimp/Importer.hpp>
+
+#include "check_stl.hpp"
+#include "cut_polygon.hpp"
+#include "hinge/core/error.hpp"
+#include "hinge/core/finite.hpp"
+#include "read_file.hpp"
+
+namespace hinge::robotics {
+
+namespace {
+
+std::string lower_case_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+/// Affine, in double: x -> linear * x + shift.
+struct Transform {
+  Mat3 linear = Mat3::Identity();
+  Vec3 shift = Vec3::Zero();
+  bool is_identity = true;  // coordinates keep their bits
+
+  Vec3 operator()(const aiVector3D& v) const {
+    const Vec3 x(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
+    return is_identity ? x : Vec3(product(linear, x) + shift);
+  }
+  Transform then(const aiMatrix4x4& m) const {
+    if (m == aiMatrix4x4()) return *this;
+    Mat3 inner;
+    Vec3 moved;
+    for (unsigned r = 0; r < 3; ++r) {
+      for (unsigned c = 0; c < 3; ++c) inner(static_cast<int>(r), static_cast<int>(c)) = static_cast<double>(m[r][c]);
+      moved[static_cast<int>(r)] = static_cast<double>(m[r][3]);
+    }
+    return {product(linear, inner), product(linear, moved) + shift, false};
+  }
+};
+
+/// Every face of every mesh a node shows, the nodes below included.
+template <class Visit>
+void for_each_face(const aiScene& scene, const aiNode& node, const Transform& above, const Visit& visit) {
+  const Transform here = above.then(node.mTransformation);
+  for (unsigned k = 0; k < node.mNumMeshes; ++k) {
+    const aiMesh& mesh = *scene.mMeshes[node.mMeshes[k]];
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) visit(mesh, mesh.mFaces[f], here);
+  }
+  for (unsigned k = 0; k < node.mNumChildren; ++k) for_each_face(scene, *node.mChildren[k], here, visit);
+}
+
+class Collector {
+ public:
+  explicit Collector(const std::string& path) : path_(path) {}
+
+  void operator()(const aiMesh& mesh, const aiFace& face, const Transform& transform) {
+    polygon_.clear();
+    for (unsigned k = 0; k < face.mNumIndices; ++k) {
+      const Vec3 vertex = transform(mesh.mVertices[face.mIndices[k]]);
+      if (!is_finite(vertex))
+        throw LoadError(path_ + ": face " + std::to_string(faces_) + " (from 0): vertex " + std::to_string(k) + " is " +
+                        std::to_string(vertex[0]) + " " + std::to_string(vertex[1]) + " " + std::to_string(vertex[2]) +
+                        ", expected finite coordinates");
+      polygon_.push_back(vertex);
+    }
+    ++faces_;
+    if (polygon_.empty()) return;
+    const std::vector<Triangle> triangles = cut_polygon(polygon_);
+    mesh_.triangles.insert(mesh_.triangles.end(), triangles.begin(), triangles.end());
+  }
+  TriangleMesh take() { return std::move(mesh_); }
+
+ private:
+  const std::string& path_;
+  std::size_t faces_ = 0;
+  std::vector<Vec3> polygon_;
+  TriangleMesh mesh_;
+};
+
+}  // namespace
+
+TriangleMesh read_mesh(const std::filesystem::path& path) {
+  const std::string name = path.string(), extension = lower_case_extension(path);
+  if (extension != ".stl" && extension != ".obj" && extension != ".dae" && extension != ".ply")
+    throw LoadError(name + ": a mesh of format '" + extension + "', expected .stl, .obj, .dae or .ply");
+  const std::string bytes = read_file(path);
+  const std::size_t announced = extension == ".stl" ? check_stl(bytes, name) : 0;
+  if (bytes.empty() || (extension == ".stl" && announced == 0)) throw LoadError(name + ": has no triangles");
+
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  const aiScene* scene = importer.ReadFile(name, 0);
+  if (scene == nullptr || scene->mRootNode == nullptr) {
+    std::string why = importer.GetErrorString();
+    std::replace(why.begin(), why.end(), '\n', ' ');
+    throw LoadError(name + ": " + (why.empty() ? "is no mesh that assimp understands" : why));
+  }
+  Collector collector(name);
+  for_each_face(*scene, *scene->mRootNode, {}, [&](const aiMesh& mesh, const aiFace& face, const Transform& transform) {
+    collector(mesh, face, transform);
+  });
+  TriangleMesh mesh = collector.take();
+  if (mesh.triangles.empty()) throw LoadError(name + ": has no triangles");
+  if (extension == ".stl" && mesh.triangles.size() != announced)
+    throw LoadError(name + ": " + std::to_string(announced) + " facets, of which " +
+                    std::to_string(mesh.triangles.size()) + " could be read");
+  return mesh;
+}
+
+}  // namespace hinge::robotics

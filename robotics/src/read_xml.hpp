@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// XML files whose elements know where they stand, and the messages about them.
+#pragma once
+
+#include <tinyxml2.h>
+
+#include <filesystem>
+#include <string>
+
+namespace hinge::robotics {
+
+/// "<name>", for messages.
+inline std::string tag(const tinyxml2::XMLElement& element) { return std::string("<").append(element.Name()) + ">"; }
+
+/// An XML file with this root element. LoadError: cannot be opened, no XML, another root, xacro macros not expanded.
+class XmlFile {
+ public:
+  XmlFile(const std::filesystem::path& path, const char* root);
+
+  tinyxml2::XMLElement& root() noexcept { return *document_.RootElement(); }
+
+  /// Throws LoadError "file:line: what"; without the line when it is 0.
+  [[noreturn]] void refuse(int line, const std::string& what) const;
+
+  /// An attribute that must be there and not be empty.
+  std::string attribute(const tinyxml2::XMLElement& element, const char* name) const;
+
+  std::string text() const;  ///< the document as it is now
+
+ private:
+  std::string path_;
+  tinyxml2::XMLDocument document_;
+};
+
+}  // namespace hinge::robotics

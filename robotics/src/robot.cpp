@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From description to model: parents first, one core joint each; followers resolved to the joint that drives them.
+#include "hinge/robotics/robot.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+#include "check_description.hpp"
+#include "hinge/core/error.hpp"
+#include "hinge/core/finite.hpp"
+
+namespace hinge::robotics {
+
+namespace {
+
+Joint core_joint(const JointDescription& joint) {
+  switch (joint.type) {
+    case JointType::fixed: return Fixed{joint.origin};
+    case JointType::prismatic: return Prismatic{joint.axis, joint.origin, joint.name};
+    case JointType::revolute:
+    case JointType::continuous: break;
+  }
+  return Revolute{joint.axis, Vec3::Zero(), joint.origin, joint.name};
+}
+
+bool has_no_area(const Triangle& t) { return squared_norm(cross(Vec3(t.b - t.a), Vec3(t.c - t.a))) == 0.0; }
+
+/// Positions of the joints so that each stands behind the one that places its parent link; no order changed needlessly.
+std::vector<std::size_t> parents_first(const RobotDescription& robot, std::string_view root) {
+  std::multimap<std::string_view, std::size_t> below;
+  for (std::size_t k = 0; k < robot.joints.size(); ++k) below.emplace(robot.joints[k].parent, k);
+  // The earliest joint whose parent is there comes next.
+  std::vector<std::size_t> ready, order;
+  const auto open = [&](std::string_view link) {
+    const auto [first, last] = below.equal_range(link);
+    for (auto it = first; it != last; ++it) {
+      ready.push_back(it->second);
+      std::push_heap(ready.begin(), ready.end(), std::greater<>{});
+    }
+  };
+  open(root);
+  while (!ready.empty()) {
+    std::pop_heap(ready.begin(), ready.end(), std::greater<>{});
+    order.push_back(ready.back());
+    ready.pop_back();
+    open(robot.joints[order.back()].child);
+  }
+  return order;
+}
+
+}  // namespace
+
+Robot::Robot(RobotDescription description, const Tessellation& tessellation) : description_(std::move(description)) {
+  if (const auto problem = first_problem(description_)) throw ModelError(problem->what);
+  build(tessellation);
+  find_drives();
+}
+
+void Robot::build(const Tessellation& tessellation) {
+  std::map<std::string_view, const LinkDescription*> links;
+  for (const LinkDescription& link : description_.links) links[link.name] = &link;
+  std::map<std::string_view, const LinkDescription*> roots = links;
+  for (const JointDescription& joint : description_.joints) roots.erase(joint.child);
+  const LinkDescription& root = *roots.begin()->second;
+
+  ModelBuilder<Triangle> builder;
+  link_names_ = {""};
+  triangle_counts_ = {0};
+  std::map<std::string_view, LinkId> ids;
+  const auto add = [&](LinkId parent, Joint joint, const LinkDescription& link) {
+    const LinkId added = builder.add_link(parent, std::move(joint));
+    ids[link.name] = added;
+    link_names_.push_back(link.name);
+    triangle_counts_.push_back(0);
+    for (const PlacedShape& placed : link.geometry)
+      for (const Triangle& triangle : tessellate(placed.shape, tessellation)) {
+        degenerate_count_ += has_no_area(triangle) ? 1U : 0U;
+        builder.add_primitive(added, placed.origin == Pose{} ? triangle : triangle.placed(placed.origin));
+        ++triangle_counts_.back();
+      }
+  };
+  add(world, Fixed{}, root);
+  for (const std::size_t k : parents_first(description_, root.name)) {
+    const JointDescription& joint = description_.joints[k];
+    if (joint.type != JointType::fixed) joint_of_dof_.push_back(k);
+    add(ids.at(joint.parent), core_joint(joint), *links.at(joint.child));
+  }
+  model_ = builder.finish();
+}
+
+void Robot::find_drives() {
+  constexpr double pi = 3.141592653589793;
+  std::map<std::string_view, std::size_t> position;  // of independent joints
+  std::map<std::string_view, const JointDescription*> joints;
+  for (std::size_t k = 0; k < description_.joints.size(); ++k) {
+    const JointDescription& joint = description_.joints[k];
+    joints[joint.name] = &joint;
+    if (joint.type == JointType::fixed || joint.mimic) continue;
+    position[joint.name] = independent_.size();
+    independent_.push_back(k);
+    const bool continuous = joint.type == JointType::continuous;
+    lower_.push_back(continuous ? -pi : joint.lower);
+    upper_.push_back(continuous ? pi : joint.upper);
+  }
+  for (const std::size_t k : joint_of_dof_) {
+    Drive drive;
+    const JointDescription* joint = &description_.joints[k];
+    // q = m (m' q' + o') + o, and so on up the chain.
+    for (; joint->mimic; joint = joints.at(joint->mimic->joint)) {
+      drive.offset += drive.multiplier * joint->mimic->offset;
+      drive.multiplier *= joint->mimic->multiplier;
+    }
+    drive.independent = position.at(joint->name);
+    if (!is_finite(drive.multiplier) || !is_finite(drive.offset))
+      throw ModelError("joint '" + description_.joints[k].name + "': its chain of mimics is not finite");
+    drives_.push_back(drive);
+  }
+}
+
+std::optional<LinkId> Robot::find_link(std::string_view name) const noexcept {
+  const auto found = std::find(link_names_.begin() + 1, link_names_.end(), name);
+  if (found == link_names_.end()) return {};
+  return id<LinkId>(static_cast<std::size_t>(found - link_names_.begin()));
+}
+
+std::optional<std::size_t> Robot::find_joint(std::string_view name) const noexcept {
+  const auto found = std::find_if(description_.joints.begin(), description_.joints.end(),
+                                  [name](const JointDescription& joint) { return joint.name == name; });
+  if (found == description_.joints.end()) return {};
+  return static_cast<std::size_t>(found - description_.joints.begin());
+}
+
+void Robot::expand(std::span<const double> independent, std::span<double> full) const {
+  if (independent.size() != independent_.size())
+    throw ConfigurationError("configuration has " + std::to_string(independent.size()) + " values, expected " +
+                             std::to_string(independent_.size()) + ", one for each independent joint");
+  if (full.size() != drives_.size())
+    throw ConfigurationError("full configuration has " + std::to_string(full.size()) + " places, expected " +
+                             std::to_string(drives_.size()) + ", one for each movable joint");
+  for (std::size_t k = 0; k < independent.size(); ++k)
+    if (!is_finite(independent[k]))
+      throw ConfigurationError("joint '" + independent_name(k) + "' is " + std::to_string(independent[k]) +
+                               ", expected a finite number");
+  for (std::size_t d = 0; d < drives_.size(); ++d)
+    full[d] = drives_[d].multiplier * independent[drives_[d].independent] + drives_[d].offset;
+}
+
+std::vector<double> Robot::expand(std::span<const double> independent) const {
+  std::vector<double> full(drives_.size());
+  expand(independent, full);
+  return full;
+}
+
+}  // namespace hinge::robotics

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "hinge/robotics/read_mesh.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "hinge/core/philox.hpp"
+#include "hinge/primitive/triangle.hpp"
+#include "robotics/robots.hpp"
+
+namespace hinge::robotics {
+namespace {
+
+using Facet = std::array<float, 9>;
+
+std::string binary_stl(const std::vector<Facet>& facets, std::string header = "") {
+  header.resize(80, ' ');
+  const auto append = [&](std::uint32_t word, int bytes) {
+    for (int k = 0; k < bytes; ++k) header += static_cast<char>(word >> 8 * k & 0xffU);
+  };
+  append(static_cast<std::uint32_t>(facets.size()), 4);
+  for (const Facet& facet : facets) {
+    for (int k = 0; k < 3; ++k) append(0, 4);
+    for (const float x : facet) append(std::bit_cast<std::uint32_t>(x), 4);
+    append(0, 2);
+  }
+  return header;
+}
+
+const std::vector<Facet> two_facets = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 0, 0.1F, 1, 0, 0.1F, 0, 1, 0.1F}};
+
+TriangleMesh read(const std::string& name, const std::string& bytes) {
+  const test::TemporaryFolder folder;
+  return read_mesh(folder.write(name, bytes));
+}
+
+std::string refusal(const std::string& name, const std::string& bytes) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.write(name, bytes);
+  const std::string what = test::refusal(folder, [&] { read_mesh(file); });
+  EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+  return what;
+}
+
+TEST(ReadMesh, KeepsTheBitsOfABinaryStl) {
+  const TriangleMesh mesh = read("a.STL", binary_stl(two_facets));
+  ASSERT_EQ(mesh.triangles.size(), 2U);
+  EXPECT_EQ(mesh.triangles[1].b, Vec3(1, 0, static_cast<double>(0.1F)));
+}
+
+TEST(ReadMesh, TellsBinaryFromTextBySize) {
+  EXPECT_EQ(read("a.stl", binary_stl(two_facets, "solid exported by a program")).triangles.size(), 2U);
+  EXPECT_EQ(read("a.stl",
+                 "solid x\nfacet normal 0 0 0\n outer loop\n vertex 0 0 0\n vertex 1 0 0\n vertex 0 1e0 0\n"
+                 " endloop\nendfacet\nendsolid\n")
+                .triangles.size(),
+            1U);
+}
+
+/// A vertex three facets share, a facet twice, one without area: all of them stay.
+TEST(ReadMesh, DropsJoinsAndMendsNothing) {
+  const Facet flat = {0, 0, 0, 1, 1, 1, 2, 2, 2}, point = {1, 2, 3, 1, 2, 3, 1, 2, 3};
+  const TriangleMesh mesh = read("a.stl", binary_stl({two_facets[0], two_facets[0], flat, point}));
+  ASSERT_EQ(mesh.triangles.size(), 4U);
+  EXPECT_EQ(mesh.triangles[0].c, mesh.triangles[1].c);
+  EXPECT_EQ(mesh.triangles[2].b, Vec3(1, 1, 1));
+  EXPECT_EQ(mesh.triangles[3].c, Vec3(1, 2, 3));
+}
+
+TEST(ReadMesh, RefusesStlFilesCutShortOrEmpty) {
+  const std::string whole = binary_stl(two_facets);
+  EXPECT_EQ(refusal("a.stl", whole.substr(0, 150)),
+            "a.stl: binary STL announces 2 triangles, which take 184 bytes; the file has 150");
+  EXPECT_EQ(refusal("a.stl", binary_stl(two_facets, "solid").substr(0, 183)),
+            "a.stl: binary STL announces 2 triangles, which take 184 bytes; the file has 183");
+  EXPECT_EQ(refusal("a.stl", whole.substr(0, 40)), "a.stl: 40 bytes, expected at least the 84 of a binary STL");
+  EXPECT_EQ(refusal("a.stl", binary_stl({})), "a.stl: has no triangles");
+  EXPECT_EQ(refusal("a.stl", "solid\nendsolid\n"), "a.stl: has no triangles");
+  EXPECT_EQ(refusal("a.stl", "solid\nfacet normal 0 0 1\n"),
+            "a.stl: text STL with 1 facets, 0 of them ended, and no endsolid: cut short or damaged");
+}
+
+TEST(ReadMesh, RefusesVerticesThatAreNotFinite) {
+  std::vector<Facet> facets = two_facets;
+  facets[1][5] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(refusal("a.stl", binary_stl(facets)),
+            "a.stl: face 1 (from 0): vertex 1 is 1.000000 0.000000 nan, expected finite coordinates");
+  facets[1][5] = -std::numeric_limits<float>::infinity();
+  EXPECT_NE(refusal("a.stl", binary_stl(facets)).find("-inf"), std::string::npos);
+}
+
+double area(const std::vector<Triangle>& triangles) {
+  double twice = 0.0;
+  for (const Triangle& t : triangles) twice += cross(Vec3(t.b - t.a), Vec3(t.c - t.a)).norm();
+  return twice / 2;
+}
+
+/// Triangles that overlap or stand out have more area than their polygon.
+TEST(ReadMesh, CutsThePolygonsOfAnObj) {
+  // An L whose inner corner lies between two others, in each plane and both ways round; area 3.
+  const std::vector<std::array<int, 2>> corners = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
+  for (const char* format : {"v %d %d 7\n", "v 7 %d %d\n", "v %d 7 %d\n"})
+    for (const char* face : {"f 1 2 3 4 5 6\n", "f 6 5 4 3 2 1\n", "f 4 5 6 1 2 3\n"}) {
+      std::string obj;
+      for (const auto& [x, y] : corners) {
+        std::array<char, 40> line{};
+        std::snprintf(line.data(), line.size(), format, x, y);
+        obj += line.data();
+      }
+      const TriangleMesh mesh = read("a.obj", obj + face);
+      EXPECT_EQ(mesh.triangles.size(), 4U);
+      EXPECT_DOUBLE_EQ(area(mesh.triangles), 3.0) << format << face;
+    }
+}
+
+/// Stars with random radii around the origin never cross themselves; their area is a sum of wedges.
+TEST(ReadMesh, CutsRandomStars) {
+  constexpr std::uint64_t seed = 7;
+  for (std::uint64_t sample = 0; sample < 30; ++sample) {
+    SampleStream stream(seed, sample);
+    const std::size_t n = 4 + static_cast<std::size_t>(stream.uniform() * 40);
+    std::string obj, face = "f";
+    std::vector<Vec3> corner;
+    for (std::size_t k = 0; k < n; ++k) {
+      const double angle = 2 * std::acos(-1.0) * static_cast<double>(k) / static_cast<double>(n);
+      // Sixteenths are read without rounding.
+      const double radius = 16 + 100 * stream.uniform();
+      const double x = std::round(radius * std::cos(angle)) / 16, y = std::round(radius * std::sin(angle)) / 16;
+      corner.emplace_back(x, y, x + y);
+      obj += "v " + std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(x + y) + "\n";
+      face.append(" ").append(std::to_string(k + 1));
+    }
+    double expected = 0.0;
+    for (std::size_t k = 0; k < n; ++k) expected += cross(corner[k], corner[(k + 1) % n]).norm() / 2;
+    const TriangleMesh mesh = read("a.obj", obj + face + "\n");
+    EXPECT_EQ(mesh.triangles.size(), n - 2);
+    EXPECT_NEAR(area(mesh.triangles), expected, 1e-6 * expected) << "seed " << seed << " sample " << sample;
+  }
+}
+
+TEST(ReadMesh, KeepsLinesAsDegenerateTriangles) {
+  const TriangleMesh mesh = read("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 2 3\n");
+  ASSERT_EQ(mesh.triangles.size(), 2U);
+  const Triangle* line = &mesh.triangles[0];
+  if (line->b != line->c) line = &mesh.triangles[1];
+  EXPECT_EQ(line->a, Vec3(1, 0, 0));
+  EXPECT_EQ(line->b, Vec3(0, 1, 0));
+  EXPECT_EQ(line->c, line->b);
+}
+
+TEST(ReadMesh, ReadsPly) {
+  const TriangleMesh mesh = read("a.ply",
+                                 "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                                 "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                                 "end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n");
+  EXPECT_EQ(mesh.triangles.size(), 2U);
+}
+
+/// One triangle (0 0 0) (1 0 0) (0 1 2), shown by two nodes, one of them moved by (10 20 30) inside one that doubles.
+std::string collada(const std::string& unit, const std::string& axis) {
+  return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'><asset>" +
+         unit + "<up_axis>" + axis +
+         "</up_axis></asset><library_geometries><geometry id='g'><mesh><source id='p'><float_array id='pa' count='9'>"
+         "0 0 0 1 0 0 0 1 2</float_array><technique_common><accessor source='#pa' count='3' stride='3'><param name='X' "
+         "type='float'/><param name='Y' type='float'/><param name='Z' type='float'/></accessor></technique_common>"
+         "</source><vertices id='v'><input semantic='POSITION' source='#p'/></vertices><triangles count='1'><input "
+         "semantic='VERTEX' source='#v' offset='0'/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>"
+         "<library_visual_scenes><visual_scene id='s'><node id='n'><instance_geometry url='#g'/></node><node id='m'>"
+         "<scale>2 2 2</scale><node id='k'><translate>10 20 30</translate><instance_geometry url='#g'/></node></node>"
+         "</visual_scene></library_visual_scenes><scene><instance_visual_scene url='#s'/></scene></COLLADA>";
+}
+
+TEST(ReadMesh, AppliesNodesAndUnitsOfADaeButNotItsUpAxis) {
+  for (const char* axis : {"X_UP", "Y_UP", "Z_UP"}) {
+    const TriangleMesh mesh = read("a.dae", collada("<unit meter='0.5'/>", axis));
+    ASSERT_EQ(mesh.triangles.size(), 2U) << axis;
+    EXPECT_EQ(mesh.triangles[0].c, Vec3(0, 0.5, 1)) << axis;
+    EXPECT_EQ(mesh.triangles[1].c, Vec3(10, 21, 32)) << axis;
+  }
+  EXPECT_EQ(read("a.dae", collada("", "Y_UP")).triangles.at(1).b, Vec3(22, 40, 60));
+}
+
+TEST(ReadMesh, RefusesOtherFormatsAndRubbish) {
+  EXPECT_EQ(refusal("a.step", "x"), "a.step: a mesh of format '.step', expected .stl, .obj, .dae or .ply");
+  EXPECT_EQ(refusal("a.obj", ""), "a.obj: has no triangles");
+  for (const char* name : {"a.obj", "a.dae", "a.ply"}) EXPECT_NE(refusal(name, "rubbish\n"), "") << name;
+  EXPECT_NE(refusal("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"), "");
+  EXPECT_NE(refusal("a.obj", "v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n"), "");
+  const test::TemporaryFolder folder;
+  EXPECT_EQ(test::refusal(folder, [&] { read_mesh(folder.path() / "none.stl"); }),
+            "none.stl: cannot be opened: No such file or directory");
+}
+
+}  // namespace
+}  // namespace hinge::robotics

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where tests find robots: the ten of the shared data when they are there, and folders that vanish with the test.
+#pragma once
+
+#include <unistd.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "hinge/core/philox.hpp"
+#include "hinge/robotics/link_pairs.hpp"
+#include "hinge/robotics/read_srdf.hpp"
+#include "hinge/robotics/read_urdf.hpp"
+#include "hinge/robotics/robot.hpp"
+#include "hinge/robotics/tested_pairs.hpp"
+
+namespace hinge::test {
+
+/// What the README of the shared robots says.
+struct SharedRobot {
+  std::string name;
+  std::size_t links, links_with_geometry, groups_with_geometry, dofs, triangles, pairs;
+  bool has_text_meshes;  ///< OBJ: coordinates in single precision
+};
+
+inline const std::vector<SharedRobot>& shared_robots() {
+  static const std::vector<SharedRobot> robots = {
+      {"panda", 12, 11, 10, 8, 2364, 21, false},        {"fanuc_m10ia", 9, 7, 7, 6, 6934, 11, false},
+      {"ur5_robotiq", 22, 18, 7, 6, 104197, 59, false}, {"ur10", 11, 8, 7, 6, 5874, 20, false},
+      {"baxter", 49, 42, 15, 14, 4855, 561, false},     {"pr2", 82, 32, 27, 20, 5852, 239, false},
+      {"icub", 56, 28, 28, 32, 3407, 340, true},        {"allegro_hand", 21, 21, 17, 16, 1484, 185, false},
+      {"talos", 60, 52, 45, 32, 26726, 881, false},     {"snake40", 80, 80, 41, 40, 74000, 2965, false}};
+  return robots;
+}
+
+inline std::filesystem::path shared_folder(const std::string& robot) {
+  return std::filesystem::path(HINGE_SHARED_DATA) / "robots" / robot;
+}
+
+/// A robot tessellated as the reference is, and the pairs the reference skips.
+struct LoadedRobot {
+  robotics::Robot robot;
+  robotics::LinkPairs disabled;
+};
+
+inline LoadedRobot load_shared(const std::string& name) {
+  using namespace robotics;
+  const std::filesystem::path stem = shared_folder(name) / name;
+  const auto with = [&](const std::string& extension) { return std::filesystem::path(stem.string() + extension); };
+  LoadedRobot loaded{Robot(read_urdf(with(".urdf")), {Tessellation::Manner::inscribed}), LinkPairs()};
+  // Baxter's SRDF names the links of another variant, too.
+  loaded.disabled = std::filesystem::exists(with(".srdf"))
+                        ? read_srdf(with(".srdf"), loaded.robot, UnknownLinks::noted).disabled
+                        : LinkPairs(loaded.robot.link_count());
+  if (std::filesystem::exists(with(".acm_extra.txt")))
+    read_link_pairs(with(".acm_extra.txt"), loaded.robot, loaded.disabled);
+  return loaded;
+}
+
+/// Values of the independent joints, uniform within their limits.
+inline std::vector<double> random_configuration(const robotics::Robot& robot, SampleStream& stream) {
+  std::vector<double> q;
+  for (std::size_t k = 0; k < robot.lower().size(); ++k)
+    q.push_back(robot.lower()[k] + stream.uniform() * (robot.upper()[k] - robot.lower()[k]));
+  return q;
+}
+
+/// A folder of files, removed with the object.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    static int number = 0;
+    path_ = std::filesystem::temp_directory_path() /
+            ("hinge-robot-" + std::to_string(getpid()) + "-" + std::to_string(number++));
+    std::filesystem::create_directories(path_);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path write(const std::string& name, const std::string& bytes) const {
+    const std::filesystem::path file = path_ / name;
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file, std::ios::binary) << bytes;
+    return file;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The message of the LoadError that `load` ends in, without the folder's path; empty when there is none.
+template <class Load>
+std::string refusal(const TemporaryFolder& folder, const Load& load) {
+  try {
+    load();
+  } catch (const LoadError& error) {
+    std::string what = error.what();
+    const std::string prefix = folder.path().string() + "/";
+    for (std::size_t at = what.find(prefix); at != std::string::npos; at = what.find(prefix))
+      what.erase(at, prefix.size());
+    return what;
+  }
+  return "";
+}
+
+}  // namespace hinge::test

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "hinge/robotics/tessellate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "hinge/primitive/segment_distance.hpp"
+
+namespace hinge::robotics {
+namespace {
+
+constexpr Tessellation inscribed{Tessellation::Manner::inscribed, 1e-3};
+
+Tessellation within(double tolerance) { return {Tessellation::Manner::circumscribed, tolerance}; }
+
+using Point = std::tuple<double, double, double>;
+Point point(const Vec3& v) { return {v[0] + 0.0, v[1] + 0.0, v[2] + 0.0}; }
+
+/// Every edge belongs to two triangles, which run it in opposite ways: closed, and turned one way throughout.
+void expect_closed(const std::vector<Triangle>& triangles) {
+  std::map<std::pair<Point, Point>, int> runs;
+  for (const Triangle& t : triangles) {
+    const std::array<Vec3, 4> corner = {t.a, t.b, t.c, t.a};
+    for (std::size_t k = 0; k < 3; ++k) ++runs[{point(corner[k]), point(corner[k + 1])}];
+  }
+  for (const auto& [edge, count] : runs) {
+    ASSERT_EQ(count, 1);
+    ASSERT_TRUE(runs.contains({edge.second, edge.first}));
+  }
+}
+
+/// Signed: above 0 when the triangles turn outward.
+double volume(const std::vector<Triangle>& triangles) {
+  double six = 0.0;
+  for (const Triangle& t : triangles) six += dot(t.a, cross(t.b, t.c));
+  return six / 6;
+}
+
+double nearest_to_centre(const std::vector<Triangle>& triangles) {
+  double squared = 1e300;
+  for (const Triangle& t : triangles)
+    squared = std::min(squared, nearest_on_triangle(Vec3::Zero(), t.a, t.b, t.c).squared);
+  return std::sqrt(squared);
+}
+
+template <class Size>
+double largest(const std::vector<Triangle>& triangles, const Size& size) {
+  double most = 0.0;
+  for (const Triangle& t : triangles) most = std::max({most, size(t.a), size(t.b), size(t.c)});
+  return most;
+}
+
+TEST(Tessellate, MakesABoxOfTwelveTriangles) {
+  for (const Tessellation& manner : {inscribed, Tessellation{}}) {
+    const auto triangles = tessellate(BoxShape{{1, 2, 4}}, manner);
+    EXPECT_EQ(triangles.size(), 12U);
+    expect_closed(triangles);
+    EXPECT_DOUBLE_EQ(volume(triangles), 8.0);
+    EXPECT_EQ(largest(triangles, [](const Vec3& v) { return std::abs(v[2]); }), 2.0);
+  }
+}
+
+TEST(Tessellate, HoldsTheSphereAndStaysWithinTheTolerance) {
+  for (const double radius : {0.02, 0.3, 5.0})
+    for (const double tolerance : {1.0, 1e-2, 1e-3}) {
+      const auto triangles = tessellate(SphereShape{radius}, within(tolerance));
+      expect_closed(triangles);
+      EXPECT_GE(nearest_to_centre(triangles), radius * (1 - 1e-14));
+      EXPECT_LE(largest(triangles, [](const Vec3& v) { return v.norm(); }), radius + tolerance + radius * 1e-14);
+      EXPECT_GT(volume(triangles), 0.0);
+    }
+}
+
+TEST(Tessellate, HoldsTheCylinderAndStaysWithinTheTolerance) {
+  for (const double radius : {0.02, 0.3, 5.0})
+    for (const double tolerance : {1.0, 1e-2, 1e-3}) {
+      const auto triangles = tessellate(CylinderShape{radius, 3.0}, within(tolerance));
+      const auto from_axis = [](const Vec3& v) { return std::hypot(v[0], v[1]); };
+      expect_closed(triangles);
+      EXPECT_LE(largest(triangles, from_axis), radius + tolerance + radius * 1e-14);
+      EXPECT_EQ(largest(triangles, [](const Vec3& v) { return std::abs(v[2]); }), 1.5);
+      // Sides only: the nearest point of an upright rectangle to the axis.
+      for (const Triangle& t : triangles) {
+        if (t.a[2] == t.b[2] && t.b[2] == t.c[2]) continue;
+        Triangle flat = t;
+        for (Vec3* v : {&flat.a, &flat.b, &flat.c}) (*v)[2] = 0.0;
+        EXPECT_GE(std::sqrt(nearest_on_triangle(Vec3::Zero(), flat.a, flat.b, flat.c).squared), radius * (1 - 1e-14));
+      }
+      EXPECT_GT(volume(triangles), 0.0);
+    }
+}
+
+TEST(Tessellate, TakesMoreTrianglesForLessErrorAndNoMoreThanNeeded) {
+  EXPECT_EQ(tessellate(SphereShape{0.1}, within(10.0)).size(), 20U);
+  EXPECT_EQ(tessellate(CylinderShape{0.1, 1.0}, within(10.0)).size(), 12U);
+  const auto coarse = tessellate(SphereShape{0.1}, within(1e-3)), fine = tessellate(SphereShape{0.1}, within(1e-4));
+  EXPECT_GT(fine.size(), coarse.size());
+  EXPECT_LT(coarse.size(), 1000U);
+}
+
+/// The manner in which the published references were made.
+TEST(Tessellate, InscribesAsTheReferenceDoes) {
+  const auto sphere = tessellate(SphereShape{2.0}, inscribed);
+  EXPECT_EQ(sphere.size(), 320U);
+  expect_closed(sphere);
+  for (const Triangle& t : sphere) EXPECT_NEAR(t.a.norm(), 2.0, 1e-15);
+  EXPECT_GT(volume(sphere), 0.0);
+  const auto cylinder = tessellate(CylinderShape{2.0, 1.0}, inscribed);
+  EXPECT_EQ(cylinder.size(), 128U);
+  expect_closed(cylinder);
+  EXPECT_EQ(cylinder[0].a, Vec3(2, 0, -0.5));
+  EXPECT_EQ(cylinder[1].c, Vec3(2, 0, 0.5));
+  EXPECT_NEAR(cylinder[0].b[0], 2 * std::cos(std::acos(-1.0) / 16), 1e-15);
+}
+
+TEST(Tessellate, ScalesMeshesMirroringThemWhereTold) {
+  auto mesh = std::make_shared<TriangleMesh>();
+  mesh->triangles = {{Vec3(1, 2, 3), Vec3(0, 1, 0), Vec3(0, 0, 1)}};
+  EXPECT_EQ(tessellate(MeshShape{mesh, {1, -2, 0.5}}).at(0).a, Vec3(1, -4, 1.5));
+}
+
+TEST(Tessellate, RefusesShapesAndTolerancesThatAreNone) {
+  EXPECT_THROW(tessellate(BoxShape{{1, 0, 1}}), ModelError);
+  EXPECT_THROW(tessellate(SphereShape{-1.0}), ModelError);
+  EXPECT_THROW(tessellate(CylinderShape{1.0, std::nan("")}), ModelError);
+  EXPECT_THROW(tessellate(MeshShape{}), ModelError);
+  for (const double tolerance : {0.0, -1.0, std::nan(""), 1e-300})
+    EXPECT_THROW(tessellate(SphereShape{1.0}, within(tolerance)), ModelError) << tolerance;
+}
+
+}  // namespace
+}  // namespace hinge::robotics
