@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <type_traits>
+#include <vector>
 
 #include "engine/side_by_side.hpp"
 
@@ -37,6 +38,31 @@ TYPED_TEST(WideEquality, HoldsOnRandomMechanisms) {
       compare_with_brute<P, UnlistedPairs, Wide>(random, UnlistedPairs{filter}, model);
     if (testing::Test::HasFailure()) return;
   }
+}
+
+/// Fewer static primitives than a block holds, which nothing comes near until after coordinates came from elsewhere.
+TEST(Wide, KeepsStaticBlocksThroughCoordinatesFromElsewhere) {
+  ModelBuilder<Point> builder;
+  builder.add_link(world, Fixed{}, {Point{{0, 0, 0}}, Point{{0, 7, 0}}});
+  for (int k = 0; k < 8; ++k) {
+    std::vector<Point> points;
+    for (int l = 0; l < 16; ++l) points.push_back({Vec3(100 + 10 * k + 0.3 * l, 7, 0)});
+    builder.add_link(world, Prismatic{{1, 0, 0}, {}, {}}, points);
+  }
+  Hierarchy<Point, AdmitAll, UniformClearance, Wide> wide(builder.finish(), AdmitAll{}, UniformClearance(0.5));
+  std::vector<double> q(8, 0.0);
+  wide.update(q);
+  EXPECT_FALSE(wide.self_collides());
+  std::vector<Point> elsewhere(wide.placed().begin(), wide.placed().end());
+  for (Point& p : elsewhere) p.position *= 3;
+  wide.update_placed(elsewhere);
+  EXPECT_FALSE(wide.self_collides());
+  q[5] = 1;
+  wide.update(q);
+  EXPECT_FALSE(wide.self_collides());
+  q[0] = -100.1;  // one value of eight: what stood still is not looked at again
+  wide.update(q);
+  EXPECT_EQ(wide.self_collisions().size(), 2U);
 }
 
 }  // namespace

@@ -169,7 +169,9 @@ class WideState {
   bool is_current(const Block& block, std::uint64_t since, Placement<P>& placement) const noexcept {
     if (since == 0) return false;
     const auto groups = parts_->layout.groups_of(block);
-    if (!few_moved_) return !given_ && groups.size() == 1 && groups.front() == GroupId{0};
+    // Group 0 is the world, wherever coordinates from elsewhere put its primitives in the meantime.
+    if (!given_ && groups.size() == 1 && groups.front() == GroupId{0}) return true;
+    if (!few_moved_) return false;
     for (const GroupId g : groups)
       if (placement.version(g) > since) return false;
     return true;
