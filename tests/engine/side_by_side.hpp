@@ -111,7 +111,7 @@ void compare_with_brute(Random& random, const F& filter, const Model<P>& model) 
   std::vector<double> q(selection.size());
   for (int step = 0; step < 6; ++step) {
     // Every other time so few that engines look for what stood still.
-    const int changed = step % 2 == 0 ? 2 : 10;
+    const std::size_t changed = step % 2 == 0 ? 2 : 10;
     for (double& value : q)
       if (random.one_in(changed)) value = random.uniform(-3.0, 3.0);
     pair.tested.update(q);
