@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // biocd from outside: exit status, JSON contract, determinism, messages.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -14,6 +11,7 @@
 #include <string>
 
 #include "hinge/molecular/read_structure.hpp"
+#include "molecular/run_biocd.hpp"
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
@@ -21,23 +19,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-struct Outcome {
-  int status = -1;
-  std::string out;
-};
+using Outcome = test::Said;
 
 /// Standard output and exit status; standard error goes along with `2>&1` in the arguments.
-Outcome biocd(const std::string& arguments) {
-  Outcome outcome;
-  FILE* pipe = popen((std::string(HINGE_BIOCD) + " " + arguments).c_str(), "r");
-  if (pipe == nullptr) return outcome;
-  std::array<char, 4096> chunk{};
-  for (std::size_t got = 0; (got = fread(chunk.data(), 1, chunk.size(), pipe)) > 0;)
-    outcome.out.append(chunk.data(), got);
-  const int status = pclose(pipe);
-  outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return outcome;
-}
+Outcome biocd(const std::string& arguments) { return test::run_biocd(arguments); }
 
 std::string file() { return test::ubiquitin().string(); }
 
