@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nearest points of points, segments and triangles, as the best of a list of candidates.
+// Nearest points of points and segments, as the best of a list of candidates.
 #pragma once
 
 #include "hinge/core/vec3.hpp"
@@ -47,23 +47,6 @@ inline NearestPair nearest(const Vec3& a, const Vec3& b, const Vec3& c, const Ve
       const double height = dot(w, normal);
       best.take_closer(NearestPair{a + u * s, c + v * t, height * (height / square)});
     }
-  }
-  return best;
-}
-
-/// Point p and triangle abc; a degenerate triangle is the segment or point it spans.
-inline NearestPair nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
-  NearestPair best = nearest(p, a, b);
-  best.take_closer(nearest(p, b, c));
-  best.take_closer(nearest(p, c, a));
-  const Vec3 normal = cross(Vec3(b - a), Vec3(c - a));
-  const double square = dot(normal, normal);
-  const Vec3 pa = a - p, pb = b - p, pc = c - p;
-  const double wa = dot(normal, cross(pb, pc)), wb = dot(normal, cross(pc, pa)), wc = dot(normal, cross(pa, pb));
-  if (square > 0.0 && wa >= 0.0 && wb >= 0.0 && wc >= 0.0) {
-    const double height = dot(normal, pa);
-    const Vec3 foot = p + normal * (height / square);
-    best.take_closer(NearestPair{p, foot, height * (height / square)});
   }
   return best;
 }
