@@ -34,7 +34,6 @@ struct Unit {
 /// Computed once when the DOF are selected. Units are ordered by the last group they need, the static ones first, and
 /// blocks as their units.
 struct BlockLayout {
-  static constexpr std::uint32_t none = ~std::uint32_t{0};
   /// Rigid groups with more blocks than this are searched through a tree, others block by block.
   static constexpr std::size_t largest_flat_group = simd::width * simd::width;
 

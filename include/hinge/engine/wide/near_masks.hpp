@@ -47,11 +47,6 @@ class NearMasks {
     std::size_t next_;
   };
 
-  std::size_t bytes() const noexcept {
-    return (rows_.size() + start_.size() + partner_.size() + row_.size()) * 4 +
-           self_lanes_.size() * sizeof(self_lanes_[0]);
-  }
-
  private:
   simd::AlignedVector<simd::Bits> rows_;
   std::vector<std::uint16_t> self_lanes_;
@@ -79,17 +74,13 @@ NearMasks::NearMasks(const BlockLayout& layout, const SelectedModel<P>& model, c
     near.erase(std::unique(near.begin(), near.end()), near.end());
     simd::Bits self_lanes = 0;
     for (const std::uint32_t a : near) {
-      // Two blocks of one rigid group never meet, unless groups deform.
-      if (!inside_groups && mine.rigid && layout.blocks[a].rigid &&
-          layout.groups_of(mine).front() == layout.groups_of(layout.blocks[a]).front()) {
-        if (a == b) {
-          partner_.push_back(b);
-          row_.push_back(0);
-        }
-        continue;
-      }
+      // Two blocks of one rigid group never meet, unless groups deform; but the block itself ends its list.
+      const bool never = !inside_groups && mine.rigid && layout.blocks[a].rigid &&
+                         layout.groups_of(mine).front() == layout.groups_of(layout.blocks[a]).front();
+      if (never && a != b) continue;
       partner_.push_back(a);
       row_.push_back(static_cast<std::uint32_t>(rows_.size()));
+      if (never) continue;
       for (std::size_t k = 0; k < simd::width; ++k) {
         simd::Bits row = 0;
         const std::size_t end = a == b ? k : simd::width;  // each pair of a block with itself once

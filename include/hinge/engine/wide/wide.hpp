@@ -124,8 +124,8 @@ class Wide {
     const Into<P> into(mine, theirs);
     const ThresholdTable table = mine.parts().classes.table(theirs.parts().classes, theirs.layout().scale);
     const auto between = [&] { return margin(mine, theirs, table, into, collector.cutoff()); };
+    thresholds_.set(table, between());
     for (std::size_t u = 0; u < mine.layout().units.size() && !collector.done(); ++u) {
-      thresholds_.set(table, between());
       lister_.across(mine, u, placement_, theirs, other.placement_, into, thresholds_.margin(), options.moved_only,
                      counts);
       run(mine, theirs, other.placement_, table, into, between, decide, collector, counts);
