@@ -16,14 +16,13 @@
 #include "lanes.hpp"
 #include "pair_rules.hpp"
 #include "peer.hpp"
+#include "searching_peer.hpp"
 
 namespace hinge::bench {
 
-class BruteSimd {
+class BruteSearch {
  public:
-  static constexpr const char* name = "brute";
-
-  explicit BruteSimd(std::shared_ptr<const PeerInput> input) : rules_(std::move(input)) {
+  explicit BruteSearch(std::shared_ptr<const PeerInput> input) : rules_(std::move(input)) {
     // Fixed points first: blocks of them are nobody's partners but the moving points'.
     const PeerInput& in = rules_.input();
     points_.resize(in.n);
@@ -56,42 +55,8 @@ class BruteSimd {
     extent_ = std::max(fixed_extent_, extent(fixed_, points_.size));
   }
 
-  bool any() {
-    AnyPair answer;
-    search(0.0, answer);
-    return answer.found;
-  }
-  void all(IndexPairs& out) { within(0.0, out); }
-  void within(double margin, IndexPairs& out) {
-    out.clear();
-    PairsWithin answer{out, margin};
-    search(margin, answer);
-  }
-  double closest() {
-    // No gap is larger than the diagonal of a cube twice the extent.
-    return last_ = grow_until_found(last_, 4.0 * double{extent_} + 1.0, [&](double margin) {
-             ClosestPair answer{margin};
-             search(margin, answer);
-             return answer;
-           });
-  }
-
- private:
-  /// Largest magnitude of a coordinate.
-  float extent(std::size_t first, std::size_t last) const {
-    float most = 0.0f;
-    for (const auto* column : {&points_.x, &points_.y, &points_.z}) {
-      Lanes lanes = Lanes::all(0.0f);
-      std::size_t k = first;
-      for (; k + lane_count <= last; k += lane_count) {
-        const Lanes c = Lanes::load(column->data() + k);
-        lanes = larger(lanes, larger(c, Lanes::all(0.0f) - c));
-      }
-      most = std::max(most, lanes.highest());
-      for (; k < last; ++k) most = std::max(most, std::abs((*column)[k]));
-    }
-    return most;
-  }
+  /// No gap is larger than the diagonal of a cube twice the extent.
+  double everything() const { return 4.0 * double{extent_} + 1.0; }
 
   template <class Answer>
   void search(double margin, Answer& answer) {
@@ -115,6 +80,23 @@ class BruteSimd {
     }
   }
 
+ private:
+  /// Largest magnitude of a coordinate.
+  float extent(std::size_t first, std::size_t last) const {
+    float most = 0.0f;
+    for (const auto* column : {&points_.x, &points_.y, &points_.z}) {
+      Lanes lanes = Lanes::all(0.0f);
+      std::size_t k = first;
+      for (; k + lane_count <= last; k += lane_count) {
+        const Lanes c = Lanes::load(column->data() + k);
+        lanes = larger(lanes, larger(c, Lanes::all(0.0f) - c));
+      }
+      most = std::max(most, lanes.highest());
+      for (; k < last; ++k) most = std::max(most, std::abs((*column)[k]));
+    }
+    return most;
+  }
+
   PairRules rules_;
   Columns points_;
   std::size_t fixed_ = 0;
@@ -123,7 +105,8 @@ class BruteSimd {
   std::array<double, 3> origin_{};
   float fixed_extent_ = 0.0f, extent_ = 0.0f;
   TaskList tasks_;
-  double last_ = 0.0;
 };
+
+using BruteSimd = SearchingPeer<BruteSearch>;
 
 }  // namespace hinge::bench

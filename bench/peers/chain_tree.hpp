@@ -20,6 +20,7 @@
 #include "lanes.hpp"
 #include "pair_rules.hpp"
 #include "peer.hpp"
+#include "searching_peer.hpp"
 
 namespace hinge::bench {
 
@@ -27,7 +28,6 @@ namespace hinge::bench {
 template <class VolumeType>
 struct LaneLeaves {
   using Volume = VolumeType;
-  static constexpr const char* name = Volume::name;
   static constexpr bool lanes = true;
   static constexpr std::size_t points_per_leaf_log2 = 4;
 };
@@ -36,17 +36,14 @@ struct LaneLeaves {
 template <class VolumeType>
 struct ScalarLeaves {
   using Volume = VolumeType;
-  static constexpr const char* name = Volume::scalar_name;
   static constexpr bool lanes = false;
   static constexpr std::size_t points_per_leaf_log2 = 3;
 };
 
 template <class Leaves>
-class ChainTree {
+class ChainSearch {
  public:
-  static constexpr const char* name = Leaves::name;
-
-  explicit ChainTree(std::shared_ptr<const PeerInput> input) : rules_(std::move(input)) {
+  explicit ChainSearch(std::shared_ptr<const PeerInput> input) : rules_(std::move(input)) {
     const PeerInput& in = rules_.input();
     points_.resize(in.n);
     for (std::uint32_t i = 0; i < in.n; ++i) {
@@ -77,23 +74,14 @@ class ChainTree {
     extent_ = volumes_.back().extent();
   }
 
-  bool any() {
-    AnyPair answer;
-    search(0.0, answer);
-    return answer.found;
-  }
-  void all(IndexPairs& out) { within(0.0, out); }
-  void within(double margin, IndexPairs& out) {
-    out.clear();
-    PairsWithin answer{out, margin};
-    search(margin, answer);
-  }
-  double closest() {
-    return last_ = grow_until_found(last_, 4.0 * extent_ + 1.0, [&](double margin) {
-             ClosestPair answer{margin};
-             search(margin, answer);
-             return answer;
-           });
+  double everything() const { return 4.0 * extent_ + 1.0; }
+
+  template <class Answer>
+  void search(double margin, Answer& answer) {
+    if (points_.size == 0) return;
+    rules_.set_margin(margin, extent_);
+    tasks_.clear();
+    if (!self(levels_.size() - 1, 0, answer)) flush(answer);
   }
 
  private:
@@ -137,14 +125,6 @@ class ChainTree {
       points_.z[i] = static_cast<float>(xyz_[3 * i + 2] - origin_[2]);
     }
     volume.enclose(points_, begin, end);
-  }
-
-  template <class Answer>
-  void search(double margin, Answer& answer) {
-    if (points_.size == 0) return;
-    rules_.set_margin(margin, extent_);
-    tasks_.clear();
-    if (!self(levels_.size() - 1, 0, answer)) flush(answer);
   }
 
   /// Pairs within a subtree, those nearest along the chain first; true when the answer wants no more.
@@ -257,9 +237,10 @@ class ChainTree {
   std::span<const double> xyz_;
   std::vector<Pair> front_, next_;
   TaskList tasks_;
-  double last_ = 0.0;
 };
 
+template <class Leaves>
+using ChainTree = SearchingPeer<ChainSearch<Leaves>>;
 using ChainTreeSpheres = ChainTree<LaneLeaves<SphereVolume>>;
 using ChainTreeBoxes = ChainTree<LaneLeaves<BoxVolume>>;
 using ScalarChainTreeSpheres = ChainTree<ScalarLeaves<SphereVolume>>;

@@ -19,8 +19,6 @@ inline Quad larger(Quad a, Quad b) { return a > b ? a : b; }
 inline Quad smaller(Quad a, Quad b) { return a < b ? a : b; }
 
 struct BoxVolume {
-  static constexpr const char *name = "chain-boxes", *scalar_name = "chain-boxes-scalar";
-
   void enclose(const Columns& p, std::size_t begin, std::size_t end) {
     const auto span = [&](const std::vector<float>& column, int axis) {
       Lanes low = Lanes::load(&column[begin]), high = low;
@@ -76,8 +74,6 @@ struct BoxVolume {
 
 /// Radii are of the points below, not of the spheres below: tighter, and still a sixteenth of a point per level.
 struct SphereVolume {
-  static constexpr const char *name = "chain-spheres", *scalar_name = "chain-spheres-scalar";
-
   void enclose(const Columns& p, std::size_t begin, std::size_t end) {
     box_.enclose(p, begin, end);
     fit(p, begin, end);

@@ -11,8 +11,6 @@ namespace hinge::bench {
 
 class GemmiNeighbors {
  public:
-  static constexpr const char* name = "gemmi";
-
   explicit GemmiNeighbors(std::shared_ptr<const PeerInput> input);
   GemmiNeighbors(GemmiNeighbors&&) noexcept;
   GemmiNeighbors& operator=(GemmiNeighbors&&) noexcept;

@@ -14,14 +14,13 @@
 #include "lanes.hpp"
 #include "pair_rules.hpp"
 #include "peer.hpp"
+#include "searching_peer.hpp"
 
 namespace hinge::bench {
 
-class Grid {
+class GridSearch {
  public:
-  static constexpr const char* name = "grid";
-
-  explicit Grid(std::shared_ptr<const PeerInput> input) : rules_(std::move(input)) {
+  explicit GridSearch(std::shared_ptr<const PeerInput> input) : rules_(std::move(input)) {
     const PeerInput& in = rules_.input();
     std::vector<std::uint32_t> fixed, moving;
     for (std::uint32_t i = 0; i < in.n; ++i) (in.group[i] == 0 ? fixed : moving).push_back(i);
@@ -43,28 +42,7 @@ class Grid {
     fixed_taken_ = true;
   }
 
-  bool any() {
-    AnyPair answer;
-    search(0.0, answer);
-    return answer.found;
-  }
-  void all(IndexPairs& out) { within(0.0, out); }
-  void within(double margin, IndexPairs& out) {
-    out.clear();
-    PairsWithin answer{out, margin};
-    search(margin, answer);
-  }
-  double closest() {
-    const double everything = 2.0 * (moving_.extent() + fixed_.extent() + moving_.offset_from(fixed_)) + 1.0;
-    return last_ = grow_until_found(last_, everything, [&](double margin) {
-             ClosestPair answer{margin};
-             search(margin, answer);
-             return answer;
-           });
-  }
-
- private:
-  static constexpr std::size_t flush_at = 192;  // candidates are looked at this many tasks at a time
+  double everything() const { return 2.0 * (moving_.extent() + fixed_.extent() + moving_.offset_from(fixed_)) + 1.0; }
 
   template <class Answer>
   void search(double margin, Answer& answer) {
@@ -86,6 +64,10 @@ class Grid {
     }
     flush(fixed_, answer);
   }
+
+ private:
+  static constexpr std::size_t flush_at = 192;  // candidates are looked at this many tasks at a time
+
   void set_margin(double margin) { rules_.set_margin(margin, moving_.extent() + fixed_.extent()); }
 
   template <class Answer>
@@ -140,7 +122,8 @@ class Grid {
   bool fixed_taken_ = false;
   std::span<const double> xyz_;
   TaskList tasks_;
-  double last_ = 0.0;
 };
+
+using Grid = SearchingPeer<GridSearch>;
 
 }  // namespace hinge::bench

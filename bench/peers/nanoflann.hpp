@@ -21,8 +21,6 @@ namespace hinge::bench {
 
 class Nanoflann {
  public:
-  static constexpr const char* name = "nanoflann";
-
   explicit Nanoflann(std::shared_ptr<const PeerInput> input)
       : input_(std::move(input)), reach_(input_->type_count, 0.0) {
     for (std::uint32_t i = 0; i < input_->n; ++i) (input_->group[i] == 0 ? fixed_ : moving_).members.push_back(i);

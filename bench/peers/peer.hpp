@@ -36,7 +36,6 @@ struct PeerInput {
 //   void all(IndexPairs& out);                    d < M; `out` is cleared first
 //   void within(double margin, IndexPairs& out);  d < M + margin
 //   double closest();                             smallest d - M; +inf when no pair is admitted
-//   static constexpr const char* name;
 // Squared distances are dx * dx + dy * dy + dz * dz in double, compared as d2 < (M + margin) * (M + margin).
 
 }  // namespace hinge::bench

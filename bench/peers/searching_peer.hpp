@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SearchingPeer: the four questions, for peers that answer each of them by one search with a margin.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <utility>
+
+#include "pair_rules.hpp"
+#include "peer.hpp"
+
+namespace hinge::bench {
+
+/// Search: made of a PeerInput; update(xyz); search(margin, answer) offers the answer every admitted pair with
+/// d - M < margin, until it wants no more; everything() is a margin that no gap exceeds.
+template <class Search>
+class SearchingPeer {
+ public:
+  explicit SearchingPeer(std::shared_ptr<const PeerInput> input) : search_(std::move(input)) {}
+
+  void update(std::span<const double> xyz) { search_.update(xyz); }
+  bool any() {
+    AnyPair answer;
+    search_.search(0.0, answer);
+    return answer.found;
+  }
+  void all(IndexPairs& out) { within(0.0, out); }
+  void within(double margin, IndexPairs& out) {
+    out.clear();
+    PairsWithin answer{out, margin};
+    search_.search(margin, answer);
+  }
+  double closest() {
+    return last_ = grow_until_found(last_, search_.everything(), [&](double margin) {
+             ClosestPair answer{margin};
+             search_.search(margin, answer);
+             return answer;
+           });
+  }
+
+ private:
+  Search search_;
+  double last_ = 0.0;
+};
+
+}  // namespace hinge::bench
