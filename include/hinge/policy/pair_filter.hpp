@@ -25,6 +25,13 @@ concept ListsExclusions = PairFilter<F> && requires(const F& filter, PrimitiveId
   noexcept->std::convertible_to<std::span<const PrimitiveId>>;
 };
 
+/// Optional refinement: can refuse all pairs of two links at once; where it does not, pairs are still asked for.
+template <class F>
+concept AdmitsLinks = PairFilter<F> && requires(const F& filter, LinkId a, LinkId b) {
+  { filter.admits(a, b) }
+  noexcept->std::same_as<bool>;
+};
+
 /// Optional refinement of filters and matrices: made for exactly this many primitives; checked against the model.
 template <class T>
 concept KnowsSize = requires(const T& policy) {

@@ -47,11 +47,12 @@ class HitsWithin {
   std::vector<Hit> hits_;
 };
 
-/// The pair with the smallest d - M: the closest one, the most interpenetrating one when any collides. Among exact ties
-/// the smallest (first, second).
+/// The pair with the smallest d - M: the closest one, the most interpenetrating one when any collides. Among the exact
+/// ties that an engine meets, the smallest (first, second).
 class Closest {
  public:
   static constexpr bool ranks = true;
+  static constexpr bool keeps_smallest = true;
   void add(const Hit& hit) noexcept {
     const auto key = [](const Hit& h) { return std::tuple(h.gap(), h.first, h.second); };
     if (!hit_ || key(hit) < key(*hit_)) hit_ = hit;

@@ -85,6 +85,10 @@ class Lanes {
     return each(
         a, b, [](const Vector& x, const Vector& y) __attribute__((always_inline)) { return Vector(x * y); });
   }
+  [[gnu::always_inline]] friend Lanes operator/(const Lanes& a, const Lanes& b) noexcept {
+    return each(
+        a, b, [](const Vector& x, const Vector& y) __attribute__((always_inline)) { return Vector(x / y); });
+  }
   [[gnu::always_inline]] friend Lanes operator-(const Lanes& a) noexcept {
     return each(
         a, a, [](const Vector& x, const Vector&) __attribute__((always_inline)) { return Vector(-x); });

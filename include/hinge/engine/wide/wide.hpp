@@ -17,6 +17,7 @@
 #include "hinge/engine/engine.hpp"
 #include "hinge/engine/wide/list_tasks.hpp"
 #include "hinge/engine/wide/run_tasks.hpp"
+#include "hinge/engine/wide/tree/tree_side.hpp"
 #include "hinge/engine/wide/wide_side.hpp"
 #include "hinge/model/placement.hpp"
 #include "hinge/query/offer.hpp"
@@ -32,12 +33,14 @@ template <Primitive P, PairFilter F, DistanceMatrix D>
 class Wide {
  public:
   Wide(std::shared_ptr<const SelectedModel<P>> model, F filter, D matrix)
-      : placement_(model),
-        filter_(std::move(filter)),
-        matrix_(std::move(matrix)),
-        by_groups_(std::make_shared<const WideParts<P>>(BlockLayout::by_groups(*model),
-                                                        ThresholdClasses(matrix_, model->size()), *model),
-                   *model, filter_, false) {}
+      : placement_(model), filter_(std::move(filter)), matrix_(std::move(matrix)) {
+    if constexpr (KeepsTrees<P>)
+      trees_.emplace(std::make_shared<const TreeParts<P>>(*model, filter_, matrix_));
+    else
+      by_groups_.emplace(std::make_shared<const WideParts<P>>(BlockLayout::by_groups(*model),
+                                                              ThresholdClasses(matrix_, model->size()), *model),
+                         *model, filter_, false);
+  }
 
   Placement<P>& placement() noexcept { return placement_; }
   const Placement<P>& placement() const noexcept { return placement_; }
@@ -46,6 +49,26 @@ class Wide {
   void self_query(C& collector, const QueryOptions& options) {
     QueryCounts counts;
     const SelfRules<P, F, D> rules{placement_, filter_, matrix_, options};
+    if (by_trees()) {
+      const auto in_order = [](PrimitiveId i, PrimitiveId j, const auto& say) { return j < i ? say(j, i) : say(i, j); };
+      trees_->self_query(placement_,
+                         judge(
+                             [&](PrimitiveId i, PrimitiveId j, const P& p, const P& q) {
+                               const bool turned = j < i;
+                               const PrimitiveId first = turned ? j : i, second = turned ? i : j;
+                               offer(collector, first, second, turned ? q : p, turned ? p : q,
+                                     rules.threshold(first, second), [&] { return rules.admits(first, second); });
+                             },
+                             [&](PrimitiveId i, PrimitiveId j) {
+                               return in_order(i, j, [&](auto k, auto l) { return rules.threshold(k, l); });
+                             },
+                             [&](PrimitiveId i, PrimitiveId j) {
+                               return in_order(i, j, [&](auto k, auto l) { return rules.admits(k, l); });
+                             },
+                             [](LinkId, LinkId) { return true; }),
+                         collector, options, counts);
+      return add(options.counts, counts);
+    }
     WideSide<P>& side = present_side();
     side.begin(placement_, options.moved_only, options.clearance);
     const auto decide = [&](PrimitiveId i, PrimitiveId j, const P& p, const P& q) __attribute__((always_inline)) {
@@ -103,6 +126,18 @@ class Wide {
     const auto decide = [&](PrimitiveId i, PrimitiveId j, const P& p, const P& q) {
       offer(collector, i, j, p, q, rules.threshold(i, j), [&] { return rules.admits(i, j); });
     };
+    if (by_trees() && other.by_trees() && trees_->fits(*other.trees_)) {
+      trees_->query(placement_, *other.trees_, other.placement_,
+                    judge(
+                        decide, [&](PrimitiveId i, PrimitiveId j) { return rules.threshold(i, j); },
+                        [&](PrimitiveId i, PrimitiveId j) { return rules.admits(i, j); },
+                        [&](LinkId a, LinkId b) {
+                          if constexpr (AdmitsLinks<G>) return across.admits(a, b);
+                          return true;
+                        }),
+                    collector, options, counts);
+      return add(options.counts, counts);
+    }
     WideSide<P>&mine = present_side(), &theirs = other.present_side();
     mine.begin(placement_, false, options.clearance);
     theirs.begin(other.placement_, false, options.other_clearance);
@@ -134,8 +169,24 @@ class Wide {
   }
 
  private:
+  template <class Decide, class Threshold, class Admits, class AdmitsPairs>
+  struct Judge {
+    Decide decide;
+    Threshold threshold;
+    Admits admits;
+    AdmitsPairs admits_links;
+  };
+  /// What TreeSide asks.
+  template <class... Answers>
+  static Judge<Answers...> judge(Answers... answers) {
+    return {answers...};
+  }
+
+  /// Are the trees up to the present coordinates? They cannot hold groups that deform.
+  bool by_trees() const noexcept { return trees_.has_value() && !placement_.groups_may_deform(); }
+
   WideSide<P>& present_side() {
-    if (!placement_.groups_may_deform()) return by_groups_;
+    if (by_groups_ && !placement_.groups_may_deform()) return *by_groups_;
     if (!by_index_) {
       const SelectedModel<P>& model = placement_.model();
       by_index_.emplace(std::make_shared<const WideParts<P>>(BlockLayout::by_index(model),
@@ -216,7 +267,8 @@ class Wide {
   Placement<P> placement_;
   F filter_;
   D matrix_;
-  WideSide<P> by_groups_;
+  std::optional<TreeSide<P>> trees_;  // one of these two, as the primitive is
+  std::optional<WideSide<P>> by_groups_;
   std::optional<WideSide<P>> by_index_;  // made when coordinates from elsewhere first come
   TaskLister<P> lister_;                 // scratch
   std::size_t visits_ = 0;               // scratch: tasks decided so far in a query, up to placed_alone

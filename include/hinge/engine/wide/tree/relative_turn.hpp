@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// RelativeTurn: two trees' frames as floats see them, each in the other's, and how far that may be off.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "hinge/core/vec3.hpp"
+#include "hinge/engine/wide/tree/static_tree.hpp"
+#include "hinge/kinematics/frame.hpp"
+#include "hinge/simd/lanes.hpp"
+
+namespace hinge {
+
+/// A tree's frame in the world: x_world = R x / scale + middle. R's transpose is kept beside it.
+struct TreeFrame {
+  TreeFrame() = default;
+  /// `local`: the tree's origin in the frame of its group.
+  TreeFrame(const Frame& frame, const Vec3& local) noexcept : turn(frame) {
+    FrameColumns(frame).place(local[0], local[1], local[2]).store(middle.data());
+    for (std::size_t r = 0; r < 3; ++r)
+      for (std::size_t c = 0; c < 3; ++c) back.column[4 * r + c] = frame.column[4 * c + r];
+    magnitude = 0.0;
+    for (std::size_t k = 0; k < 3; ++k)
+      magnitude = std::max({magnitude, std::abs(middle[k]), std::abs(frame.column[12 + k]),
+                            std::abs(local[static_cast<Eigen::Index>(k)])});
+  }
+
+  Frame turn, back;
+  alignas(32) std::array<double, 4> middle{};
+  double magnitude = 0.0;  ///< of what its world coordinates were computed from, model unit
+};
+
+/// x -> rotation x + translation in float, from one tree's unit to another's; the rotation holds the ratio of units.
+struct Turn {
+  std::array<float, 9> rotation;  ///< column by column
+  std::array<float, 9> size;      ///< its magnitudes, rounded up
+  std::array<float, 3> translation;
+  float ratio = 1.0F;        ///< of the units
+  float box_error = 0.0F;    ///< of turned boxes, in the unit of the result
+  float point_error = 0.0F;  ///< of turned points, and twice the rounding of a projection of such a point
+
+  /// The box around the turned box, up to box_error.
+  [[gnu::always_inline]] TreeBox operator()(const TreeBox& box) const noexcept {
+    TreeBox r;
+    for (std::size_t k = 0; k < 3; ++k) {
+      r.middle[k] = rotation[k] * box.middle[0] + rotation[3 + k] * box.middle[1] + rotation[6 + k] * box.middle[2] +
+                    translation[k];
+      r.half[k] = size[k] * box.half[0] + size[3 + k] * box.half[1] + size[6 + k] * box.half[2];
+    }
+    return r;
+  }
+};
+
+/// docs/explanation/float_filter.md derives the errors.
+struct RelativeTurn {
+  /// extents: largest magnitudes of the trees' coordinates, each in its own unit (scales: per model unit).
+  RelativeTurn(const TreeFrame& a, double scale_a, float extent_a, const TreeFrame& b, double scale_b,
+               float extent_b) noexcept {
+    constexpr double u = 0x1p-24, v = 0x1p-53;
+    const double ratio = scale_a / scale_b;  // a power of two
+    const simd::Double4 between = simd::Double4(b.middle.data()) - simd::Double4(a.middle.data());
+    std::array<double, 4> d, t, s, column;
+    between.store(d.data());
+    const FrameColumns to_a(a.back), to_b(b.back);
+    to_a.turn(d[0], d[1], d[2]).store(t.data());
+    to_b.turn(-d[0], -d[1], -d[2]).store(s.data());
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double* x = b.turn.column.data() + 4 * c;
+      to_a.turn(x[0], x[1], x[2]).store(column.data());
+      for (std::size_t r = 0; r < 3; ++r) {
+        b_to_a.rotation[3 * c + r] = static_cast<float>(column[r] * ratio);
+        a_to_b.rotation[3 * r + c] = static_cast<float>(column[r] / ratio);
+        const double size = std::abs(column[r]) * (1 + 16 * u) + 2 * u;
+        b_to_a.size[3 * c + r] = static_cast<float>(size * ratio);
+        a_to_b.size[3 * r + c] = static_cast<float>(size / ratio);
+      }
+    }
+    double largest = 0.0;
+    for (std::size_t r = 0; r < 3; ++r) {
+      b_to_a.translation[r] = static_cast<float>(t[r] * scale_a);
+      a_to_b.translation[r] = static_cast<float>(s[r] * scale_b);
+      largest = std::max(largest, std::abs(t[r]));
+    }
+    const double reach =
+        2 * (largest * scale_a + static_cast<double>(extent_a) + ratio * static_cast<double>(extent_b));
+    const double placing = 64 * v * scale_a * (a.magnitude + b.magnitude);
+    b_to_a.box_error = static_cast<float>(32 * u * reach + 2 * placing) * (1.0F + 0x1p-20F);
+    b_to_a.point_error = static_cast<float>(20 * u * reach + placing) * (1.0F + 0x1p-20F);
+    a_to_b.box_error = static_cast<float>((32 * u * reach + 2 * placing) / ratio) * (1.0F + 0x1p-20F);
+    a_to_b.point_error = static_cast<float>((20 * u * reach + placing) / ratio) * (1.0F + 0x1p-20F);
+    b_to_a.ratio = static_cast<float>(ratio);
+    a_to_b.ratio = static_cast<float>(1 / ratio);
+    sane = reach <= 1e6;
+  }
+
+  Turn b_to_a, a_to_b;
+  bool sane = false;  ///< within what products of four floats can hold; else nothing is proved apart by points
+};
+
+/// Which children of a node may come within `margin` of a box given in the node's frame, `turn` being the turn that
+/// brought it there: six face axes. Lanes that are surely farther are left out.
+[[gnu::always_inline]] inline simd::Bits near_lanes(const TreeNode& node, const TreeBox& box, const TreeBox& turned,
+                                                    const Turn& turn, float margin) noexcept {
+  using simd::Float16;
+  constexpr std::size_t n = simd::width;
+  const float slack = margin + turn.box_error;
+  std::array<Float16, 3> d, half;
+  simd::Bits near = node.used;
+  for (std::size_t k = 0; k < 3; ++k) {
+    d[k] = Float16(node.middle.data() + k * n) - Float16(turned.middle[k]);
+    half[k] = Float16(node.half.data() + k * n);
+    near &= ~less(half[k] + Float16(turned.half[k] + slack), abs(d[k]));
+  }
+  // The box's own axes are the rotation's columns, as long as the ratio.
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Float16 along = d[0] * Float16(turn.rotation[3 * k]) + d[1] * Float16(turn.rotation[3 * k + 1]) +
+                          d[2] * Float16(turn.rotation[3 * k + 2]);
+    const Float16 reach = half[0] * Float16(turn.size[3 * k]) + half[1] * Float16(turn.size[3 * k + 1]) +
+                          half[2] * Float16(turn.size[3 * k + 2]);
+    near &= ~less(reach + Float16(turn.ratio * (turn.ratio * box.half[k] + slack)), abs(along));
+  }
+  return near;
+}
+
+}  // namespace hinge

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// TreeParts: one static tree per link of a rigid group, all in the group's frame, and which of them are tested.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "hinge/bounds/aabb.hpp"
+#include "hinge/bounds/float_box.hpp"
+#include "hinge/core/id.hpp"
+#include "hinge/engine/wide/rigid_blocks.hpp"
+#include "hinge/engine/wide/tree/static_tree.hpp"
+#include "hinge/kinematics/pose_source.hpp"
+#include "hinge/model/selected_model.hpp"
+#include "hinge/policy/distance_matrix.hpp"
+#include "hinge/policy/pair_filter.hpp"
+#include "hinge/policy/primitive.hpp"
+#include "hinge/primitive/leaf.hpp"
+#include "hinge/primitive/triangle_leaf.hpp"
+
+namespace hinge {
+
+/// The primitives of one link. Lengths in the unit of the trees.
+struct TreePart {
+  BoxId root = 0;
+  std::uint32_t group = 0;
+  LinkId link{};
+  float extent = 0.0F;  ///< largest magnitude of a coordinate, without reaches
+  float reach = 0.0F;   ///< the largest
+  LocalBox box;         ///< in the group's frame, around everything, reaches included
+};
+
+/// Computed once when the DOF are selected; shared by copies of an engine.
+template <Primitive P>
+struct TreeParts {
+  template <PairFilter F, DistanceMatrix D>
+  TreeParts(const SelectedModel<P>& model, const F& filter, const D& matrix);
+
+  /// Bits of the parts 16 row ... 16 row + 15 that are tested with part p; only of earlier parts.
+  simd::Bits tested_with(std::size_t p, std::size_t row) const noexcept { return tested[p * rows() + row]; }
+  std::size_t rows() const noexcept { return (parts.size() + simd::width - 1) / simd::width; }
+
+  const float* leaf(std::uint32_t l) const noexcept { return leaves.data() + std::size_t{l} * Leaf<P>::floats; }
+  /// Null where all reaches are 0.
+  const float* leaf_reach(std::uint32_t l) const noexcept {
+    return reaches.empty() ? nullptr : reaches.data() + std::size_t{l} * simd::width;
+  }
+
+  std::vector<TreePart> parts;  ///< by group
+  std::vector<Vec3> origin;     ///< per group: of its trees, in its frame
+  double scale = 1.0;           ///< power of two that brings the largest group to a size where float products are safe
+  Vec3 world_origin = Vec3::Zero();  ///< about where the model is at the reference
+  TreeStore store;
+  simd::AlignedVector<float> leaves;
+  simd::AlignedVector<float> reaches;
+  std::vector<std::uint16_t> tested;
+  double largest_threshold = 0.0;  ///< no pair has a larger one, model unit
+  std::size_t depth = 0;           ///< of the deepest tree
+
+ private:
+  void measure(const SelectedModel<P>& model, const std::vector<Aabb>& boxes);
+  template <DistanceMatrix D>
+  void build(const SelectedModel<P>& model, const D& matrix, const std::vector<Aabb>& boxes);
+};
+
+template <Primitive P>
+template <PairFilter F, DistanceMatrix D>
+TreeParts<P>::TreeParts(const SelectedModel<P>& model, const F& filter, const D& matrix) {
+  std::vector<Aabb> boxes(model.size());
+  for (std::size_t i = 0; i < model.size(); ++i) boxes[i] = model.primitives()[i].bounds();
+  measure(model, boxes);
+  build(model, matrix, boxes);
+  tested.assign(parts.size() * rows(), 0);
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    for (std::size_t q = 0; q < p; ++q) {
+      if (parts[p].group == parts[q].group) continue;
+      if constexpr (AdmitsLinks<F>)
+        if (!filter.admits(parts[q].link, parts[p].link)) continue;
+      tested[p * rows() + q / simd::width] |= static_cast<std::uint16_t>(1U << q % simd::width);
+    }
+}
+
+template <Primitive P>
+void TreeParts<P>::measure(const SelectedModel<P>& model, const std::vector<Aabb>& boxes) {
+  const std::size_t groups = model.groups()->size();
+  PoseSource reference(model.groups(), model.selection().size());
+  double size = 0.0;
+  Aabb all;
+  for (std::size_t g = 0; g < groups; ++g) {
+    Aabb box;
+    for (const PrimitiveId i : model.primitives_of(id<GroupId>(g))) box.extend(boxes[index(i)]);
+    origin.push_back(Vec3::Zero());
+    if (box.is_empty()) continue;
+    for (int k = 0; k < 3; ++k) {
+      origin[g][k] = box.middle(k);
+      size = std::max(size, box.length(k));
+    }
+    all.extend(reference.pose(id<GroupId>(g)) * origin[g]);
+  }
+  for (int k = 0; k < 3 && !all.is_empty(); ++k) world_origin[k] = all.middle(k);
+  int exponent = 0;
+  if (size > 0.0) std::frexp(size, &exponent);
+  scale = size > 0.0 ? std::ldexp(1.0, std::clamp(6 - exponent, -1000, 1000)) : 1.0;
+}
+
+template <Primitive P>
+template <DistanceMatrix D>
+void TreeParts<P>::build(const SelectedModel<P>& model, const D& matrix, const std::vector<Aabb>& boxes) {
+  std::vector<std::uint32_t> order(model.size());
+  std::iota(order.begin(), order.end(), 0U);
+  const auto key = [&](std::uint32_t i) {
+    return std::pair(model.group_of(id<PrimitiveId>(i)), model.model().links()[i]);
+  };
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) { return key(i) < key(j); });
+  // A float, its neighbour's distance outward, and what subtracting and scaling in double lose.
+  const auto above = [](double x) { return float_above(x + std::abs(x) * 0x1p-50); };
+  std::vector<BuildItem> items;
+  std::vector<float> reach;
+  TreeBuilder builder;
+  for (std::size_t first = 0; first < order.size();) {
+    std::size_t last = first;
+    items.clear();
+    TreePart part;
+    part.group = static_cast<std::uint32_t>(index(key(order[first]).first));
+    part.link = key(order[first]).second;
+    const Vec3& o = origin[part.group];
+    Aabb whole;
+    for (; last < order.size() && key(order[last]) == key(order[first]); ++last) {
+      const std::uint32_t i = order[last];
+      const double r = matrix.reach(id<PrimitiveId>(i)) * scale;
+      BuildItem item{{}, {}, i};
+      for (int k = 0; k < 3; ++k) {
+        const auto axis = static_cast<std::size_t>(k);
+        const double low = (boxes[i].lower[k] - o[k]) * scale, high = (boxes[i].upper[k] - o[k]) * scale;
+        part.extent = std::max({part.extent, above(-low), above(high)});
+        item.lower[axis] = -above(r - low);
+        item.upper[axis] = above(high + r);
+      }
+      part.reach = std::max(part.reach, above(r));
+      largest_threshold = std::max(largest_threshold, 2 * matrix.reach(id<PrimitiveId>(i)));
+      whole.extend(r > 0.0 ? boxes[i].inflated(matrix.reach(id<PrimitiveId>(i))) : boxes[i]);
+      items.push_back(item);
+    }
+    const std::size_t leaf = store.real.size();
+    const TreeBuilder::Tree tree = builder.build(items, store);
+    part.root = tree.root;
+    depth = std::max(depth, tree.depth);
+    for (int k = 0; k < 3; ++k) {
+      const auto axis = static_cast<std::size_t>(k);
+      part.box.middle[axis] = whole.middle(k);
+      part.box.half[axis] =
+          above(std::max(whole.upper[k] - whole.middle(k), whole.middle(k) - whole.lower[k]) * scale * (1 + 0x1p-50));
+    }
+    leaves.resize(store.real.size() * Leaf<P>::floats);
+    for (std::size_t slot = leaf * simd::width; slot < store.slots.size(); ++slot) {
+      const std::uint32_t i = store.slots[slot];
+      Leaf<P>::set(leaves.data() + slot / simd::width * Leaf<P>::floats, slot % simd::width, model.primitives()[i], o,
+                   scale);
+      reach.push_back(above(matrix.reach(id<PrimitiveId>(i)) * scale));
+    }
+    parts.push_back(part);
+    first = last;
+  }
+  if (std::any_of(reach.begin(), reach.end(), [](float r) { return r > 0.0F; }))
+    reaches.assign(reach.begin(), reach.end());
+}
+
+}  // namespace hinge

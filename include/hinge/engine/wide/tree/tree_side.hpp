@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// TreeSide: one model in the tree half of engine/wide, and the queries that walk its trees.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "hinge/core/id.hpp"
+#include "hinge/engine/wide/tree/find_closest.hpp"
+#include "hinge/engine/wide/tree/find_near.hpp"
+#include "hinge/engine/wide/tree/relative_turn.hpp"
+#include "hinge/engine/wide/tree/tree_parts.hpp"
+#include "hinge/engine/wide/tree/tree_state.hpp"
+#include "hinge/engine/wide/tree/witnesses.hpp"
+#include "hinge/model/placement.hpp"
+#include "hinge/policy/collector.hpp"
+#include "hinge/query/pair_rules.hpp"
+#include "hinge/query/query_options.hpp"
+
+namespace hinge {
+
+/// Optional refinement of collectors: knows pairs of links of which it wants no more. What it refuses it keeps refusing
+/// in the same query.
+template <class C>
+concept RefusesLinks = Collector<C> && requires(const C& collector, LinkId a, LinkId b) {
+  { collector.wants(a, b) }
+  noexcept->std::same_as<bool>;
+};
+
+/// Optional refinement of collectors that rank: only the pair with the smallest d - M is of interest, so that an upper
+/// bound of one pair rules out others before any is handed over.
+template <class C>
+concept KeepsSmallest = Collector<C> && C::ranks && requires {
+  requires C::keeps_smallest;
+};
+
+/// One of two models in a query, as far as it is asked: trees, coordinates and extra clearance of its groups.
+template <Primitive P>
+struct TreeOperand {
+  TreeState<P>& state;
+  Placement<P>& placement;
+  std::span<const double> clearance;
+
+  const TreePart& part(std::size_t p) const noexcept { return state.parts().parts[p]; }
+  double clearance_at(std::size_t p) const noexcept { return clearance_of(clearance, id<GroupId>(part(p).group)); }
+  double largest_clearance() const noexcept {
+    double most = 0.0;
+    for (const double c : clearance) most = std::max(most, c);
+    return most;
+  }
+  PrimitiveId primitive(std::uint32_t slot) const noexcept { return id<PrimitiveId>(state.parts().store.slots[slot]); }
+  RelativeTurn turn(std::size_t p, const TreeOperand& other, std::size_t q) const noexcept {
+    const TreePart &a = part(p), &b = other.part(q);
+    return {state.frame(a.group),       state.parts().scale,       a.extent,
+            other.state.frame(b.group), other.state.parts().scale, b.extent};
+  }
+  /// A length in the trees' unit, with room for the rounding of sums of a few such numbers.
+  float scaled(double length) const noexcept {
+    const double there = length * state.parts().scale;
+    return float_above(there + std::abs(there) * 0x1p-20);
+  }
+};
+
+/// One model and its scratch. Counts are of sixteen lanes each. A query's Judge has, for i of the one model and j of
+/// the other: decide(i, j, p, q) for a pair that floats could not rule out, placed; threshold(i, j); admits(i, j);
+/// admits_links(a, b), which may refuse all pairs of two links.
+template <Primitive P>
+class TreeSide {
+ public:
+  explicit TreeSide(std::shared_ptr<const TreeParts<P>> parts) : state_(std::move(parts)) {
+    finder_.reserve(2 * state_.parts().depth);
+    closest_.reserve(2 * state_.parts().depth);
+  }
+
+  template <Collector C, class Judge>
+  void self_query(Placement<P>& placement, const Judge& judge, C& collector, const QueryOptions& options,
+                  QueryCounts& counts) {
+    state_.refresh(placement);
+    const TreeOperand<P> mine{state_, placement, options.clearance};
+    const auto wanted = [&](std::uint32_t q, std::size_t p) {
+      const TreePart &a = mine.part(q), &b = mine.part(p);
+      return !options.moved_only || placement.moved_apart(id<GroupId>(a.group), id<GroupId>(b.group));
+    };
+    const std::size_t n = state_.parts().parts.size();
+    const double most = mine.largest_clearance();
+    if constexpr (C::ranks) {
+      find_closest(mine, mine, witnesses_, judge, collector, counts, [&](double bound) {
+        for (std::size_t p = 1; p < n; ++p)
+          state_.append_before(p, mine.scaled(bound + mine.clearance_at(p) + most), pairs_);
+        counts.boxes_tested += n * state_.parts().rows() / 2;
+        std::erase_if(pairs_, [&](const PartPair& pair) { return !wanted(pair.first, pair.second); });
+      });
+    } else {
+      for (std::size_t p = 1; p < n && !collector.done(); ++p) {
+        counts.boxes_tested += p / simd::width + 1;
+        for (const std::uint32_t q : state_.before(p, mine.scaled(collector.cutoff() + mine.clearance_at(p) + most))) {
+          if (!wanted(q, p)) continue;
+          find_near(mine, q, mine, p, collector.cutoff(), judge, collector, counts);
+          if (collector.done()) break;
+        }
+      }
+    }
+  }
+
+  /// Are the units of the two alike enough for floats to hold both?
+  bool fits(const TreeSide& theirs) const noexcept {
+    const double ratio = state_.parts().scale / theirs.state_.parts().scale;
+    return ratio >= 0x1p-60 && ratio <= 0x1p60;
+  }
+
+  /// Between two models.
+  template <Collector C, class Judge>
+  void query(Placement<P>& placement, TreeSide& theirs, Placement<P>& their_placement, const Judge& judge, C& collector,
+             const QueryOptions& options, QueryCounts& counts) {
+    state_.refresh(placement);
+    theirs.state_.refresh(their_placement);
+    const TreeOperand<P> mine{state_, placement, options.clearance};
+    const TreeOperand<P> others{theirs.state_, their_placement, options.other_clearance};
+    const std::size_t depth = state_.parts().depth + theirs.state_.parts().depth;
+    finder_.reserve(depth);
+    closest_.reserve(depth);
+    const auto wanted = [&](std::size_t p, std::size_t q) {
+      const TreePart &a = mine.part(p), &b = others.part(q);
+      return judge.admits_links(a.link, b.link) && (!options.moved_only || placement.moved(id<GroupId>(a.group)) ||
+                                                    their_placement.moved(id<GroupId>(b.group)));
+    };
+    // Their boxes in this model's unit and origin.
+    const auto ratio = static_cast<float>(state_.parts().scale / theirs.state_.parts().scale);
+    const auto their_box = [&](std::size_t q) {
+      FloatBox box = theirs.state_.world_box(q, their_placement, state_.world_origin());
+      for (std::size_t k = 0; k < 3; ++k) {
+        box.lower[k] *= ratio;
+        box.upper[k] *= ratio;
+      }
+      return box;
+    };
+    const std::size_t n = theirs.state_.parts().parts.size();
+    const double most = mine.largest_clearance();
+    if constexpr (C::ranks) {
+      if (witnessed_ != theirs.state_.shared_parts().get()) cross_witnesses_.clear();
+      witnessed_ = theirs.state_.shared_parts().get();
+      find_closest(mine, others, cross_witnesses_, judge, collector, counts, [&](double bound) {
+        for (std::size_t q = 0; q < n; ++q)
+          state_.append_near(their_box(q), mine.scaled(bound + others.clearance_at(q) + most), q, pairs_);
+        counts.boxes_tested += n * state_.parts().rows();
+        std::erase_if(pairs_, [&](const PartPair& pair) { return !wanted(pair.first, pair.second); });
+      });
+    } else {
+      for (std::size_t q = 0; q < n && !collector.done(); ++q) {
+        counts.boxes_tested += state_.parts().rows();
+        const float margin = mine.scaled(collector.cutoff() + others.clearance_at(q) + most);
+        for (const std::uint32_t p : state_.meeting(their_box(q).grown(margin))) {
+          if (!wanted(p, q)) continue;
+          find_near(mine, p, others, q, collector.cutoff(), judge, collector, counts);
+          if (collector.done()) break;
+        }
+      }
+    }
+  }
+
+ private:
+  template <Collector C>
+  static bool asks(const C& collector, LinkId a, LinkId b) noexcept {
+    if constexpr (RefusesLinks<C>) return collector.wants(a, b);
+    return true;
+  }
+
+  /// All pairs of two parts with d - M below a margin, until the collector wants no more.
+  template <Collector C, class Judge>
+  void find_near(const TreeOperand<P>& a, std::size_t p, const TreeOperand<P>& b, std::size_t q, double cutoff,
+                 const Judge& judge, C& collector, QueryCounts& counts) {
+    const TreePart &part_a = a.part(p), &part_b = b.part(q);
+    if (!asks(collector, part_a.link, part_b.link)) return;
+    const double margin = cutoff + a.clearance_at(p) + b.clearance_at(q);
+    finder_.run(a.state.parts(), part_a, b.state.parts(), part_b, a.turn(p, b, q), a.scaled(margin), counts,
+                [&](std::uint32_t leaf, std::uint32_t slot, simd::Bits lanes) noexcept {
+                  const PrimitiveId j = b.primitive(slot);
+                  const P other = b.placement.alone(j);
+                  for (; lanes != 0; lanes &= lanes - 1) {
+                    const auto k = static_cast<std::uint32_t>(std::countr_zero(lanes));
+                    const PrimitiveId i = a.primitive(leaf * static_cast<std::uint32_t>(simd::width) + k);
+                    judge.decide(i, j, a.placement.alone(i), other);
+                    if (collector.done() || !asks(collector, part_a.link, part_b.link)) return false;
+                  }
+                  return true;
+                });
+  }
+
+  /// list(bound) fills pairs_ with all parts that may hold a pair with d - M <= bound.
+  template <Collector C, class Judge, class List>
+  void find_closest(const TreeOperand<P>& a, const TreeOperand<P>& b, Witnesses<P>& witnesses, const Judge& judge,
+                    C& collector, QueryCounts& counts, const List& list) {
+    const double scale = a.state.parts().scale;
+    double bound = collector.cutoff();
+    if constexpr (KeepsSmallest<C>) bound = std::min(bound, witnesses.bound(a.placement, b.placement, judge));
+    pairs_.clear();
+    list(bound);
+    std::sort(pairs_.begin(), pairs_.end(), [](const PartPair& x, const PartPair& y) {
+      return std::tie(x.gap, x.first, x.second) < std::tie(y.gap, y.first, y.second);
+    });
+    // No pair can come closer than this.
+    const double least = -std::max(a.state.parts().largest_threshold, b.state.parts().largest_threshold) -
+                         a.largest_clearance() - b.largest_clearance();
+    candidates_.clear();
+    const auto settle = [&] {
+      std::sort(candidates_.begin(), candidates_.end(),
+                [](const Candidate& x, const Candidate& y) { return x.lower < y.lower; });
+      for (const Candidate& c : candidates_) {
+        if (c.lower > collector.cutoff() || (KeepsSmallest<C> && collector.cutoff() <= least)) break;
+        const PrimitiveId i = a.primitive(c.slot_a), j = b.primitive(c.slot_b);
+        judge.decide(i, j, a.placement.alone(i), b.placement.alone(j));
+      }
+      candidates_.clear();
+      bound = std::min(bound, collector.cutoff());
+    };
+    if (KeepsSmallest<C> && least == 0.0) {
+      // Whether anything collides at all is found sooner than what is closest, and then nothing is closer.
+      for (const PartPair& pair : pairs_) {
+        if (pair.gap > 0.0F || collector.cutoff() <= least) break;
+        find_near(a, pair.first, b, pair.second, 0.0, judge, collector, counts);
+      }
+      bound = std::min(bound, collector.cutoff());
+    }
+    for (const PartPair& pair : pairs_) {
+      if (collector.done() || (KeepsSmallest<C> && collector.cutoff() <= least)) break;
+      const double extra = a.clearance_at(pair.first) + b.clearance_at(pair.second);
+      // Boxes that overlap say nothing about how deep.
+      if (pair.gap > 0.0F && static_cast<double>(pair.gap) / scale - extra > bound) {
+        if (extra == 0.0) break;  // nearest first
+        continue;
+      }
+      const float* const reach_a = a.state.parts().leaf_reach(0);
+      const float* const reach_b = b.state.parts().leaf_reach(0);
+      const double ratio = scale / b.state.parts().scale;
+      closest_.run(a.state.parts(), a.part(pair.first), b.state.parts(), b.part(pair.second),
+                   a.turn(pair.first, b, pair.second), a.scaled(bound + extra), counts,
+                   [&](const auto& slots_a, const auto& slots_b, std::size_t n, const Bounds16& bounds) noexcept {
+                     for (std::size_t k = 0; k < n; ++k) {
+                       double reach = 0.0;
+                       if (reach_a != nullptr) reach += static_cast<double>(reach_a[slots_a[k]]);
+                       if (reach_b != nullptr) reach += static_cast<double>(reach_b[slots_b[k]]) * ratio;
+                       reach = reach / scale + extra;
+                       const double upper = static_cast<double>(bounds.upper[k]) / scale;
+                       if (KeepsSmallest<C> && upper - reach < bound) {
+                         const PrimitiveId i = a.primitive(slots_a[k]), j = b.primitive(slots_b[k]);
+                         if (judge.admits(i, j)) bound = std::min(bound, upper - judge.threshold(i, j));
+                       }
+                       const double lower = static_cast<double>(bounds.lower[k]) / scale - reach;
+                       if (lower <= bound) candidates_.push_back({slots_a[k], slots_b[k], lower});
+                     }
+                     if (!KeepsSmallest<C> || candidates_.size() >= most_candidates) settle();
+                     return a.scaled(bound + extra);
+                   });
+    }
+    settle();
+    if constexpr (KeepsSmallest<C> && requires { collector.hit()->first; })
+      if (collector.hit()) witnesses.remember(*collector.hit(), a.placement, b.placement);
+  }
+
+  struct Candidate {
+    std::uint32_t slot_a, slot_b;
+    double lower;  // of d - M, model unit
+  };
+  static constexpr std::size_t most_candidates = 1024;
+
+  TreeState<P> state_;
+  NearFinder<P> finder_;
+  ClosestFinder<P> closest_;
+  std::vector<PartPair> pairs_;
+  std::vector<Candidate> candidates_;
+  Witnesses<P> witnesses_, cross_witnesses_;
+  const void* witnessed_ = nullptr;  // whose pairs cross_witnesses_ holds
+};
+
+}  // namespace hinge

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The trees of engine/wide: what they hold, and every query through them against brute force.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "engine/random_mechanism.hpp"
+#include "engine/side_by_side.hpp"
+#include "hinge/engine/wide/tree/static_tree.hpp"
+#include "hinge/hierarchy.hpp"
+#include "hinge/policy/different_links.hpp"
+#include "hinge/primitive/triangle.hpp"
+#include "hinge/query/link_pair_hits.hpp"
+
+namespace hinge {
+namespace {
+
+using test::Random;
+
+/// Walks a tree; every box must hold what is below it. Returns the primitives of its leaves.
+std::vector<std::uint32_t> collect(const TreeStore& store, BoxId root, const std::vector<BuildItem>& items) {
+  std::vector<std::uint32_t> found;
+  std::vector<std::pair<BoxId, std::vector<BoxId>>> stack{{root, {}}};
+  while (!stack.empty()) {
+    auto [id, above] = stack.back();
+    stack.pop_back();
+    above.push_back(id);
+    EXPECT_NE(store.nodes[id / 16].used >> id % 16 & 1U, 0U);
+    if (!store.is_leaf(id)) {
+      EXPECT_NE(store.nodes[id / 16].inner >> id % 16 & 1U, 0U);
+      const std::uint32_t node = store.child(id);
+      for (BoxId lane = 0; lane < 16; ++lane)
+        if ((store.nodes[node].used >> lane & 1U) != 0) stack.push_back({node * 16 + lane, above});
+      continue;
+    }
+    const std::uint32_t leaf = store.leaf(id);
+    for (std::size_t k = 0; k < 16; ++k) {
+      const std::uint32_t primitive = store.slots[leaf * 16 + k];
+      if ((store.real[leaf] >> k & 1U) == 0) continue;
+      found.push_back(primitive);
+      for (const BoxId box_id : above) {
+        const TreeBox box = store.box(box_id);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const auto middle = static_cast<double>(box.middle[axis]), half = static_cast<double>(box.half[axis]);
+          EXPECT_LE(middle - half, static_cast<double>(items[primitive].lower[axis]));
+          EXPECT_GE(middle + half, static_cast<double>(items[primitive].upper[axis]));
+        }
+      }
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+void expect_whole(std::vector<BuildItem> items, std::size_t deepest) {
+  const std::vector<BuildItem> as_given = items;
+  TreeStore store;
+  TreeBuilder builder;
+  const TreeBuilder::Tree tree = builder.build(items, store);
+  const std::vector<std::uint32_t> found = collect(store, tree.root, as_given);
+  ASSERT_EQ(found.size(), as_given.size());
+  for (std::uint32_t k = 0; k < found.size(); ++k) EXPECT_EQ(found[k], k);
+  EXPECT_LE(tree.depth, deepest);
+}
+
+BuildItem item(std::size_t k, const Vec3& at, double size) {
+  BuildItem made{{}, {}, static_cast<std::uint32_t>(k)};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    made.lower[axis] = static_cast<float>(at[static_cast<Eigen::Index>(axis)] - size);
+    made.upper[axis] = static_cast<float>(at[static_cast<Eigen::Index>(axis)] + size);
+  }
+  return made;
+}
+
+TEST(StaticTree, HoldsEveryPrimitiveOnceInsideAllItsBoxes) {
+  Random random(11);
+  for (const std::size_t n : {1U, 2U, 16U, 17U, 100U, 255U, 256U, 257U, 5000U}) {
+    SCOPED_TRACE(n);
+    std::vector<BuildItem> items;
+    for (std::size_t k = 0; k < n; ++k) items.push_back(item(k, random.vector(30.0), random.uniform(0.0, 1.0)));
+    expect_whole(items, n <= 16 ? 1 : n <= 256 ? 4 : 8);
+  }
+}
+
+TEST(StaticTree, StaysShallowOnInputThatCannotBeCutWell) {
+  std::vector<BuildItem> one_point, line, exponential;
+  constexpr std::size_t n = 20'000;
+  for (std::size_t k = 0; k < n; ++k) {
+    one_point.push_back(item(k, Vec3(1, 2, 3), 0.5));
+    line.push_back(item(k, Vec3(static_cast<double>(k) * 1e-3, 0, 0), 0.0));
+    exponential.push_back(item(k, Vec3(std::ldexp(1.0, -static_cast<int>(k % 120)), 0, 0), 0.0));
+  }
+  expect_whole(one_point, 8);
+  expect_whole(line, 8);
+  expect_whole(exponential, 60);
+}
+
+/// Links of many triangles: bumpy balls around the link's origin.
+Model<Triangle> bumpy_chain(Random& random, std::size_t links, std::size_t triangles, double size) {
+  ModelBuilder<Triangle> builder;
+  LinkId parent = world;
+  for (std::size_t l = 0; l < links; ++l) {
+    std::vector<Triangle> mesh;
+    for (std::size_t k = 0; k < triangles; ++k) {
+      const Vec3 at = Vec3(random.vector(1.0).normalized()) * (size * random.uniform(0.8, 1.0));
+      mesh.push_back({at, at + random.vector(size / 8), at + random.vector(size / 8)});
+    }
+    Pose origin = random.pose(size);
+    Joint joint = Revolute{Vec3(random.vector(1.0).normalized()), Vec3::Zero(), origin, {}};
+    if (random.one_in(4)) joint = Prismatic{Vec3(random.vector(1.0).normalized()), origin, {}};
+    if (random.one_in(4)) joint = Fixed{origin};
+    parent = builder.add_link(parent, joint, mesh);
+  }
+  return builder.finish();
+}
+
+TEST(TreeQueries, EqualBruteForceOnLinksOfManyTriangles) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const auto model = bumpy_chain(random, 3, 20 + 40 * (seed % 3), 1.5);
+    const DifferentLinks filter({model.links().begin(), model.links().end()});
+    test::compare_with_brute<Triangle, DifferentLinks, Wide>(random, filter, model);
+    if (HasFailure()) return;
+  }
+}
+
+TEST(TreeQueries, EqualBruteForceWithoutThresholds) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const auto model = bumpy_chain(random, seed % 5 == 0 ? 3 : 6, seed % 5 == 0 ? 300 : 60, 1.0);
+    const DifferentLinks filter({model.links().begin(), model.links().end()});
+    Hierarchy<Triangle, DifferentLinks, UniformClearance, Wide> tested(model, filter, UniformClearance(0.0));
+    Hierarchy<Triangle, DifferentLinks, UniformClearance, Brute> reference(model, filter, UniformClearance(0.0));
+    LinkPairHits links(model.links());
+    std::vector<double> q(tested.dof_count());
+    for (int step = 0; step < 6; ++step) {
+      for (double& value : q) value = random.uniform(-3.0, 3.0);
+      tested.update(q);
+      reference.update(q);
+      const auto all = reference.self_collisions();
+      test::expect_same(tested.self_collisions(), all);
+      EXPECT_EQ(tested.self_collides(), !all.empty());
+      const auto closest = tested.self_closest(), expected = reference.self_closest();
+      test::expect_same(closest, expected);
+      EXPECT_TRUE(all.empty() || closest->distance == 0.0);
+      std::set<std::pair<LinkId, LinkId>> pairs, found;
+      for (const Hit& hit : all) pairs.emplace(model.links()[index(hit.first)], model.links()[index(hit.second)]);
+      links.clear();
+      tested.self_query(links);
+      for (const Hit& hit : links.hits())
+        EXPECT_TRUE(found.emplace(model.links()[index(hit.first)], model.links()[index(hit.second)]).second);
+      EXPECT_EQ(found, pairs);
+    }
+    if (HasFailure()) return;
+  }
+}
+
+/// The same answers wherever the model stands and whatever its unit: trees are kept about their own middles.
+TEST(TreeQueries, EqualBruteForceFarFromTheOriginAndAtAnyScale) {
+  for (const double size : {1e-12, 1e-3, 1.0, 1e6, 1e12})
+    for (const double away : {0.0, 1e3, 1e9}) {
+      SCOPED_TRACE(size);
+      SCOPED_TRACE(away);
+      Random random(5);
+      const auto model = bumpy_chain(random, 4, 60, size);
+      const DifferentLinks filter({model.links().begin(), model.links().end()});
+      Hierarchy<Triangle, DifferentLinks, UniformClearance, Wide> tested(model, filter, UniformClearance(0.0));
+      Hierarchy<Triangle, DifferentLinks, UniformClearance, Brute> reference(model, filter, UniformClearance(0.0));
+      for (int step = 0; step < 3; ++step) {
+        std::vector<Pose> poses{Pose{}};
+        for (std::size_t g = 1; g < tested.model().groups()->size(); ++g) {
+          poses.push_back(random.pose(size));
+          poses.back().translation += Vec3::Constant(away * size);
+        }
+        tested.update_poses(poses);
+        reference.update_poses(poses);
+        test::expect_same(tested.self_collisions(), reference.self_collisions());
+        const auto closest = tested.self_closest(), expected = reference.self_closest();
+        ASSERT_EQ(closest.has_value(), expected.has_value());
+        if (!closest) continue;
+        EXPECT_NEAR(closest->distance, expected->distance, 1e-13 * (1 + away) * size);
+      }
+      if (HasFailure()) return;
+    }
+}
+
+TEST(TreeQueries, EqualBruteForceBetweenModelsOfDifferentSizes) {
+  for (const double ratio : {1e-9, 1e-3, 0.3, 1.0, 40.0, 1e7}) {
+    SCOPED_TRACE(ratio);
+    Random random(3);
+    const auto model = bumpy_chain(random, 3, 80, 1.0), other = bumpy_chain(random, 3, 80, ratio);
+    const auto filter = [](const Model<Triangle>& m) { return DifferentLinks({m.links().begin(), m.links().end()}); };
+    Hierarchy<Triangle, DifferentLinks, UniformClearance, Wide> a(model, filter(model), UniformClearance(0.01)),
+        b(other, filter(other), UniformClearance(0.01));
+    Hierarchy<Triangle, DifferentLinks, UniformClearance, Brute> c(model, filter(model), UniformClearance(0.01)),
+        d(other, filter(other), UniformClearance(0.01));
+    for (int step = 0; step < 5; ++step) {
+      std::vector<double> q(a.dof_count()), r(b.dof_count());
+      for (double& value : q) value = random.uniform(-3.0, 3.0);
+      for (double& value : r) value = random.uniform(-3.0, 3.0) * std::min(ratio, 1.0);
+      a.update(q);
+      c.update(q);
+      b.update(r);
+      d.update(r);
+      test::expect_same(a.collisions(b), c.collisions(d));
+      test::expect_same(b.collisions(a), d.collisions(c));
+      test::expect_same(a.closest(b), c.closest(d));
+      EXPECT_EQ(a.collides(b), c.collides(d));
+    }
+    if (HasFailure()) return;
+  }
+}
+
+}  // namespace
+}  // namespace hinge

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What leaves of trees prove in float must be true of the placed primitives, however close they come.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "engine/random_mechanism.hpp"
+#include "hinge/engine/wide/tree/relative_turn.hpp"
+#include "hinge/primitive/pair_queue.hpp"
+#include "hinge/primitive/sphere.hpp"
+#include "hinge/primitive/triangle.hpp"
+#include "hinge/primitive/triangle_leaf.hpp"
+
+namespace hinge {
+namespace {
+
+using test::Random;
+
+/// Two frames, and sixteen primitives in each, near touching in pairs of equal lane.
+template <class P>
+struct Scene {
+  Pose a, b;
+  std::array<P, simd::width> mine, theirs;
+};
+
+Vec3 point_of(const Triangle& t, Random& random) {
+  const double u = random.uniform(0.0, 1.0), v = random.uniform(0.0, 1.0 - u);
+  return t.a + (t.b - t.a) * u + (t.c - t.a) * v;
+}
+
+/// The gap left between two things meant to touch: none, a few ulps, or more.
+double gap(Random& random, double size) {
+  return random.one_in(4) ? 0.0 : random.uniform(-1.0, 1.0) * size * std::pow(10.0, random.uniform(-17.0, -1.0));
+}
+
+Scene<Triangle> touching_triangles(Random& random, double size) {
+  Scene<Triangle> scene{random.pose(size), random.pose(size), {}, {}};
+  const Pose back = scene.b.inverse();
+  for (std::size_t k = 0; k < simd::width; ++k) {
+    const double edge = size * std::pow(10.0, random.uniform(-3.0, 0.0));
+    const Vec3 at = random.vector(size);
+    Triangle p{at, at + random.vector(edge), at + random.vector(edge)};
+    if (random.one_in(8)) p.c = random.one_in(2) ? p.b : Vec3((p.a + p.b) * 0.5);
+    const Vec3 normal = cross(Vec3(p.b - p.a), Vec3(p.c - p.a)), side = random.vector(1.0).normalized();
+    const Vec3 away = squared_norm(normal) > 0.0 ? Vec3(normal.normalized()) : side;
+    Vec3 contact = random.one_in(3) ? p.b : random.one_in(2) ? Vec3((p.a + p.b) * 0.5) : point_of(p, random);
+    contact = scene.a * Vec3(contact + away * gap(random, size));
+    // A corner there, or a point of an edge.
+    const Vec3 along = random.vector(edge);
+    Triangle q{contact, contact + away * edge + random.vector(edge), contact + away * edge + random.vector(edge)};
+    if (random.one_in(2)) q = {contact + along, contact - along, contact + away * edge + random.vector(edge)};
+    scene.mine[k] = p;
+    scene.theirs[k] = q.placed(back);
+  }
+  return scene;
+}
+
+template <class P>
+struct Packed {
+  Packed(const std::array<P, simd::width>& primitives) {
+    for (std::size_t k = 0; k < simd::width; ++k) {
+      Leaf<P>::set(floats.data(), k, primitives[k], Vec3::Zero(), 1.0);
+      const Aabb box = primitives[k].bounds();
+      for (int axis = 0; axis < 3; ++axis)
+        extent = std::max({extent, float_above(std::abs(box.lower[axis])), float_above(std::abs(box.upper[axis]))});
+    }
+  }
+  alignas(64) std::array<float, Leaf<P>::floats> floats{};
+  float extent = 0.0F;
+};
+
+template <class P>
+RelativeTurn relative(const Scene<P>& scene, const Packed<P>& mine, const Packed<P>& theirs) {
+  return {TreeFrame(Frame(scene.a), Vec3::Zero()), 1.0, mine.extent,
+          TreeFrame(Frame(scene.b), Vec3::Zero()), 1.0, theirs.extent};
+}
+
+template <class P>
+typename Leaf<P>::Turned turned(const Packed<P>& theirs, const RelativeTurn& turn) {
+  return {theirs.floats.data(), {turn.b_to_a.rotation, turn.b_to_a.size, turn.b_to_a.translation}};
+}
+
+/// Every pair within the margin is left; the share of the others that is left is returned.
+template <class P>
+double check(const Scene<P>& scene, double margin) {
+  const Packed<P> mine(scene.mine), theirs(scene.theirs);
+  const RelativeTurn turn = relative(scene, mine, theirs);
+  const auto there = turned(theirs, turn);
+  const Nearness near{float_above(margin), turn.b_to_a.point_error, nullptr, nullptr};
+  std::size_t left = 0, apart = 0;
+  for (std::size_t k = 0; k < simd::width; ++k) {
+    const simd::Bits lanes = there.near(k, mine.floats.data(), simd::all_bits, near);
+    for (std::size_t i = 0; i < simd::width; ++i) {
+      const bool close = closer_than(scene.mine[i].placed(scene.a), scene.theirs[k].placed(scene.b), margin);
+      const bool kept = (lanes >> i & 1U) != 0;
+      EXPECT_TRUE(kept || !close) << "lanes " << i << ", " << k;
+      apart += close ? 0U : 1U;
+      left += kept && !close ? 1U : 0U;
+    }
+  }
+  return static_cast<double>(left) / static_cast<double>(apart + 1);
+}
+
+TEST(TriangleLeaf, KeepsEveryPairWithinTheMargin) {
+  double left = 0.0;
+  constexpr int scenes = 2000;
+  for (std::uint64_t seed = 0; seed < scenes; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const double size = std::pow(10.0, random.uniform(-2.0, 2.0));
+    left += check(touching_triangles(random, size), random.one_in(2) ? 0.0 : gap(random, size) + size / 10) / scenes;
+    if (HasFailure()) return;
+  }
+  // It proves most pairs apart, else it would be of no use: the touching ones are one in sixteen.
+  EXPECT_LT(left, 0.1);
+}
+
+TEST(SphereLeaf, KeepsEveryPairWithinTheMargin) {
+  for (std::uint64_t seed = 0; seed < 500; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    Scene<Sphere> scene{random.pose(3.0), random.pose(3.0), {}, {}};
+    for (auto* spheres : {&scene.mine, &scene.theirs})
+      for (Sphere& s : *spheres) s = {random.vector(3.0), random.uniform(0.0, 0.7)};
+    check(scene, random.uniform(0.0, 1.0));
+    if (HasFailure()) return;
+  }
+}
+
+TEST(TriangleLeaf, BoundsDistancesFromBothSides) {
+  for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const double size = std::pow(10.0, random.uniform(-2.0, 2.0));
+    const Scene<Triangle> scene = touching_triangles(random, size);
+    const Packed<Triangle> mine(scene.mine), theirs(scene.theirs);
+    const RelativeTurn turn = relative(scene, mine, theirs);
+    const auto there = turned(theirs, turn);
+    PairQueue<Triangle> queue;
+    const std::size_t shift = random.below(simd::width);
+    const auto other = [&](std::size_t k) { return (k + shift) % simd::width; };
+    for (std::size_t k = 0; k < simd::width; ++k)
+      queue.set(k, mine.floats.data(), k, there, other(k), turn.b_to_a.point_error);
+    Bounds16 bounds;
+    queue.bound(bounds);
+    for (std::size_t k = 0; k < simd::width; ++k) {
+      const double d =
+          std::sqrt(squared_distance(scene.mine[k].placed(scene.a), scene.theirs[other(k)].placed(scene.b)));
+      EXPECT_LE(static_cast<double>(bounds.lower[k]), d);
+      EXPECT_GE(static_cast<double>(bounds.upper[k]), d);
+    }
+    if (HasFailure()) return;
+  }
+}
+
+}  // namespace
+}  // namespace hinge
