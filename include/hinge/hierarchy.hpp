@@ -53,6 +53,13 @@ class Hierarchy {
   /// World coordinates of every primitive, computed elsewhere: every admitted pair is checked, constant ones included.
   void update_placed(std::span<const P> placed) { placement().update_placed(placed); }
 
+  /// Learns from the current state: engines that can order their work try what collides most often first in yes/no
+  /// queries. To be called at some hundred states like those to come; answers stay the same. Costs about one query for
+  /// all pairs of links.
+  void learn_order() {
+    if constexpr (requires { engine_.learn_order(); }) engine_.learn_order();
+  }
+
   // --- queries at the current state ---
 
   bool self_collides(const QueryOptions& options = {}) { return self(AnyHit{}, options).done(); }

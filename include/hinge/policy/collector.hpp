@@ -35,4 +35,25 @@ concept Collector = requires(C& collector, const C& constant, const Hit& hit) {
   { C::ranks } -> std::convertible_to<bool>;
 };
 
+/// Optional refinement: done at the first hit, which may be any.
+template <class C>
+concept StopsAtFirst = Collector<C> && requires {
+  requires C::stops_at_first;
+};
+
+/// Optional refinement of collectors that rank: only the pair with the smallest d - M is of interest, so that an upper
+/// bound of one pair rules out others before any is handed over.
+template <class C>
+concept KeepsSmallest = Collector<C> && C::ranks && requires {
+  requires C::keeps_smallest;
+};
+
+/// Optional refinement: knows pairs of links of which it wants no more. What it refuses it keeps refusing in the same
+/// query.
+template <class C>
+concept RefusesLinks = Collector<C> && requires(const C& collector, LinkId a, LinkId b) {
+  { collector.wants(a, b) }
+  noexcept->std::same_as<bool>;
+};
+
 }  // namespace hinge

@@ -89,6 +89,11 @@ struct Leaf {
       return lanes;
     }
 
+    simd::Bits roughly_near(std::size_t k, const float* own, simd::Bits lanes,
+                            const Nearness& nearness) const noexcept {
+      return near(k, own, lanes, nearness);
+    }
+
    private:
     alignas(64) std::array<float, 3 * simd::width> middle_, half_;
   };

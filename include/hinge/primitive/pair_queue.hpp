@@ -44,7 +44,7 @@ class PairQueue<Triangle> {
     error_[place] = error;
   }
 
-  void bound(Bounds16& bounds) const noexcept {
+  [[gnu::flatten]] void bound(Bounds16& bounds) const noexcept {
     const Corners3 a = corners(0), b = corners(3);
     Best best;
     for (std::size_t i = 0; i < 3; ++i)

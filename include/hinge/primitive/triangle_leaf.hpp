@@ -38,7 +38,7 @@ template <class T>
 
 /// Any axis, however badly it was computed, proves two triangles apart when their projections on it are: only the
 /// projections' rounding counts. The plane of one, the planes of the sixteen, and the products of edges are tried, each
-/// while lanes are left.
+/// while lanes are left. (Flattened: compilers leave small lambdas as calls, which send lanes through memory.)
 template <>
 struct Leaf<Triangle> {
   using Float16 = simd::Float16;
@@ -60,7 +60,7 @@ struct Leaf<Triangle> {
 
   class Turned {
    public:
-    Turned(const float* other, const LeafTurn& turn) noexcept {
+    [[gnu::flatten]] Turned(const float* other, const LeafTurn& turn) noexcept {
       const auto& r = turn.rotation;
       for (std::size_t c = 0; c < 3; ++c) {
         const Lanes3 p = corner(other, c);
@@ -77,7 +77,7 @@ struct Leaf<Triangle> {
 
     const float* coordinates() const noexcept { return at_.data(); }
 
-    simd::Bits near_box(const std::array<float, 3>& middle, const std::array<float, 3>& half,
+    [[gnu::flatten]] simd::Bits near_box(const std::array<float, 3>& middle, const std::array<float, 3>& half,
                         const Nearness& near) const noexcept {
       simd::Bits lanes = simd::all_bits;
       const float slack = near.margin + near.error;
@@ -93,10 +93,14 @@ struct Leaf<Triangle> {
       return lanes;
     }
 
-    simd::Bits near(std::size_t k, const float* own, simd::Bits lanes, const Nearness& near) const noexcept {
+    [[gnu::flatten]] simd::Bits near(std::size_t k, const float* own, simd::Bits lanes, const Nearness& near) const noexcept {
       if (near.reach == nullptr && near.other_reach == nullptr && near.margin <= 0.0F)
-        return not_apart<false>(k, own, lanes, near);
-      return not_apart<true>(k, own, lanes, near);
+        return not_apart<false, true>(k, own, lanes, near);
+      return not_apart<true, true>(k, own, lanes, near);
+    }
+    /// The same with fewer axes, for pairs whose distance is bounded next.
+    [[gnu::flatten]] simd::Bits roughly_near(std::size_t k, const float* own, simd::Bits lanes, const Nearness& near) const noexcept {
+      return not_apart<true, false>(k, own, lanes, near);
     }
 
    private:
@@ -116,7 +120,7 @@ struct Leaf<Triangle> {
       }
     }
 
-    template <bool Grown>
+    template <bool Grown, bool Edges>
     [[gnu::always_inline]] simd::Bits not_apart(std::size_t k, const float* own, simd::Bits lanes,
                                                 const Nearness& near) const noexcept {
       const auto one = [&](std::size_t c) {
@@ -131,12 +135,17 @@ struct Leaf<Triangle> {
         margin = max(margin, Float16(0.0F)) * Float16(1.0F + 0x1p-20F);  // the rounding of sums and squares
       }
       // Boxes.
-      const auto box_axis = [&](const Float16& x, const Float16& y, const Float16& z, std::size_t axis) {
-        const Float16 slack = Grown ? margin + Float16(near.error) : Float16(near.error);
-        return ~less(Float16(upper_[axis * n + k]) + slack, min(min(x, y), z)) &
-               ~less(max(max(x, y), z), Float16(lower_[axis * n + k]) - slack);
+      const Float16 zero(0.0F), error(near.error);
+      const auto box_gap = [&](const Float16& x, const Float16& y, const Float16& z, std::size_t axis) {
+        const Float16 above = min(min(x, y), z) - (Float16(upper_[axis * n + k]) + error);
+        return max(max(above, (Float16(lower_[axis * n + k]) - error) - max(max(x, y), z)), zero);
       };
-      lanes &= box_axis(a.x, b.x, c.x, 0) & box_axis(a.y, b.y, c.y, 1) & box_axis(a.z, b.z, c.z, 2);
+      const Float16 gap_x = box_gap(a.x, b.x, c.x, 0), gap_y = box_gap(a.y, b.y, c.y, 1),
+                    gap_z = box_gap(a.z, b.z, c.z, 2);
+      if constexpr (Grown)
+        lanes &= ~less(margin * margin, gap_x * gap_x + gap_y * gap_y + gap_z * gap_z);
+      else
+        lanes &= ~less(zero, max(max(gap_x, gap_y), gap_z));
       if (lanes == 0) return 0;
       // The plane of the one.
       {
@@ -165,7 +174,7 @@ struct Leaf<Triangle> {
         try_axis({(a.x + b.x + c.x - P.x - Q.x - R.x) * third, (a.y + b.y + c.y - P.y - Q.y - R.y) * third,
                   (a.z + b.z + c.z - P.z - Q.z - R.z) * third});
       }
-      if (lanes == 0) return 0;
+      if (!Edges || lanes == 0) return lanes;
       for (const Lanes3& edge : {difference(Q, P), difference(R, Q), difference(P, R)}) {
         try_axis(cross_axis(edge, ab));
         try_axis(cross_axis(edge, bc));

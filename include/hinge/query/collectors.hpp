@@ -18,6 +18,7 @@ namespace hinge {
 class AnyHit {
  public:
   static constexpr bool ranks = false;
+  static constexpr bool stops_at_first = true;
   void add(const Hit& hit) noexcept { hit_ = hit; }
   double cutoff() const noexcept { return 0.0; }
   bool done() const noexcept { return hit_.has_value(); }

@@ -34,7 +34,7 @@ class LinkPairHits {
     hits_.clear();
   }
 
-  /// Refinement that engines look for: pairs of these two links need no more be offered.
+  /// Pairs of these two links need no more be offered.
   bool wants(LinkId a, LinkId b) const noexcept { return seen_[place(a, b)] == 0; }
 
   void add(const Hit& hit) {
@@ -77,6 +77,6 @@ class LinkPairHits {
   std::vector<Hit> hits_;
 };
 
-static_assert(Collector<LinkPairHits>);
+static_assert(RefusesLinks<LinkPairHits>);
 
 }  // namespace hinge

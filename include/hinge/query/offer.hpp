@@ -19,8 +19,10 @@ void offer(C& collector, PrimitiveId i, PrimitiveId j, const P& p, const P& q, d
     const Hit hit{i, j, std::sqrt(squared_distance(p, q)), m};
     if (hit.gap() <= collector.cutoff() && admitted()) collector.add(hit);
   } else {
-    if (closer_than(p, q, m + collector.cutoff()) && admitted())
-      collector.add(Hit{i, j, std::sqrt(squared_distance(p, q)), m});
+    const double near = m + collector.cutoff();
+    if (closer_than(p, q, near) && admitted())
+      // Nothing is closer than 0: solids that count at a threshold of 0 meet.
+      collector.add(Hit{i, j, near > 0.0 ? std::sqrt(squared_distance(p, q)) : 0.0, m});
   }
 }
 

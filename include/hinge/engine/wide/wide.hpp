@@ -50,23 +50,7 @@ class Wide {
     QueryCounts counts;
     const SelfRules<P, F, D> rules{placement_, filter_, matrix_, options};
     if (by_trees()) {
-      const auto in_order = [](PrimitiveId i, PrimitiveId j, const auto& say) { return j < i ? say(j, i) : say(i, j); };
-      trees_->self_query(placement_,
-                         judge(
-                             [&](PrimitiveId i, PrimitiveId j, const P& p, const P& q) {
-                               const bool turned = j < i;
-                               const PrimitiveId first = turned ? j : i, second = turned ? i : j;
-                               offer(collector, first, second, turned ? q : p, turned ? p : q,
-                                     rules.threshold(first, second), [&] { return rules.admits(first, second); });
-                             },
-                             [&](PrimitiveId i, PrimitiveId j) {
-                               return in_order(i, j, [&](auto k, auto l) { return rules.threshold(k, l); });
-                             },
-                             [&](PrimitiveId i, PrimitiveId j) {
-                               return in_order(i, j, [&](auto k, auto l) { return rules.admits(k, l); });
-                             },
-                             [](LinkId, LinkId) { return true; }),
-                         collector, options, counts);
+      trees_->self_query(placement_, self_judge(collector, rules), collector, options, counts);
       return add(options.counts, counts);
     }
     WideSide<P>& side = present_side();
@@ -115,6 +99,16 @@ class Wide {
     if constexpr (C::ranks && requires { collector.hit()->first; })
       if (collector.hit()) witness_.emplace(collector.hit()->first, collector.hit()->second);
     add(options.counts, counts);
+  }
+
+  /// Learns, from the present state and those of earlier calls, in which order a yes/no query tries pairs of links.
+  /// Answers stay the same; only models that are kept in trees have such an order.
+  void learn_order() {
+    if (!by_trees()) return;
+    AnyHit any;
+    const QueryOptions options;
+    const SelfRules<P, F, D> rules{placement_, filter_, matrix_, options};
+    trees_->learn(placement_, self_judge(any, rules), any);
   }
 
   /// `across` admits (primitive of this, primitive of other).
@@ -180,6 +174,25 @@ class Wide {
   template <class... Answers>
   static Judge<Answers...> judge(Answers... answers) {
     return {answers...};
+  }
+
+  template <Collector C>
+  static auto self_judge(C& collector, const SelfRules<P, F, D>& rules) {
+    const auto in_order = [](PrimitiveId i, PrimitiveId j, const auto& say) { return j < i ? say(j, i) : say(i, j); };
+    return judge(
+        [&](PrimitiveId i, PrimitiveId j, const P& p, const P& q) {
+          const bool turned = j < i;
+          const PrimitiveId first = turned ? j : i, second = turned ? i : j;
+          offer(collector, first, second, turned ? q : p, turned ? p : q, rules.threshold(first, second),
+                [&] { return rules.admits(first, second); });
+        },
+        [&rules, in_order](PrimitiveId i, PrimitiveId j) {
+          return in_order(i, j, [&](auto k, auto l) { return rules.threshold(k, l); });
+        },
+        [&rules, in_order](PrimitiveId i, PrimitiveId j) {
+          return in_order(i, j, [&](auto k, auto l) { return rules.admits(k, l); });
+        },
+        [](LinkId, LinkId) { return true; });
   }
 
   /// Are the trees up to the present coordinates? They cannot hold groups that deform.

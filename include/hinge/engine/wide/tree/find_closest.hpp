@@ -138,7 +138,8 @@ class ClosestFinder {
       const auto k = static_cast<std::size_t>(std::countr_zero(ones));
       ++counts.pairs_tested;
       near.margin = bound;
-      simd::Bits lanes = turn.sane ? turned.near(k, a.leaf(leaf_a), a.store.real[leaf_a], near) : a.store.real[leaf_a];
+      simd::Bits lanes =
+          turn.sane ? turned.roughly_near(k, a.leaf(leaf_a), a.store.real[leaf_a], near) : a.store.real[leaf_a];
       for (; lanes != 0; lanes &= lanes - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
         slot_a_[queued_] = static_cast<std::uint32_t>(leaf_a * simd::width + i);

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -37,6 +39,13 @@ struct TreePart {
   LocalBox box;         ///< in the group's frame, around everything, reaches included
 };
 
+/// Sixteen parts' boxes and balls about their middles, relative to their trees' origins.
+struct alignas(64) PartRow {
+  std::array<float, 3 * simd::width> middle{};
+  std::array<float, 3 * simd::width> half{};  ///< reaches included, here and below
+  std::array<float, simd::width> radius{};
+};
+
 /// Computed once when the DOF are selected; shared by copies of an engine.
 template <Primitive P>
 struct TreeParts {
@@ -54,8 +63,9 @@ struct TreeParts {
   }
 
   std::vector<TreePart> parts;  ///< by group
-  std::vector<Vec3> origin;     ///< per group: of its trees, in its frame
-  double scale = 1.0;           ///< power of two that brings the largest group to a size where float products are safe
+  simd::AlignedVector<PartRow> part_rows;
+  std::vector<Vec3> origin;  ///< per group: of its trees, in its frame
+  double scale = 1.0;        ///< power of two that brings the largest group to a size where float products are safe
   Vec3 world_origin = Vec3::Zero();  ///< about where the model is at the reference
   TreeStore store;
   simd::AlignedVector<float> leaves;
@@ -65,6 +75,7 @@ struct TreeParts {
   std::size_t depth = 0;           ///< of the deepest tree
 
  private:
+  void set_row(std::size_t p, const Aabb& whole, std::span<const BuildItem> items, const Vec3& o);
   void measure(const SelectedModel<P>& model, const std::vector<Aabb>& boxes);
   template <DistanceMatrix D>
   void build(const SelectedModel<P>& model, const D& matrix, const std::vector<Aabb>& boxes);
@@ -111,6 +122,37 @@ void TreeParts<P>::measure(const SelectedModel<P>& model, const std::vector<Aabb
 }
 
 template <Primitive P>
+void TreeParts<P>::set_row(std::size_t p, const Aabb& whole, std::span<const BuildItem> items, const Vec3& o) {
+  if (p % simd::width == 0) part_rows.emplace_back();
+  PartRow& row = part_rows.back();
+  const std::size_t lane = p % simd::width;
+  double squared = 0.0;
+  std::array<double, 3> middle{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    const auto rounded = static_cast<float>((whole.middle(static_cast<int>(k)) - o[axis]) * scale);
+    middle[k] = static_cast<double>(rounded);
+    double half = 0.0;
+    for (const BuildItem& item : items)
+      half = std::max(
+          {half, static_cast<double>(item.upper[k]) - middle[k], middle[k] - static_cast<double>(item.lower[k])});
+    row.middle[k * simd::width + lane] = rounded;
+    row.half[k * simd::width + lane] = float_above(half);
+  }
+  // Each primitive lies in the ball around its box.
+  for (const BuildItem& item : items) {
+    double square = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double far =
+          std::max(static_cast<double>(item.upper[k]) - middle[k], middle[k] - static_cast<double>(item.lower[k]));
+      square += far * far;
+    }
+    squared = std::max(squared, square);
+  }
+  row.radius[lane] = float_above(std::sqrt(squared) * (1 + 0x1p-40));
+}
+
+template <Primitive P>
 template <DistanceMatrix D>
 void TreeParts<P>::build(const SelectedModel<P>& model, const D& matrix, const std::vector<Aabb>& boxes) {
   std::vector<std::uint32_t> order(model.size());
@@ -148,6 +190,7 @@ void TreeParts<P>::build(const SelectedModel<P>& model, const D& matrix, const s
       whole.extend(r > 0.0 ? boxes[i].inflated(matrix.reach(id<PrimitiveId>(i))) : boxes[i]);
       items.push_back(item);
     }
+    set_row(parts.size(), whole, items, o);
     const std::size_t leaf = store.real.size();
     const TreeBuilder::Tree tree = builder.build(items, store);
     part.root = tree.root;

@@ -16,7 +16,9 @@
 #include "hinge/core/id.hpp"
 #include "hinge/engine/wide/tree/find_closest.hpp"
 #include "hinge/engine/wide/tree/find_near.hpp"
+#include "hinge/engine/wide/tree/pair_order.hpp"
 #include "hinge/engine/wide/tree/relative_turn.hpp"
+#include "hinge/engine/wide/tree/tree_operand.hpp"
 #include "hinge/engine/wide/tree/tree_parts.hpp"
 #include "hinge/engine/wide/tree/tree_state.hpp"
 #include "hinge/engine/wide/tree/witnesses.hpp"
@@ -27,55 +29,14 @@
 
 namespace hinge {
 
-/// Optional refinement of collectors: knows pairs of links of which it wants no more. What it refuses it keeps refusing
-/// in the same query.
-template <class C>
-concept RefusesLinks = Collector<C> && requires(const C& collector, LinkId a, LinkId b) {
-  { collector.wants(a, b) }
-  noexcept->std::same_as<bool>;
-};
-
-/// Optional refinement of collectors that rank: only the pair with the smallest d - M is of interest, so that an upper
-/// bound of one pair rules out others before any is handed over.
-template <class C>
-concept KeepsSmallest = Collector<C> && C::ranks && requires {
-  requires C::keeps_smallest;
-};
-
-/// One of two models in a query, as far as it is asked: trees, coordinates and extra clearance of its groups.
-template <Primitive P>
-struct TreeOperand {
-  TreeState<P>& state;
-  Placement<P>& placement;
-  std::span<const double> clearance;
-
-  const TreePart& part(std::size_t p) const noexcept { return state.parts().parts[p]; }
-  double clearance_at(std::size_t p) const noexcept { return clearance_of(clearance, id<GroupId>(part(p).group)); }
-  double largest_clearance() const noexcept {
-    double most = 0.0;
-    for (const double c : clearance) most = std::max(most, c);
-    return most;
-  }
-  PrimitiveId primitive(std::uint32_t slot) const noexcept { return id<PrimitiveId>(state.parts().store.slots[slot]); }
-  RelativeTurn turn(std::size_t p, const TreeOperand& other, std::size_t q) const noexcept {
-    const TreePart &a = part(p), &b = other.part(q);
-    return {state.frame(a.group),       state.parts().scale,       a.extent,
-            other.state.frame(b.group), other.state.parts().scale, b.extent};
-  }
-  /// A length in the trees' unit, with room for the rounding of sums of a few such numbers.
-  float scaled(double length) const noexcept {
-    const double there = length * state.parts().scale;
-    return float_above(there + std::abs(there) * 0x1p-20);
-  }
-};
-
 /// One model and its scratch. Counts are of sixteen lanes each. A query's Judge has, for i of the one model and j of
 /// the other: decide(i, j, p, q) for a pair that floats could not rule out, placed; threshold(i, j); admits(i, j);
 /// admits_links(a, b), which may refuse all pairs of two links.
 template <Primitive P>
 class TreeSide {
  public:
-  explicit TreeSide(std::shared_ptr<const TreeParts<P>> parts) : state_(std::move(parts)) {
+  explicit TreeSide(std::shared_ptr<const TreeParts<P>> parts)
+      : state_(std::move(parts)), order_(state_.parts().parts.size()) {
     finder_.reserve(2 * state_.parts().depth);
     closest_.reserve(2 * state_.parts().depth);
   }
@@ -98,6 +59,16 @@ class TreeSide {
         counts.boxes_tested += n * state_.parts().rows() / 2;
         std::erase_if(pairs_, [&](const PartPair& pair) { return !wanted(pair.first, pair.second); });
       });
+    } else if (StopsAtFirst<C> && order_.is_learned()) {
+      pairs_.clear();
+      each_candidate(mine, most, wanted, counts, [&](std::uint32_t q, std::uint32_t p) {
+        pairs_.push_back({order_.weight(p, q), q, p});
+      });
+      std::sort(pairs_.begin(), pairs_.end(), [](const PartPair& x, const PartPair& y) { return x.gap > y.gap; });
+      for (const PartPair& pair : pairs_) {
+        find_near(mine, pair.first, mine, pair.second, 0.0, judge, collector, counts);
+        if (collector.done()) break;
+      }
     } else {
       for (std::size_t p = 1; p < n && !collector.done(); ++p) {
         counts.boxes_tested += p / simd::width + 1;
@@ -108,6 +79,28 @@ class TreeSide {
         }
       }
     }
+  }
+
+  /// Adds the present state to what the order of yes/no queries is learned from; `any` is the judge's collector.
+  template <Collector C, class Judge>
+  void learn(Placement<P>& placement, const Judge& judge, C& any) {
+    if (state_.parts().parts.size() > most_ordered) return;
+    state_.refresh(placement);
+    const TreeOperand<P> mine{state_, placement, {}};
+    pairs_.clear();
+    QueryCounts counts;
+    each_candidate(
+        mine, 0.0, [](std::size_t, std::size_t) { return true; }, counts,
+        [&](std::uint32_t q, std::uint32_t p) {
+          pairs_.push_back({0.0F, q, p});
+        });
+    for (const PartPair& pair : pairs_) {
+      any = C{};
+      counts = {};
+      find_near(mine, pair.first, mine, pair.second, 0.0, judge, any, counts);
+      order_.add(pair.first, pair.second, any.done(), counts.boxes_tested + counts.pairs_tested);
+    }
+    order_.settle();
   }
 
   /// Are the units of the two alike enough for floats to hold both?
@@ -171,6 +164,16 @@ class TreeSide {
   static bool asks(const C& collector, LinkId a, LinkId b) noexcept {
     if constexpr (RefusesLinks<C>) return collector.wants(a, b);
     return true;
+  }
+
+  template <class Wanted, class Visit>
+  void each_candidate(const TreeOperand<P>& mine, double most, const Wanted& wanted, QueryCounts& counts,
+                      const Visit& visit) {
+    for (std::size_t p = 1; p < state_.parts().parts.size(); ++p) {
+      counts.boxes_tested += p / simd::width + 1;
+      for (const std::uint32_t q : state_.before(p, mine.scaled(mine.clearance_at(p) + most)))
+        if (wanted(q, p)) visit(q, static_cast<std::uint32_t>(p));
+    }
   }
 
   /// All pairs of two parts with d - M below a margin, until the collector wants no more.
@@ -270,12 +273,14 @@ class TreeSide {
     double lower;  // of d - M, model unit
   };
   static constexpr std::size_t most_candidates = 1024;
+  static constexpr std::size_t most_ordered = 1024;  // parts: the order takes the square of it in memory
 
   TreeState<P> state_;
   NearFinder<P> finder_;
   ClosestFinder<P> closest_;
   std::vector<PartPair> pairs_;
   std::vector<Candidate> candidates_;
+  PairOrder order_;
   Witnesses<P> witnesses_, cross_witnesses_;
   const void* witnessed_ = nullptr;  // whose pairs cross_witnesses_ holds
 };

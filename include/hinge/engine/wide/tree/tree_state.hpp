@@ -36,7 +36,9 @@ class TreeState {
       : parts_(std::move(parts)),
         frames_(parts_->origin.size()),
         frame_at_(parts_->origin.size(), 0),
+        float_frames_(parts_->origin.size()),
         rows_(parts_->rows()),
+        balls_(parts_->rows()),
         found_(parts_->rows() * simd::width + simd::width),
         world_origin_(parts_->world_origin) {}
 
@@ -49,18 +51,21 @@ class TreeState {
   void refresh(Placement<P>& placement) noexcept {
     if (update_ == placement.update_number()) return;
     const bool few = placement.few_moved();
-    for (std::size_t p = 0; p < parts_->parts.size(); ++p) {
-      const TreePart& part = parts_->parts[p];
-      const auto g = id<GroupId>(part.group);
-      const bool first = p == 0 || parts_->parts[p - 1].group != part.group;
-      if (first) {
+    const std::vector<TreePart>& parts = parts_->parts;
+    bool current = false, row_current = true;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      const std::uint32_t group = parts[p].group;
+      if (p == 0 || parts[p - 1].group != group) {
+        const auto g = id<GroupId>(group);
         // Group 0 is the world.
-        current_ =
-            frame_at_[part.group] != 0 && (part.group == 0 || (few && placement.version(g) <= frame_at_[part.group]));
-        frame_at_[part.group] = placement.update_number();
-        if (!current_) frames_[part.group] = TreeFrame(placement.frame(g), parts_->origin[part.group]);
+        current = frame_at_[group] != 0 && (group == 0 || (few && placement.version(g) <= frame_at_[group]));
+        frame_at_[group] = placement.update_number();
+        if (!current) place(group, placement.frame(g));
       }
-      if (!current_) rows_[p / simd::width].set(p % simd::width, world_box(p, placement, world_origin_));
+      row_current = row_current && current;
+      if (p % simd::width != simd::width - 1 && p + 1 != parts.size()) continue;
+      if (!row_current) place_row(p / simd::width);
+      row_current = true;
     }
     update_ = placement.update_number();
   }
@@ -84,8 +89,9 @@ class TreeState {
     for (std::size_t r = 0; r * simd::width < p; ++r) {
       const simd::Bits tested = parts_->tested_with(p, r);
       if (tested == 0) continue;
-      n += simd::append_lanes(overlapping(rows_[r], probe) & tested, static_cast<std::uint32_t>(r * simd::width),
-                              found_.data() + n);
+      simd::Bits near = overlapping(rows_[r], probe) & tested;
+      if (near != 0) near &= ~apart(r, p, margin);
+      n += simd::append_lanes(near, static_cast<std::uint32_t>(r * simd::width), found_.data() + n);
     }
     return {found_.data(), n};
   }
@@ -109,6 +115,78 @@ class TreeState {
   }
 
  private:
+  /// What turning and moving in float needs of a group's frame.
+  struct alignas(64) FloatFrame {
+    std::array<float, 16> column{};  // three of the rotation, then the tree's origin in the world; each with a spare
+  };
+
+  void place(std::uint32_t group, const Frame& frame) noexcept {
+    frames_[group] = TreeFrame(frame, parts_->origin[group]);
+    float* to = float_frames_[group].column.data();
+    for (std::size_t k = 0; k < 3; ++k) simd::Double4(frame.column.data() + 4 * k).store_rounded(to + 4 * k);
+    ((simd::Double4(frames_[group].middle.data()) -
+      simd::Double4::of(world_origin_[0], world_origin_[1], world_origin_[2], 0.0)) *
+     simd::Double4(parts_->scale))
+        .store_rounded(to + 12);
+  }
+
+  void place_row(std::size_t r) noexcept {
+    using simd::Float16;
+    constexpr std::size_t n = simd::width;
+    // What rounding of the rotation, its products and sums loses, as a share of the numbers involved.
+    constexpr float rounding = 32 * 0x1p-24F;
+    alignas(64) std::array<float, 16 * n> turn{};
+    const std::size_t count = std::min(n, parts_->parts.size() - r * n);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const float* column = float_frames_[parts_->parts[r * n + lane].group].column.data();
+      for (std::size_t k = 0; k < 16; ++k) turn[k * n + lane] = column[k];
+    }
+    const auto entry = [&](std::size_t k) { return Float16(turn.data() + k * n); };
+    const PartRow& local = parts_->part_rows[r];
+    std::array<Float16, 3> middle, half;
+    Float16 size(0.0F);
+    for (std::size_t k = 0; k < 3; ++k) {
+      middle[k] = entry(12 + k);
+      half[k] = Float16(0.0F);
+      for (std::size_t j = 0; j < 3; ++j) {
+        middle[k] = middle[k] + entry(4 * j + k) * Float16(local.middle.data() + j * n);
+        half[k] = half[k] + abs(entry(4 * j + k)) * Float16(local.half.data() + j * n);
+      }
+      size = max(size, abs(middle[k]) + half[k] + abs(Float16(local.middle.data() + k * n)) +
+                           Float16(local.half.data() + k * n));
+    }
+    const Float16 error = size * Float16(rounding);
+    error.store(balls_[r].error.data());
+    for (std::size_t k = 0; k < 3; ++k) {
+      (middle[k] - half[k] - error).store(rows_[r].lower.data() + k * n);
+      (middle[k] + half[k] + error).store(rows_[r].upper.data() + k * n);
+      middle[k].store(balls_[r].middle.data() + k * n);
+    }
+    const simd::Bits sane_lanes = less_equal(size, Float16(largest_sane_coordinate));
+    for (std::size_t lane = 0; sane_lanes != simd::all_bits && lane < n; ++lane)
+      if ((sane_lanes >> lane & 1U) == 0) rows_[r].set(lane, FloatBox::everything());
+    for (std::size_t lane = count; lane < n; ++lane) rows_[r].set(lane, FloatBox{});
+  }
+
+  /// Parts of a row whose balls are surely farther than `margin` from that of part p.
+  simd::Bits apart(std::size_t r, std::size_t p, float margin) const noexcept {
+    using simd::Float16;
+    const PlacedBalls& other = balls_[p / simd::width];
+    const std::size_t lane = p % simd::width;
+    Float16 square(0.0F);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Float16 d =
+          Float16(balls_[r].middle.data() + k * simd::width) - Float16(other.middle[k * simd::width + lane]);
+      square = square + d * d;
+    }
+    // An error along each axis, and the sum's own rounding.
+    const Float16 reach = (Float16(parts_->part_rows[r].radius.data()) +
+                           Float16(parts_->part_rows[p / simd::width].radius[lane] + std::max(margin, 0.0F)) +
+                           (Float16(balls_[r].error.data()) + Float16(other.error[lane])) * Float16(2.0F)) *
+                          Float16(1.0F + 0x1p-20F);
+    return less(reach * reach, square);
+  }
+
   void append_near(std::size_t r, simd::Bits lanes, const FloatBox& box, float bound, std::size_t second,
                    std::vector<PartPair>& to) const {
     using simd::Float16;
@@ -138,11 +216,16 @@ class TreeState {
   std::shared_ptr<const TreeParts<P>> parts_;
   std::vector<TreeFrame> frames_;
   std::vector<std::uint64_t> frame_at_;  // per group: the update its frame is of; 0: none
-  std::vector<BoxRow> rows_;             // of parts
+  struct alignas(64) PlacedBalls {
+    std::array<float, 3 * simd::width> middle{};
+    std::array<float, simd::width> error{};  // of a coordinate
+  };
+  std::vector<FloatFrame> float_frames_;  // per group
+  std::vector<BoxRow> rows_;              // of parts
+  std::vector<PlacedBalls> balls_;        // the same
   std::vector<std::uint32_t> found_;
   Vec3 world_origin_;
   std::uint64_t update_ = 0;
-  bool current_ = false;
 };
 
 }  // namespace hinge
