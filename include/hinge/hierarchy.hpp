@@ -99,6 +99,16 @@ class Hierarchy {
     return mutual(Closest{}, other, across, options).hit();
   }
 
+  /// Any collector of your own.
+  template <Collector C, PairFilter G = AdmitAll>
+  void query(Hierarchy& other, C& collector, const G& across = {}, const QueryOptions& options = {}) {
+    static_assert(CrossEngine<E, P, F, D, G>, "this engine or distance matrix cannot answer between two models");
+    if (!matrix_.compatible(other.matrix_)) throw ModelError("the two models use different distance matrices");
+    check_clearance(options.clearance, model().groups()->size());
+    check_clearance(options.other_clearance, other.model().groups()->size());
+    engine_.query(other.engine_, across, collector, options);
+  }
+
   // --- what the selection fixed ---
 
   const SelectedModel<P>& model() const noexcept { return engine_.placement().model(); }
@@ -155,11 +165,7 @@ class Hierarchy {
   }
   template <Collector C, PairFilter G>
   C mutual(C collector, Hierarchy& other, const G& across, const QueryOptions& options) {
-    static_assert(CrossEngine<E, P, F, D, G>, "this engine or distance matrix cannot answer between two models");
-    if (!matrix_.compatible(other.matrix_)) throw ModelError("the two models use different distance matrices");
-    check_clearance(options.clearance, model().groups()->size());
-    check_clearance(options.other_clearance, other.model().groups()->size());
-    engine_.query(other.engine_, across, collector, options);
+    query(other, collector, across, options);
     return collector;
   }
 

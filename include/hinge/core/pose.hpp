@@ -33,22 +33,17 @@ struct Pose {
   }
 };
 
-/// Largest departure of R R^T from the identity that still counts as a rigid placement. A pose within it is used as
+/// Largest departure of R^T R from the identity that still counts as a rigid placement. A pose within it is used as
 /// given; a wider bound would let scaled or sheared placements pass, whose boxes no longer hold what they bound.
 inline constexpr double rigid_tolerance = 1e-9;
 
 /// Is every entry finite and the rotation orthonormal (within rigid_tolerance) and right-handed?
 inline bool is_rigid(const Pose& x) noexcept {
-  for (int r = 0; r < 3; ++r) {
-    if (!is_finite(x.translation[r])) return false;
-    for (int c = 0; c < 3; ++c)
-      if (!is_finite(x.rotation(r, c))) return false;
-  }
-  const Mat3 gram = product(x.rotation, Mat3(x.rotation.transpose()));
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c)
-      if (!(std::abs(gram(r, c) - (r == c ? 1.0 : 0.0)) <= rigid_tolerance)) return false;
-  return dot(x.rotation.col(0), cross(x.rotation.col(1), x.rotation.col(2))) > 0.0;
+  const Vec3 a = x.rotation.col(0), b = x.rotation.col(1), c = x.rotation.col(2);
+  // Entries that are not finite leave no sum near 0.
+  const auto is_near = [](double value, double wanted) { return std::abs(value - wanted) <= rigid_tolerance; };
+  return is_finite(x.translation) && is_near(dot(a, a), 1.0) && is_near(dot(b, b), 1.0) && is_near(dot(c, c), 1.0) &&
+         is_near(dot(a, b), 0.0) && is_near(dot(a, c), 0.0) && is_near(dot(b, c), 0.0) && dot(a, cross(b, c)) > 0.0;
 }
 
 }  // namespace hinge

@@ -182,9 +182,10 @@ inline void PoseSource::set_poses(std::span<const Pose> poses) {
                                (g == 0 ? ": the world's must be the identity" : ": not a rigid placement"));
   compute_through(groups_->size() - 1);
   for (std::size_t g = 1; g < poses.size(); ++g) {
-    moved_[g] = forgotten_ || !(poses[g] == frames_[g].pose());
+    const Frame frame(poses[g]);
+    moved_[g] = forgotten_ || frame.column != frames_[g].column;
     component_[g] = moved_[g] != 0 ? g : 0;
-    frames_[g] = Frame(poses[g]);
+    frames_[g] = frame;
   }
   moved_[0] = false;
   component_[0] = 0;
