@@ -3,19 +3,18 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
 #include <functional>
 #include <string>
 
-#include "hinge/core/error.hpp"
 #include "hinge/simd/instruction_set.hpp"
+#include "hinge/tool/pick_instruction_set.hpp"
+#include "hinge/tool/run_tool.hpp"
 #include "hinge/version.hpp"
 #include "options.hpp"
-#include "pick_instruction_set.hpp"
 
 namespace {
 
+using biocd::Exit;
 using biocd::Options;
 
 constexpr const char* footer =
@@ -84,9 +83,9 @@ void add_check_options(CLI::App& command, Options& o) {
       ->capture_default_str();
 }
 
-int run(int argc, char** argv) {
+Exit run(int argc, char** argv) {
   Options o;
-  std::function<int(const Options&)> command;
+  std::function<Exit(const Options&)> command;
   CLI::App app{"biocd: self-collision of proteins and other molecules as articulated mechanisms"};
   app.footer(footer);
   app.set_version_flag(
@@ -124,8 +123,7 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const int status = app.exit(error);
-    return status == 0 ? 0 : static_cast<int>(biocd::Exit::usage);
+    return app.exit(error) == 0 ? Exit::free : Exit::usage;
   }
   return command(o);
 }
@@ -133,20 +131,8 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    biocd::pick_instruction_set(argv);
+  return hinge::tool::run_tool("biocd", [&] {
+    hinge::tool::pick_instruction_set(argv);
     return run(argc, argv);
-  } catch (const hinge::LoadError& error) {
-    std::fprintf(stderr, "biocd: %s\n", error.what());
-    return static_cast<int>(biocd::Exit::bad_input);
-  } catch (const hinge::ConfigurationError& error) {
-    std::fprintf(stderr, "biocd: %s\n", error.what());
-    return static_cast<int>(biocd::Exit::bad_input);
-  } catch (const hinge::Error& error) {  // a rule or selection that does not fit: the command line is at fault
-    std::fprintf(stderr, "biocd: %s\n", error.what());
-    return static_cast<int>(biocd::Exit::usage);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "biocd: %s\n", error.what());
-    return static_cast<int>(biocd::Exit::bad_input);
-  }
+  });
 }

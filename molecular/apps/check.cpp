@@ -14,13 +14,13 @@ namespace biocd {
 
 using namespace hinge::molecular;
 
-int run_check(const Options& options) {
+Exit run_check(const Options& options) {
   const Job job = load(options);
   const Mode mode = Mode::parse(options.mode);
   print_notes(job);
   if (!options.explain.empty()) {
     explain(options, job);
-    return static_cast<int>(Exit::free);
+    return Exit::free;
   }
   const Structure& s = job.molecule->structure();
   Json json{{"tool", "biocd"}, {"command", "check"}, {"model", model_json(options, job)}, {"mode", mode.text()}};
@@ -53,7 +53,7 @@ int run_check(const Options& options) {
     fmt::print("{}", csv);
   }
   if (options.output == Output::table) fmt::print("{}{} of {} models collide\n", table, colliding, s.models.size());
-  return static_cast<int>(colliding > 0 ? Exit::collision : Exit::free);
+  return colliding > 0 ? Exit::collision : Exit::free;
 }
 
 }  // namespace biocd

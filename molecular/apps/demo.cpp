@@ -76,7 +76,7 @@ void write_worst(const Structure& s, const Worst& worst, const std::filesystem::
 
 }  // namespace
 
-int run_demo(const Options& options) {
+Exit run_demo(const Options& options) {
   const auto molecule = std::make_shared<const Molecule>(read_structure(options.file, options.read));
   const Structure& s = molecule->structure();
   const auto residues = static_cast<std::size_t>(std::count_if(
@@ -161,7 +161,7 @@ int run_demo(const Options& options) {
     fmt::print(", worst.pdb with {} clashes, worst.cxc (ChimeraX), worst.pml (PyMOL)", worst.pairs.size());
   }
   fmt::print("\n");
-  return static_cast<int>(different == 0 ? Exit::free : Exit::bad_input);
+  return different == 0 ? Exit::free : Exit::bad_input;
 }
 
 }  // namespace biocd

@@ -85,7 +85,7 @@ void print_table(const Options& options, const Job& job) {
 
 }  // namespace
 
-int run_info(const Options& options) {
+Exit run_info(const Options& options) {
   const Job job = load(options);
   print_notes(job);
   if (!options.explain.empty()) {
@@ -105,7 +105,7 @@ int run_info(const Options& options) {
   } else {
     print_table(options, job);
   }
-  return static_cast<int>(Exit::free);
+  return Exit::free;
 }
 
 }  // namespace biocd

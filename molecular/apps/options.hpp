@@ -10,11 +10,11 @@
 #include "hinge/molecular/checker.hpp"
 #include "hinge/molecular/molecule.hpp"
 #include "hinge/molecular/read_structure.hpp"
+#include "hinge/tool/run_tool.hpp"
 
 namespace biocd {
 
-/// Exit status, as grep uses it: documented in docs/reference/biocd.md.
-enum class Exit : int { free = 0, collision = 1, usage = 2, bad_input = 3 };
+using hinge::tool::Exit;
 
 enum class Output : std::uint8_t { table, json, csv };
 
@@ -43,10 +43,10 @@ struct Job {
 
 Job load(const Options& options);
 
-int run_info(const Options& options);
-int run_check(const Options& options);
-int run_sample(const Options& options);
-int run_demo(const Options& options);
+Exit run_info(const Options& options);
+Exit run_check(const Options& options);
+Exit run_sample(const Options& options);
+Exit run_demo(const Options& options);
 
 /// Prints which rule kept or dropped the pair named by options.explain.
 void explain(const Options& options, const Job& job);

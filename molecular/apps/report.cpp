@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "hinge/core/id.hpp"
+#include "hinge/tool/csv_field.hpp"
 
 namespace biocd {
 
@@ -17,15 +18,9 @@ using hinge::molecular::Checker;
 using hinge::molecular::Mode;
 using hinge::molecular::Structure;
 using hinge::molecular::Verdict;
+using hinge::tool::csv_field;
 
 std::uint32_t atom(hinge::PrimitiveId i) { return static_cast<std::uint32_t>(hinge::index(i)); }
-
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + "\"";
-}
 
 }  // namespace
 
@@ -90,7 +85,7 @@ std::string csv_rows(const Structure& structure, std::uint64_t index, const Verd
   std::string rows;
   const auto add = [&](const hinge::Hit& hit) {
     rows += fmt::format("{},{:d},{},{},{},{},{},{}\n", index, verdict.collides, atom(hit.first), atom(hit.second),
-                        quoted(label(structure, atom(hit.first))), quoted(label(structure, atom(hit.second))),
+                        csv_field(label(structure, atom(hit.first))), csv_field(label(structure, atom(hit.second))),
                         hit.distance, hit.threshold);
   };
   for (const hinge::Hit& hit : verdict.pairs) add(hit);

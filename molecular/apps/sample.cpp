@@ -3,16 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <cstdint>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <numbers>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -20,8 +15,9 @@
 #include "hinge/ensemble/ensemble.hpp"
 #include "hinge/molecular/sampler.hpp"
 #include "hinge/molecular/write_structure.hpp"
+#include "hinge/tool/complete_file.hpp"
+#include "hinge/tool/progress_bar.hpp"
 #include "options.hpp"
-#include "progress_bar.hpp"
 #include "report.hpp"
 
 namespace biocd {
@@ -33,36 +29,6 @@ using namespace hinge::molecular;
 struct Sample {
   Verdict verdict;
   std::vector<hinge::Vec3> positions;  // only when they are to be written
-};
-
-/// Writes beside the wanted file and takes its name only when complete, so that nothing half-written is left.
-class ConformationFile {
- public:
-  explicit ConformationFile(std::string path) : path_(std::move(path)) {
-    if (path_.empty()) return;
-    stream_.open(partial());
-    if (!stream_) throw hinge::LoadError(path_ + ": cannot be written: " + std::strerror(errno));
-  }
-  ConformationFile(const ConformationFile&) = delete;
-  ConformationFile& operator=(const ConformationFile&) = delete;
-  ~ConformationFile() {
-    std::error_code ignored;
-    if (!path_.empty()) std::filesystem::remove(partial(), ignored);
-  }
-  bool wanted() const { return !path_.empty(); }
-  std::ofstream& stream() { return stream_; }
-  void finish() {
-    if (path_.empty()) return;
-    stream_ << "END\n";
-    stream_.close();
-    if (!stream_) throw hinge::LoadError(path_ + ": cannot be written: " + std::strerror(errno));
-    std::filesystem::rename(partial(), path_);
-  }
-
- private:
-  std::string partial() const { return path_ + ".partial"; }
-  std::string path_;
-  std::ofstream stream_;
 };
 
 struct Summary {
@@ -117,19 +83,19 @@ void print_table(const Structure& s, const Summary& summary, double seconds) {
 
 }  // namespace
 
-int run_sample(const Options& options) {
+Exit run_sample(const Options& options) {
   const Job job = load(options);
   const Mode mode = Mode::parse(options.mode);
   print_notes(job);
   if (!options.explain.empty()) {
     explain(options, job);
-    return static_cast<int>(Exit::free);
+    return Exit::free;
   }
   if (options.count == 0) throw hinge::ModelError("-n 0: expected at least one conformation");
   Sampling sampling{options.seed, {}};
   if (options.sigma_degrees) sampling.sigma = *options.sigma_degrees * std::numbers::pi / 180.0;
   const Structure& s = job.molecule->structure();
-  ConformationFile file(options.out);
+  hinge::tool::CompleteFile file(options.out);
 
   if (options.output == Output::json) {
     Json head{{"tool", "biocd"}, {"command", "sample"}, {"model", model_json(options, job)}, {"mode", mode.text()}};
@@ -147,7 +113,7 @@ int run_sample(const Options& options) {
   if (options.output == Output::table) fmt::print("{}", heading(options, job));
 
   Summary summary;
-  ProgressBar bar(options.count);
+  hinge::tool::ProgressBar bar(options.count);
   const auto start = std::chrono::steady_clock::now();
   const auto judge = [&](Checker& checker, std::size_t k) {
     Sample sample{checker.check(sample_configuration(sampling, k, checker.dof_count()), mode), {}};
@@ -164,10 +130,11 @@ int run_sample(const Options& options) {
   };
   hinge::Ensemble(job.checker, options.threads).run(static_cast<std::size_t>(options.count), judge, report);
   const std::chrono::duration<double> checking = std::chrono::steady_clock::now() - start;
+  if (file.wanted()) file.stream() << "END\n";
   file.finish();
   if (options.output == Output::json) print_json_end(s, summary);
   if (options.output == Output::table) print_table(s, summary, checking.count());
-  return static_cast<int>(summary.colliding > 0 ? Exit::collision : Exit::free);
+  return summary.colliding > 0 ? Exit::collision : Exit::free;
 }
 
 }  // namespace biocd

@@ -2,30 +2,14 @@
 // Runs biocd as a user would, and keeps what it says.
 #pragma once
 
-#include <sys/wait.h>
-
-#include <array>
-#include <cstddef>
-#include <cstdio>
 #include <string>
+
+#include "tool/run_tool.hpp"
 
 namespace hinge::test {
 
-struct Said {
-  int status = -1;  ///< exit status; -1: did not exit by itself
-  std::string out;  ///< standard output
-};
-
-/// environment: assignments for the shell, such as "HINGE_ISA=avx2", or nothing.
 inline Said run_biocd(const std::string& arguments, const std::string& environment = "") {
-  Said said;
-  FILE* pipe = popen((environment + " '" + HINGE_BIOCD + "' " + arguments).c_str(), "r");
-  if (pipe == nullptr) return said;
-  std::array<char, 4096> chunk{};
-  for (std::size_t got = 0; (got = fread(chunk.data(), 1, chunk.size(), pipe)) > 0;) said.out.append(chunk.data(), got);
-  const int status = pclose(pipe);
-  said.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return said;
+  return run_tool(HINGE_BIOCD, arguments, environment);
 }
 
 }  // namespace hinge::test

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <string>
 
-namespace biocd {
+namespace hinge::tool {
 
 class ProgressBar {
  public:
@@ -38,4 +38,4 @@ class ProgressBar {
   std::chrono::steady_clock::time_point last_{};
 };
 
-}  // namespace biocd
+}  // namespace hinge::tool

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A command-line tool is installed once per instruction set; the plain program hands over to the best the CPU has. By
+// exec: programs compiled apart share no inline functions, so none can slip into one that must do without AVX.
+#pragma once
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+#include "hinge/core/error.hpp"
+#include "hinge/simd/instruction_set.hpp"
+
+namespace hinge::tool {
+
+/// What the environment variable HINGE_ISA names, or the best of this CPU. ModelError: another word, or one the CPU
+/// lacks.
+inline simd::InstructionSet wanted_instruction_set() {
+  using simd::InstructionSet;
+  const InstructionSet best = simd::of_this_cpu();
+  const char* chosen = std::getenv("HINGE_ISA");
+  if (chosen == nullptr || *chosen == '\0') return best;
+  const auto& names = simd::instruction_set_names;
+  const auto found = std::find(names.begin(), names.end(), chosen);
+  if (found == names.end())
+    throw ModelError("HINGE_ISA is '" + std::string(chosen) + "': expected baseline, avx2 or avx512");
+  const auto set = static_cast<InstructionSet>(found - names.begin());
+  if (set > best)
+    throw ModelError("HINGE_ISA is '" + std::string(chosen) + "', but this CPU has " + std::string(simd::name(best)) +
+                     " at most");
+  return set;
+}
+
+/// Replaces this process by the program NAME-avx512 or NAME-avx2 beside it, NAME being its own, when the CPU runs that,
+/// or by the one HINGE_ISA names (baseline, avx2, avx512; ModelError as above). Returns when this program is the right
+/// one, or the other is not there. Answers are the same on all.
+inline void pick_instruction_set(char** argv) {
+  using simd::InstructionSet;
+  // The other programs run this too, and are never replaced again.
+  if (simd::compiled_for() != InstructionSet::baseline) return;
+  for (InstructionSet set = wanted_instruction_set(); set != InstructionSet::baseline;
+       set = static_cast<InstructionSet>(static_cast<unsigned char>(set) - 1)) {
+    std::error_code error;
+    const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe", error);
+    if (error) return;
+    const std::string other = own.string() + "-" + std::string(simd::name(set));
+    ::execv(other.c_str(), argv);  // comes back only when it is not there: then the next lower one
+  }
+}
+
+}  // namespace hinge::tool

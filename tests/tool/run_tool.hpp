@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs a command-line tool as a user would, and keeps what it says.
+#pragma once
+
+#include <sys/wait.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdio>
+#include <string>
+
+namespace hinge::test {
+
+struct Said {
+  int status = -1;  ///< exit status; -1: did not exit by itself
+  std::string out;  ///< standard output; standard error goes along with `2>&1` in the arguments
+};
+
+/// environment: assignments for the shell, such as "HINGE_ISA=avx2", or nothing.
+inline Said run_tool(const std::string& program, const std::string& arguments, const std::string& environment = "") {
+  Said said;
+  FILE* pipe = popen((environment + " '" + program + "' " + arguments).c_str(), "r");
+  if (pipe == nullptr) return said;
+  std::array<char, 4096> chunk{};
+  for (std::size_t got = 0; (got = fread(chunk.data(), 1, chunk.size(), pipe)) > 0;) said.out.append(chunk.data(), got);
+  const int status = pclose(pipe);
+  said.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return said;
+}
+
+}  // namespace hinge::test
