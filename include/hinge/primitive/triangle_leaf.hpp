@@ -78,7 +78,7 @@ struct Leaf<Triangle> {
     const float* coordinates() const noexcept { return at_.data(); }
 
     [[gnu::flatten]] simd::Bits near_box(const std::array<float, 3>& middle, const std::array<float, 3>& half,
-                        const Nearness& near) const noexcept {
+                                         const Nearness& near) const noexcept {
       simd::Bits lanes = simd::all_bits;
       const float slack = near.margin + near.error;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -93,13 +93,15 @@ struct Leaf<Triangle> {
       return lanes;
     }
 
-    [[gnu::flatten]] simd::Bits near(std::size_t k, const float* own, simd::Bits lanes, const Nearness& near) const noexcept {
+    [[gnu::flatten]] simd::Bits near(std::size_t k, const float* own, simd::Bits lanes,
+                                     const Nearness& near) const noexcept {
       if (near.reach == nullptr && near.other_reach == nullptr && near.margin <= 0.0F)
         return not_apart<false, true>(k, own, lanes, near);
       return not_apart<true, true>(k, own, lanes, near);
     }
     /// The same with fewer axes, for pairs whose distance is bounded next.
-    [[gnu::flatten]] simd::Bits roughly_near(std::size_t k, const float* own, simd::Bits lanes, const Nearness& near) const noexcept {
+    [[gnu::flatten]] simd::Bits roughly_near(std::size_t k, const float* own, simd::Bits lanes,
+                                             const Nearness& near) const noexcept {
       return not_apart<true, false>(k, own, lanes, near);
     }
 
