@@ -134,6 +134,10 @@ struct ShapeProblem {
     const std::string radius = unless_above_zero("cylinder of radius", cylinder.radius);
     return radius.empty() ? unless_above_zero("cylinder of length", cylinder.length) : radius;
   }
+  std::string operator()(const CapsuleShape& capsule) const {
+    const std::string radius = unless_above_zero("capsule of radius", capsule.radius);
+    return radius.empty() ? unless_above_zero("capsule of length", capsule.length) : radius;
+  }
   std::string operator()(const MeshShape& shape) const {
     std::string who = "mesh";
     if (!shape.file.empty()) who.append(" ").append(in_quotes(shape.file.string()));

@@ -55,14 +55,31 @@ void keep_only(XMLElement& parent, std::string_view first, std::string_view seco
   }
 }
 
-OutlinedLink outline_link(const XmlFile& file, const XMLElement& link) {
+/// <capsule radius="" length="">, the length without the caps: an extension that Bullet and Drake read alike.
+CapsuleShape capsule_of(const XmlFile& file, const XMLElement& shape) {
+  const auto size = [&](const char* name) {
+    const std::string text = file.attribute(shape, name);
+    const auto numbers = parse_numbers(text);
+    if (!numbers || numbers->size() != 1)
+      file.refuse(shape.GetLineNum(),
+                  "<capsule> has " + std::string(name) + "=\"" + text + "\", expected a finite number");
+    return numbers->front();
+  };
+  return {size("radius"), size("length")};
+}
+
+OutlinedLink outline_link(const XmlFile& file, XMLElement& link) {
   OutlinedLink outlined{file.attribute(link, "name"), link.GetLineNum(), {}};
-  for (const auto* c = link.FirstChildElement("collision"); c != nullptr; c = c->NextSiblingElement("collision")) {
-    const XMLElement* geometry = c->FirstChildElement("geometry");
-    const XMLElement* shape = geometry != nullptr ? geometry->FirstChildElement() : nullptr;
+  for (auto* c = link.FirstChildElement("collision"); c != nullptr; c = c->NextSiblingElement("collision")) {
+    XMLElement* geometry = c->FirstChildElement("geometry");
+    XMLElement* shape = geometry != nullptr ? geometry->FirstChildElement() : nullptr;
     if (shape != nullptr && shape->NextSiblingElement() != nullptr)
       file.refuse(geometry->GetLineNum(), "link '" + outlined.name + "': a <geometry> of several shapes, expected one");
     outlined.collisions.push_back({c->GetLineNum(), origin_of(file, *c)});
+    if (shape == nullptr || shape->Name() != std::string_view("capsule")) continue;
+    outlined.collisions.back().capsule = capsule_of(file, *shape);
+    shape->SetName("sphere");
+    shape->SetAttribute("radius", 1);
   }
   return outlined;
 }

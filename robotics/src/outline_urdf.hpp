@@ -3,16 +3,19 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "hinge/core/pose.hpp"
+#include "hinge/robotics/shape.hpp"
 
 namespace hinge::robotics {
 
 struct OutlinedCollision {
   int line = 0;
   Pose origin{};
+  std::optional<CapsuleShape> capsule{};  ///< when its shape is one; urdfdom, which knows none, is told of a sphere
 };
 
 struct OutlinedLink {
@@ -37,8 +40,8 @@ struct UrdfOutline {
       geometry_only;  ///< the file without visuals, inertias and extensions, whose faults are no concern of ours
 };
 
-/// LoadError: see XmlFile; elements without name, numbers in an origin that are not six finite ones, a <geometry> of
-/// several shapes (urdfdom takes the first).
+/// LoadError: see XmlFile; elements without name, numbers in an origin that are not six finite ones, sizes of a capsule
+/// that are not one number, a <geometry> of several shapes (urdfdom takes the first).
 UrdfOutline outline_urdf(const std::filesystem::path& path);
 
 }  // namespace hinge::robotics

@@ -94,7 +94,8 @@ class UrdfReader {
       const std::string who = "link '" + outlined.name + "': ";
       if (!link.collision_array[k]->geometry) refuse(collision.line, who + "a <collision> without geometry");
       description.geometry.push_back(
-          {read_shape(*link.collision_array[k]->geometry, collision.line, who), collision.origin});
+          {collision.capsule ? *collision.capsule : read_shape(*link.collision_array[k]->geometry, collision.line, who),
+           collision.origin});
       const std::string problem = problem_of(description.geometry.back().shape);
       if (!problem.empty()) refuse(collision.line, who + problem);
     }

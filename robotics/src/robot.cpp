@@ -74,12 +74,15 @@ void Robot::build(const Tessellation& tessellation) {
     ids[link.name] = added;
     link_names_.push_back(link.name);
     triangle_counts_.push_back(0);
-    for (const PlacedShape& placed : link.geometry)
-      for (const Triangle& triangle : tessellate(placed.shape, tessellation)) {
-        degenerate_count_ += has_no_area(triangle) ? 1U : 0U;
+    for (const PlacedShape& placed : link.geometry) {
+      const Surface surface = tessellate(placed.shape, tessellation);
+      for (const Triangle& triangle : surface.triangles) {
+        degenerate_count_ += surface.radius == 0.0 && has_no_area(triangle) ? 1U : 0U;
         builder.add_primitive(added, placed.origin == Pose{} ? triangle : triangle.placed(placed.origin));
-        ++triangle_counts_.back();
       }
+      triangle_counts_.back() += surface.triangles.size();
+      radii_.insert(radii_.end(), surface.triangles.size(), surface.radius);
+    }
   };
   add(world, Fixed{}, root);
   for (const std::size_t k : parents_first(description_, root.name)) {
@@ -88,6 +91,7 @@ void Robot::build(const Tessellation& tessellation) {
     add(ids.at(joint.parent), core_joint(joint), *links.at(joint.child));
   }
   model_ = builder.finish();
+  if (std::all_of(radii_.begin(), radii_.end(), [](double radius) { return radius == 0.0; })) radii_.clear();
 }
 
 void Robot::find_drives() {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prisms and subdivided icosahedra, inscribed or circumscribed.
+// Prisms and subdivided icosahedra, inscribed or circumscribed; points and segments with a radius.
 #include "hinge/robotics/tessellate.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <set>
 #include <string>
 #include <variant>
 
@@ -137,6 +138,29 @@ Triangles around_sphere(double radius, double tolerance) {
   refuse_tolerance(tolerance);
 }
 
+/// A convex polyhedron swept along a segment of the z axis: faces that look up go up, the others down, and walls stand
+/// where two such faces met.
+Triangles drawn_apart(const Triangles& polyhedron, double length) {
+  using Edge = std::array<double, 6>;
+  const auto edge = [](const Vec3& a, const Vec3& b) { return Edge{a[0], a[1], a[2], b[0], b[1], b[2]}; };
+  const Vec3 up(0, 0, length / 2);
+  Triangles triangles;
+  std::set<Edge> upper;
+  for (const Triangle& t : polyhedron) {
+    const bool looks_up = cross(Vec3(t.b - t.a), Vec3(t.c - t.a))[2] >= 0.0;
+    const Vec3 move = looks_up ? up : Vec3(-up);
+    triangles.push_back({t.a + move, t.b + move, t.c + move});
+    if (looks_up) upper.insert({edge(t.a, t.b), edge(t.b, t.c), edge(t.c, t.a)});
+  }
+  for (const Edge& e : upper) {
+    const Vec3 a(e[0], e[1], e[2]), b(e[3], e[4], e[5]);
+    if (upper.contains(edge(b, a))) continue;
+    triangles.push_back({b + up, a + up, a - up});
+    triangles.push_back({b + up, a - up, b - up});
+  }
+  return triangles;
+}
+
 Triangles scaled(const MeshShape& shape) {
   Triangles triangles = shape.mesh->triangles;
   if (shape.scale == Vec3::Ones()) return triangles;
@@ -148,21 +172,40 @@ Triangles scaled(const MeshShape& shape) {
 constexpr std::size_t inscribed_sides = 32;
 constexpr std::size_t inscribed_parts = 4;  // two halvings of every edge: 320 triangles
 
+/// Any shape by triangles alone.
+struct InTriangles {
+  bool inscribed = false;
+  double tolerance = 0.0;
+
+  Triangles operator()(const MeshShape& mesh) const { return scaled(mesh); }
+  Triangles operator()(const BoxShape& shape) const { return box(shape.size); }
+  Triangles operator()(const CylinderShape& cylinder) const {
+    return inscribed ? prism(cylinder.radius, cylinder.length, inscribed_sides) : around_cylinder(cylinder, tolerance);
+  }
+  Triangles operator()(const SphereShape& sphere) const {
+    return inscribed ? geodesic(sphere.radius, inscribed_parts) : around_sphere(sphere.radius, tolerance);
+  }
+  Triangles operator()(const CapsuleShape& capsule) const {
+    return drawn_apart((*this)(SphereShape{capsule.radius}), capsule.length);
+  }
+};
+
 }  // namespace
 
-std::vector<Triangle> tessellate(const Shape& shape, const Tessellation& tessellation) {
+Surface tessellate(const Shape& shape, const Tessellation& tessellation) {
   const std::string problem = problem_of(shape);
   if (!problem.empty()) throw ModelError(problem);
   const double tolerance = tessellation.tolerance;
   if (!is_finite(tolerance) || !(tolerance > 0.0)) refuse_tolerance(tolerance);
+  if (tessellation.manner == Tessellation::Manner::rounded) {
+    if (const auto* sphere = std::get_if<SphereShape>(&shape)) return {{Triangle{}}, sphere->radius};
+    if (const auto* capsule = std::get_if<CapsuleShape>(&shape)) {
+      const Vec3 end(0, 0, capsule->length / 2);
+      return {{{-end, end, end}}, capsule->radius};
+    }
+  }
   const bool inscribed = tessellation.manner == Tessellation::Manner::inscribed;
-  if (const auto* mesh = std::get_if<MeshShape>(&shape)) return scaled(*mesh);
-  if (const auto* b = std::get_if<BoxShape>(&shape)) return box(b->size);
-  if (const auto* cylinder = std::get_if<CylinderShape>(&shape))
-    return inscribed ? prism(cylinder->radius, cylinder->length, inscribed_sides)
-                     : around_cylinder(*cylinder, tolerance);
-  const double radius = std::get<SphereShape>(shape).radius;
-  return inscribed ? geodesic(radius, inscribed_parts) : around_sphere(radius, tolerance);
+  return {std::visit(InTriangles{inscribed, tolerance}, shape), 0.0};
 }
 
 }  // namespace hinge::robotics

@@ -129,6 +129,34 @@ TEST(ReadUrdf, TakesRosPackagePathOnlyWhenAsked) {
   EXPECT_TRUE(ros_package_path().empty());
 }
 
+/// No part of URDF, but of what Bullet and Drake read; urdfdom alone would refuse it.
+TEST(ReadUrdf, ReadsCapsulesBesideOtherShapes) {
+  const test::TemporaryFolder folder;
+  const std::string urdf = robot_of(
+      "<link name='a'>\n<collision><geometry><sphere radius='2'/></geometry></collision>\n"
+      "<collision><origin xyz='1 2 3'/><geometry><capsule radius='0.25' length=' 1.5 '/></geometry></collision>\n"
+      "<collision><geometry><cylinder radius='3' length='4'/></geometry></collision>\n</link>\n");
+  const RobotDescription robot = read_urdf(folder.write("r.urdf", urdf));
+  ASSERT_EQ(robot.links.at(0).geometry.size(), 3U);
+  EXPECT_EQ(std::get<SphereShape>(robot.links[0].geometry[0].shape).radius, 2.0);
+  EXPECT_EQ(std::get<CapsuleShape>(robot.links[0].geometry[1].shape).radius, 0.25);
+  EXPECT_EQ(std::get<CapsuleShape>(robot.links[0].geometry[1].shape).length, 1.5);
+  EXPECT_EQ(robot.links[0].geometry[1].origin.translation, Vec3(1, 2, 3));
+  EXPECT_EQ(std::get<CylinderShape>(robot.links[0].geometry[2].shape).radius, 3.0);
+}
+
+TEST(ReadUrdf, RefusesCapsulesThatAreNone) {
+  EXPECT_EQ(refusal(one_shape("<capsule radius='0' length='1'/>")),
+            "r.urdf:4: link 'a': capsule of radius 0, expected a finite length above 0");
+  EXPECT_EQ(refusal(one_shape("<capsule radius='1' length='-1'/>")),
+            "r.urdf:4: link 'a': capsule of length -1, expected a finite length above 0");
+  EXPECT_EQ(refusal(one_shape("<capsule radius='1'/>")), "r.urdf:4: <capsule> has no attribute 'length'");
+  EXPECT_EQ(refusal(one_shape("<capsule radius='1 2' length='1'/>")),
+            "r.urdf:4: <capsule> has radius=\"1 2\", expected a finite number");
+  EXPECT_EQ(refusal(one_shape("<capsule radius='nan' length='1'/>")),
+            "r.urdf:4: <capsule> has radius=\"nan\", expected a finite number");
+}
+
 TEST(ReadUrdf, RefusesWhatIsNoUrdf) {
   EXPECT_EQ(refusal(""), "r.urdf: is no XML: XML_ERROR_EMPTY_DOCUMENT");
   EXPECT_EQ(refusal("<robot name='r'>\n<link name='a'></robot>"), "r.urdf:2: is no XML: XML_ERROR_MISMATCHED_ELEMENT");
@@ -215,7 +243,7 @@ TEST(ReadUrdf, RefusesShapesThatAreNone) {
             "r.urdf:4: link 'a': sphere of radius 0, expected a finite length above 0");
   EXPECT_NE(refusal(one_shape("<sphere radius='nan'/>")).find("r.urdf:3: radius [nan] is not a valid float"),
             std::string::npos);
-  EXPECT_NE(refusal(one_shape("<capsule radius='1' length='2'/>")).find("r.urdf:3: Unknown geometry type 'capsule'"),
+  EXPECT_NE(refusal(one_shape("<cone radius='1' length='2'/>")).find("r.urdf:3: Unknown geometry type 'cone'"),
             std::string::npos);
   EXPECT_EQ(refusal(one_shape("<box size='1 1 1'/><sphere radius='1'/>")),
             "r.urdf:4: link 'a': a <geometry> of several shapes, expected one");

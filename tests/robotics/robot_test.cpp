@@ -11,6 +11,7 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/hierarchy.hpp"
+#include "hinge/kinematics/joint.hpp"
 #include "hinge/policy/distance_matrix.hpp"
 #include "hinge/robotics/tested_pairs.hpp"
 
@@ -187,6 +188,26 @@ TEST(Robot, CountsTrianglesWithoutAreaAndKeepsThem) {
   const Robot built(robot);
   EXPECT_EQ(built.degenerate_count(), 1U);
   EXPECT_EQ(built.triangle_count(id<LinkId>(1)), 2U);
+}
+
+TEST(Robot, GivesSpheresAndCapsulesTheirRadius) {
+  RobotDescription robot = arm();
+  EXPECT_TRUE(Robot(robot).radii().empty());
+  const Pose aside{rotation_about(Vec3::UnitX(), std::acos(0.0)), Vec3(0, 0, 2)};
+  robot.links[1].geometry = {{SphereShape{0.25}, aside}, {BoxShape{}}, {CapsuleShape{0.5, 4.0}, aside}};
+  const Robot built(robot);
+  ASSERT_EQ(built.triangle_count(id<LinkId>(1)), 14U);
+  ASSERT_EQ(built.radii().size(), built.model().size());
+  EXPECT_EQ(built.radii()[0], 0.25);
+  EXPECT_EQ(built.model().primitives()[0].a, Vec3(0, 0, 2));
+  for (std::size_t k = 1; k < 13; ++k) EXPECT_EQ(built.radii()[k], 0.0);
+  EXPECT_EQ(built.radii()[13], 0.5);
+  EXPECT_LE((built.model().primitives()[13].a - Vec3(0, 2, 2)).norm(), 1e-15);
+  EXPECT_LE((built.model().primitives()[13].b - Vec3(0, -2, 2)).norm(), 1e-15);
+  EXPECT_EQ(built.radii()[14], 0.0);
+  // Points and segments with a radius are no defects.
+  EXPECT_EQ(built.degenerate_count(), 0U);
+  EXPECT_TRUE(Robot(robot, {Tessellation::Manner::inscribed}).radii().empty());
 }
 
 }  // namespace

@@ -21,6 +21,13 @@ namespace {
 
 constexpr Tessellation inscribed{Tessellation::Manner::inscribed, 1e-3};
 
+/// The triangles of a shape that is given by triangles alone.
+std::vector<Triangle> triangles_of(const Shape& shape, const Tessellation& tessellation) {
+  const Surface surface = tessellate(shape, tessellation);
+  EXPECT_EQ(surface.radius, 0.0);
+  return surface.triangles;
+}
+
 Tessellation within(double tolerance) { return {Tessellation::Manner::circumscribed, tolerance}; }
 
 using Point = std::tuple<double, double, double>;
@@ -65,7 +72,7 @@ double largest(const std::vector<Triangle>& triangles, const Size& size) {
 
 TEST(Tessellate, MakesABoxOfTwelveTriangles) {
   for (const Tessellation& manner : {inscribed, Tessellation{}}) {
-    const auto triangles = tessellate(BoxShape{{1, 2, 4}}, manner);
+    const auto triangles = triangles_of(BoxShape{{1, 2, 4}}, manner);
     EXPECT_EQ(triangles.size(), 12U);
     expect_closed(triangles);
     EXPECT_DOUBLE_EQ(volume(triangles), 8.0);
@@ -76,7 +83,7 @@ TEST(Tessellate, MakesABoxOfTwelveTriangles) {
 TEST(Tessellate, HoldsTheSphereAndStaysWithinTheTolerance) {
   for (const double radius : {0.02, 0.3, 5.0})
     for (const double tolerance : {1.0, 1e-2, 1e-3}) {
-      const auto triangles = tessellate(SphereShape{radius}, within(tolerance));
+      const auto triangles = triangles_of(SphereShape{radius}, within(tolerance));
       expect_closed(triangles);
       EXPECT_GE(nearest_to_centre(triangles), radius * (1 - 1e-14));
       EXPECT_LE(largest(triangles, [](const Vec3& v) { return v.norm(); }), radius + tolerance + radius * 1e-14);
@@ -87,7 +94,7 @@ TEST(Tessellate, HoldsTheSphereAndStaysWithinTheTolerance) {
 TEST(Tessellate, HoldsTheCylinderAndStaysWithinTheTolerance) {
   for (const double radius : {0.02, 0.3, 5.0})
     for (const double tolerance : {1.0, 1e-2, 1e-3}) {
-      const auto triangles = tessellate(CylinderShape{radius, 3.0}, within(tolerance));
+      const auto triangles = triangles_of(CylinderShape{radius, 3.0}, within(tolerance));
       const auto from_axis = [](const Vec3& v) { return std::hypot(v[0], v[1]); };
       expect_closed(triangles);
       EXPECT_LE(largest(triangles, from_axis), radius + tolerance + radius * 1e-14);
@@ -104,21 +111,21 @@ TEST(Tessellate, HoldsTheCylinderAndStaysWithinTheTolerance) {
 }
 
 TEST(Tessellate, TakesMoreTrianglesForLessErrorAndNoMoreThanNeeded) {
-  EXPECT_EQ(tessellate(SphereShape{0.1}, within(10.0)).size(), 20U);
-  EXPECT_EQ(tessellate(CylinderShape{0.1, 1.0}, within(10.0)).size(), 12U);
-  const auto coarse = tessellate(SphereShape{0.1}, within(1e-3)), fine = tessellate(SphereShape{0.1}, within(1e-4));
+  EXPECT_EQ(triangles_of(SphereShape{0.1}, within(10.0)).size(), 20U);
+  EXPECT_EQ(triangles_of(CylinderShape{0.1, 1.0}, within(10.0)).size(), 12U);
+  const auto coarse = triangles_of(SphereShape{0.1}, within(1e-3)), fine = triangles_of(SphereShape{0.1}, within(1e-4));
   EXPECT_GT(fine.size(), coarse.size());
   EXPECT_LT(coarse.size(), 1000U);
 }
 
 /// The manner in which the published references were made.
 TEST(Tessellate, InscribesAsTheReferenceDoes) {
-  const auto sphere = tessellate(SphereShape{2.0}, inscribed);
+  const auto sphere = triangles_of(SphereShape{2.0}, inscribed);
   EXPECT_EQ(sphere.size(), 320U);
   expect_closed(sphere);
   for (const Triangle& t : sphere) EXPECT_NEAR(t.a.norm(), 2.0, 1e-15);
   EXPECT_GT(volume(sphere), 0.0);
-  const auto cylinder = tessellate(CylinderShape{2.0, 1.0}, inscribed);
+  const auto cylinder = triangles_of(CylinderShape{2.0, 1.0}, inscribed);
   EXPECT_EQ(cylinder.size(), 128U);
   expect_closed(cylinder);
   EXPECT_EQ(cylinder[0].a, Vec3(2, 0, -0.5));
@@ -129,13 +136,48 @@ TEST(Tessellate, InscribesAsTheReferenceDoes) {
 TEST(Tessellate, ScalesMeshesMirroringThemWhereTold) {
   auto mesh = std::make_shared<TriangleMesh>();
   mesh->triangles = {{Vec3(1, 2, 3), Vec3(0, 1, 0), Vec3(0, 0, 1)}};
-  EXPECT_EQ(tessellate(MeshShape{mesh, {1, -2, 0.5}}).at(0).a, Vec3(1, -4, 1.5));
+  EXPECT_EQ(triangles_of(MeshShape{mesh, {1, -2, 0.5}}, {}).at(0).a, Vec3(1, -4, 1.5));
+}
+
+TEST(Tessellate, KeepsSpheresAndCapsulesExact) {
+  const Surface sphere = tessellate(SphereShape{0.25});
+  ASSERT_EQ(sphere.triangles.size(), 1U);
+  EXPECT_EQ(sphere.radius, 0.25);
+  EXPECT_EQ(sphere.triangles[0].a, Vec3::Zero());
+  EXPECT_EQ(sphere.triangles[0].b, Vec3::Zero());
+  EXPECT_EQ(sphere.triangles[0].c, Vec3::Zero());
+  const Surface capsule = tessellate(CapsuleShape{0.25, 3.0});
+  ASSERT_EQ(capsule.triangles.size(), 1U);
+  EXPECT_EQ(capsule.radius, 0.25);
+  EXPECT_EQ(capsule.triangles[0].a, Vec3(0, 0, -1.5));
+  EXPECT_EQ(capsule.triangles[0].b, Vec3(0, 0, 1.5));
+  EXPECT_EQ(capsule.triangles[0].c, Vec3(0, 0, 1.5));
+  EXPECT_EQ(tessellate(CylinderShape{0.25, 3.0}).radius, 0.0);
+}
+
+TEST(Tessellate, HoldsTheCapsuleAndStaysWithinTheTolerance) {
+  const auto from_axis = [](const Vec3& v) { return (v - Vec3(0, 0, std::clamp(v[2], -1.5, 1.5))).norm(); };
+  const Triangle axis{Vec3(0, 0, -1.5), Vec3(0, 0, 1.5), Vec3(0, 0, 1.5)};
+  for (const double radius : {0.02, 0.3, 5.0})
+    for (const double tolerance : {1.0, 1e-2, 1e-3}) {
+      const auto triangles = triangles_of(CapsuleShape{radius, 3.0}, within(tolerance));
+      expect_closed(triangles);
+      EXPECT_LE(largest(triangles, from_axis), radius + tolerance + radius * 1e-14);
+      for (const Triangle& t : triangles)
+        ASSERT_GE(std::sqrt(squared_distance(t, axis)), radius * (1 - 1e-13)) << radius << " " << tolerance;
+      EXPECT_GT(volume(triangles), 3.14 * radius * radius * (3.0 + radius * 4 / 3));
+    }
+  const auto rough = triangles_of(CapsuleShape{0.3, 3.0}, inscribed);
+  expect_closed(rough);
+  EXPECT_LE(largest(rough, from_axis), 0.3 * (1 + 1e-14));
 }
 
 TEST(Tessellate, RefusesShapesAndTolerancesThatAreNone) {
   EXPECT_THROW(tessellate(BoxShape{{1, 0, 1}}), ModelError);
   EXPECT_THROW(tessellate(SphereShape{-1.0}), ModelError);
   EXPECT_THROW(tessellate(CylinderShape{1.0, std::nan("")}), ModelError);
+  EXPECT_THROW(tessellate(CapsuleShape{1.0, 0.0}), ModelError);
+  EXPECT_THROW(tessellate(CapsuleShape{0.0, 1.0}), ModelError);
   EXPECT_THROW(tessellate(MeshShape{}), ModelError);
   for (const double tolerance : {0.0, -1.0, std::nan(""), 1e-300})
     EXPECT_THROW(tessellate(SphereShape{1.0}, within(tolerance)), ModelError) << tolerance;

@@ -19,9 +19,10 @@ struct UrdfOptions {
 std::vector<std::filesystem::path> ros_package_path();
 
 /// Links, joints and collision geometry (m, rad) in the file's order; visuals, inertias and extensions are not looked
-/// at. Mesh paths are relative to the URDF file, absolute, file:// or package://. LoadError, one line naming file, line
-/// and element: bad XML, xacro input, unknown or repeated names, links that make no tree, floating and planar joints,
-/// zero axes, sizes and scales, numbers that are not finite, meshes that are missing or bad.
+/// at, but for <capsule radius length> (its length without the caps). Mesh paths are relative to the URDF file,
+/// absolute, file:// or package://. LoadError, one line naming file, line and element: bad XML, xacro input, unknown or
+/// repeated names, links that make no tree, floating and planar joints, zero axes, sizes and scales, numbers that are
+/// not finite, meshes that are missing or bad.
 RobotDescription read_urdf(const std::filesystem::path& path, const UrdfOptions& options = {});
 
 }  // namespace hinge::robotics

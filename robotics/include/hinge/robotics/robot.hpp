@@ -36,7 +36,9 @@ class Robot {
   std::optional<LinkId> find_link(std::string_view name) const noexcept;
   /// Number of triangles; 0: the link takes part in no test.
   std::size_t triangle_count(LinkId link) const noexcept { return triangle_counts_[index(link)]; }
-  /// Triangles of zero area, kept as the segments or points they span.
+  /// Radius per triangle, m: spheres and capsules are points and segments grown by it. Empty: all 0.
+  std::span<const double> radii() const noexcept { return radii_; }
+  /// Triangles of zero area and radius 0, kept as the segments or points they span.
   std::size_t degenerate_count() const noexcept { return degenerate_count_; }
 
   // --- joints ---
@@ -72,6 +74,7 @@ class Robot {
   RobotDescription description_;
   std::vector<std::string> link_names_;
   std::vector<std::size_t> triangle_counts_;
+  std::vector<double> radii_;
   std::size_t degenerate_count_ = 0;
   std::vector<std::size_t> joint_of_dof_;
   std::vector<std::size_t> independent_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shapes of links as URDF knows them, in metres, centred on their own frame; cylinders stand along z.
+// Shapes of links as URDF knows them, in metres, centred on their own frame; cylinders and capsules stand along z.
 #pragma once
 
 #include <cstddef>
@@ -26,6 +26,12 @@ struct CylinderShape {
   double length = 1.0;
 };
 
+/// What is at most `radius` away from a segment.
+struct CapsuleShape {
+  double radius = 1.0;
+  double length = 1.0;  ///< of the segment: from end to end it is length + 2 radius
+};
+
 /// A surface; closed or not, nothing is assumed.
 struct TriangleMesh {
   std::vector<Triangle> triangles;
@@ -37,6 +43,6 @@ struct MeshShape {
   std::filesystem::path file{};              ///< where it was read from; empty when made in code
 };
 
-using Shape = std::variant<BoxShape, SphereShape, CylinderShape, MeshShape>;
+using Shape = std::variant<BoxShape, SphereShape, CylinderShape, CapsuleShape, MeshShape>;
 
 }  // namespace hinge::robotics

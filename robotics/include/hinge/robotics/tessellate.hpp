@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// tessellate: triangles for boxes, spheres and cylinders, with an error that is stated and on the safe side.
+// tessellate: triangles for boxes, spheres, cylinders and capsules, exact or with a stated error on the safe side.
 #pragma once
 
 #include <cstdint>
@@ -10,21 +10,30 @@
 
 namespace hinge::robotics {
 
-/// Boxes and meshes are exact in either manner.
+/// Boxes and meshes are exact in any manner.
 struct Tessellation {
   enum class Manner : std::uint8_t {
-    /// The surface encloses the shape (up to rounding) and is nowhere farther than `tolerance` from it: a contact is
-    /// never missed.
+    /// Spheres and capsules are exact: a point and a segment with a radius. The rest is circumscribed.
+    rounded,
+    /// Triangles alone. The surface encloses the shape (up to rounding) and is nowhere farther than `tolerance` from
+    /// it: a contact is never missed.
     circumscribed,
-    /// Vertices on the shape, 32 sides a cylinder, 320 triangles a sphere: the manner of the published reference data.
+    /// Triangles alone, vertices on the shape, 32 sides a cylinder, 320 triangles a sphere: the manner of the published
+    /// reference data. A capsule is such a sphere drawn apart.
     inscribed
   };
-  Manner manner = Manner::circumscribed;
+  Manner manner = Manner::rounded;
   double tolerance = 1e-3;  ///< m, finite, > 0; 1 mm is what meshes of robot links are about as good as
 };
 
-/// The surface of a shape in its own frame, mesh scale applied. ModelError: sizes, scale or tolerance that are not
-/// finite or not above 0 (scale: are 0), or a tolerance so small that it would take more than 10^6 triangles.
-std::vector<Triangle> tessellate(const Shape& shape, const Tessellation& tessellation = {});
+/// What is at most `radius` away from the triangles; those of spheres and capsules are degenerate, and solid then.
+struct Surface {
+  std::vector<Triangle> triangles;
+  double radius = 0.0;  ///< m
+};
+
+/// A shape in its own frame, mesh scale applied. ModelError: sizes, scale or tolerance that are not finite or not above
+/// 0 (scale: are 0), or a tolerance so small that it would take more than 10^6 triangles.
+Surface tessellate(const Shape& shape, const Tessellation& tessellation = {});
 
 }  // namespace hinge::robotics
