@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// RobotChecker: a robot, the pairs of links to test and their margins put together, the engine chosen at run time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hinge/bounds/aabb.hpp"
+#include "hinge/core/id.hpp"
+#include "hinge/core/pose.hpp"
+#include "hinge/kinematics/pose_source.hpp"
+#include "hinge/policy/collector.hpp"
+#include "hinge/primitive/triangle.hpp"
+#include "hinge/query/link_pair_hits.hpp"
+#include "hinge/robotics/any_hierarchy.hpp"
+#include "hinge/robotics/contact.hpp"
+#include "hinge/robotics/containment.hpp"
+#include "hinge/robotics/link_margins.hpp"
+#include "hinge/robotics/link_pairs.hpp"
+#include "hinge/robotics/robot.hpp"
+#include "hinge/robotics/tested_pairs.hpp"
+
+namespace hinge::robotics {
+
+class Environment;
+
+/// What is asked of every configuration.
+struct Mode {
+  enum class Kind : std::uint8_t { any, all, within, closest } kind = Kind::all;
+  double margin = 0.0;  ///< within: pairs with d - M below it, m
+
+  /// "any", "all", "within:0.01", "closest"; ModelError otherwise.
+  static Mode parse(std::string_view text);
+  std::string text() const;
+};
+
+struct CheckOptions {
+  std::string engine = "wide";  ///< "wide", "lazy" (the paper's) or "brute"
+};
+
+/// The answer for one configuration. `pairs` holds the pairs of links that the mode lists, sorted (all: colliding;
+/// within: closer than the margin; any: none, it stops at the first), `closest` only in mode closest.
+struct Verdict {
+  bool collides = false;
+  std::vector<LinkContact> pairs;
+  std::optional<ClosestLinks> closest;
+};
+
+/// `inner`, or parts of it, inside the closed mesh of `outer`.
+struct LinkContainment {
+  LinkId outer{};
+  LinkId inner{};
+  bool whole = true;  ///< all parts of inner
+};
+
+/// A link and a body, one inside the closed mesh of the other; with `held` a body that hangs on `link` instead of it.
+struct BodyContainment {
+  LinkId link{};
+  std::optional<BodyId> held{};
+  BodyId body{};
+  bool body_is_outer = true;
+  bool whole = true;  ///< all parts of the inner one
+};
+
+/// A link whose mesh is open: nothing can be said to be inside it.
+struct OpenLink {
+  LinkId link{};
+  OpenEdge edge;  ///< in the link's frame, m; triangles counted from the link's first
+};
+
+/// Robot queries at one configuration. One per thread; copies share everything constant. Links are the original ones,
+/// those on fixed joints included. Lengths in m, angles in rad. Starts with every independent joint at 0.
+class RobotChecker {
+ public:
+  /// ModelError: no robot, unknown engine, pairs or margins made for another robot.
+  RobotChecker(std::shared_ptr<const Robot> robot, LinkPairs tested, LinkMargins margins,
+               const CheckOptions& options = {});
+
+  const Robot& robot() const noexcept { return *robot_; }
+  const std::shared_ptr<const Robot>& shared_robot() const noexcept { return robot_; }
+  const LinkPairs& tested() const noexcept { return filter_.tested(); }
+  const LinkMargins& margins() const noexcept { return margins_; }
+  const std::string& engine() const noexcept { return engine_; }
+
+  // --- state; ConfigurationError names the joint (or base) at fault, and the previous state is kept ---
+
+  /// One value per independent joint; limits are not looked at.
+  void update(std::span<const double> independent);
+  /// World pose of the root link, the identity at first. The first call rebuilds the engine, once, with the root link
+  /// free in the world; from then on update() places every link anew, so that small steps cost what large ones do.
+  void set_base(const Pose& base);
+  const Pose& base() const noexcept { return base_; }
+  /// World pose of a link's frame. ModelError: a link the robot does not have.
+  Pose link_pose(LinkId link);
+
+  // --- queries at the current state ---
+
+  bool collides();
+  /// Pairs of links that collide, sorted.
+  std::vector<LinkContact> colliding_links() { return within(0.0); }
+  /// Pairs of links with d - M < margin, sorted. ConfigurationError: margin not finite or below 0.
+  std::vector<LinkContact> within(double margin);
+  /// Every pair of triangles that collides, sorted.
+  std::vector<Hit> triangle_pairs();
+  /// The pair with the smallest d - M; none when no pair is tested.
+  std::optional<ClosestLinks> closest();
+
+  /// update() and the queries of a mode.
+  Verdict check(std::span<const double> independent, const Mode& mode);
+
+  // --- against an environment. Bodies attached to this robot follow it, and are tested against its links and the other
+  // bodies. The clearance is the larger of the environment's and margins().clearance(). ModelError: another engine ---
+
+  bool collides(Environment& environment);
+  /// Pairs of link and body (first links, then held bodies; each sorted).
+  std::vector<BodyContact> collisions(Environment& environment) { return within(environment, 0.0); }
+  std::vector<BodyContact> within(Environment& environment, double margin);
+  std::optional<ClosestBody> closest(Environment& environment);
+
+  // --- against another robot, each at its base; link1 of this one, link2 of the other. The clearance is the larger of
+  // the two margins().clearance(). ModelError: another engine ---
+
+  bool collides(RobotChecker& other);
+  std::vector<LinkContact> collisions(RobotChecker& other) { return within(other, 0.0); }
+  std::vector<LinkContact> within(RobotChecker& other, double margin);
+  std::optional<ClosestLinks> closest(RobotChecker& other);
+
+  // --- meshes are surfaces: what lies wholly inside another touches nothing, and no query above reports it ---
+
+  /// Among tested pairs that do not collide: links inside others, sorted by (outer, inner). Open meshes are never an
+  /// outer one: see not_closed(). Costs time proportional to the number of triangles.
+  std::vector<LinkContainment> contained();
+  /// The same between links (and held bodies) and bodies. Open bodies: Environment::open_edge().
+  std::vector<BodyContainment> contained(Environment& environment);
+  /// Links with geometry whose meshes are not closed, sorted.
+  std::span<const OpenLink> not_closed();
+
+ private:
+  friend class Environment;
+  struct Topology {  // of the meshes, by link, found when first asked for
+    std::vector<OpenLink> open;
+    std::vector<std::size_t> first;  // triangle in Robot::model()
+    std::vector<std::uint8_t> is_closed;
+    std::vector<std::vector<std::size_t>> parts;
+  };
+  void place(AnyHierarchy& hierarchy, const Pose& base, PoseSource& kinematics);
+  std::span<const Aabb> link_boxes();
+  struct BodyPair;
+  std::vector<BodyPair> body_pairs(Environment& environment, double margin);
+  template <class Ask>
+  auto ask(const BodyPair& pair, const Environment& environment, const Ask& f, double extra = 0.0);
+  const Topology& topology();
+  std::span<const Triangle> placed(LinkId link);
+
+  std::shared_ptr<const Robot> robot_;
+  LinkPairFilter filter_;
+  LinkMargins margins_;
+  std::string engine_;
+  std::optional<AnyHierarchy> hierarchy_;
+  std::vector<double> full_;  // one value per DOF of the robot's model
+  std::vector<double> next_;  // scratch: the same to come
+  std::vector<Pose> poses_;   // scratch
+  Pose base_{};
+  std::optional<PoseSource> kinematics_;                  // when the base is free: poses relative to the base
+  LinkPairHits link_hits_;                                // scratch
+  std::shared_ptr<const std::vector<Aabb>> local_boxes_;  // by link, in its frame, radii included; empty: no geometry
+  std::vector<Aabb> link_boxes_;                          // by link, in the world
+  bool link_boxes_stand_ = false;                         // link_boxes_ are those of the present state
+  std::shared_ptr<const Topology> topology_;
+};
+
+}  // namespace hinge::robotics

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The choice of an engine by name.
+#include "hinge/robotics/any_hierarchy.hpp"
+
+#include "hinge/core/error.hpp"
+
+namespace hinge::robotics {
+
+AnyHierarchy make_hierarchy(const std::string& engine, const Model<Triangle>& model, const LinkPairFilter& filter,
+                            const LinkMargins& margins) {
+  if (engine == "wide") return RobotHierarchy<Wide>(model, filter, margins);
+  if (engine == "lazy") return RobotHierarchy<Lazy>(model, filter, margins);
+  if (engine == "brute") return RobotHierarchy<Brute>(model, filter, margins);
+  throw ModelError("engine '" + engine + "': expected wide, lazy or brute");
+}
+
+}  // namespace hinge::robotics

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The state of a robot, and queries about itself and another robot.
+#include "hinge/robotics/robot_checker.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "between.hpp"
+#include "closeness.hpp"
+#include "hinge/core/error.hpp"
+#include "hinge/core/finite.hpp"
+#include "hinge/query/collectors.hpp"
+
+namespace hinge::robotics {
+
+namespace {
+
+/// Above it the sum of a chain of sliding joints may leave the range of doubles.
+constexpr double largest_value = 1e300;
+
+std::shared_ptr<const Robot> checked(std::shared_ptr<const Robot> robot) {
+  if (robot == nullptr) throw ModelError("robot checker: expected a robot, got none");
+  return robot;
+}
+
+/// The same links and triangles, with the root link free against the world.
+Model<Triangle> free_model(const Model<Triangle>& model) {
+  ModelBuilder<Triangle> builder;
+  for (std::size_t l = 1; l < model.tree().link_count(); ++l) {
+    const LinkId parent = model.tree().parent(id<LinkId>(l));
+    const Joint& joint = model.tree().joint(id<LinkId>(l));
+    // Poses come from the robot's own tree: what this joint could do is never asked.
+    builder.add_link(parent, parent == world ? Joint(Prismatic{Vec3::UnitX(), joint.origin, "base"}) : joint);
+  }
+  for (std::size_t i = 0; i < model.size(); ++i) builder.add_primitive(model.links()[i], model.primitives()[i]);
+  return builder.finish();
+}
+
+ClosestLinks answer(LinkId link1, LinkId link2, const Hit& hit, const Closeness& found) {
+  return {link1, link2, hit.first, hit.second, found.distance, found.gap, found.point1, found.point2};
+}
+
+/// Of the triangles of every link, in the link's frame, radii included.
+std::vector<Aabb> local_boxes_of(const Robot& robot, const LinkMargins& margins) {
+  std::vector<Aabb> boxes(robot.link_count());
+  for (std::size_t i = 0; i < robot.model().size(); ++i) {
+    const Aabb box = robot.model().primitives()[i].bounds();
+    const double radius = margins.radius(id<PrimitiveId>(i));
+    boxes[index(robot.model().links()[i])].extend(radius > 0.0 ? box.inflated(radius) : box);
+  }
+  return boxes;
+}
+
+}  // namespace
+
+Mode Mode::parse(std::string_view text) {
+  if (text == "any") return {Kind::any, 0.0};
+  if (text == "all") return {Kind::all, 0.0};
+  if (text == "closest") return {Kind::closest, 0.0};
+  constexpr std::string_view within = "within:";
+  if (text.starts_with(within)) {
+    const std::string_view number = text.substr(within.size());
+    double margin = -1.0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), margin);
+    if (error == std::errc{} && end == number.data() + number.size() && is_finite(margin) && margin >= 0.0)
+      return {Kind::within, margin};
+  }
+  throw ModelError("mode '" + std::string(text) + "': expected any, all, within:D (metres, D >= 0) or closest");
+}
+
+std::string Mode::text() const {
+  if (kind != Kind::within) return kind == Kind::any ? "any" : kind == Kind::all ? "all" : "closest";
+  std::array<char, 32> buffer;
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), margin).ptr;
+  return "within:" + std::string(buffer.data(), end);
+}
+
+RobotChecker::RobotChecker(std::shared_ptr<const Robot> robot, LinkPairs tested, LinkMargins margins,
+                           const CheckOptions& options)
+    : robot_(checked(std::move(robot))),
+      filter_(*robot_, std::move(tested)),
+      margins_(std::move(margins)),
+      engine_(options.engine),
+      hierarchy_(make_hierarchy(engine_, robot_->model(), filter_, margins_)),
+      full_(robot_->model().tree().dof_count()),
+      link_hits_(robot_->model().links()),
+      local_boxes_(std::make_shared<const std::vector<Aabb>>(local_boxes_of(*robot_, margins_))) {
+  update(std::vector<double>(robot_->independent_joints().size(), 0.0));
+}
+
+void RobotChecker::update(std::span<const double> independent) {
+  next_.resize(full_.size());
+  robot_->expand(independent, next_);
+  for (std::size_t d = 0; d < next_.size(); ++d)
+    if (!(std::abs(next_[d]) <= largest_value))
+      throw ConfigurationError("joint '" + robot_->description().joints[robot_->joint_of(id<DofId>(d))].name +
+                               "' comes to be " + std::to_string(next_[d]) +
+                               ", expected a finite number of at most 1e300");
+  if (kinematics_) {
+    kinematics_->set_configuration(next_);
+    try {
+      place(*hierarchy_, base_, *kinematics_);
+    } catch (const ConfigurationError&) {
+      kinematics_->set_configuration(full_);
+      throw;
+    }
+  } else {
+    std::visit([&](auto& hierarchy) { hierarchy.update(next_); }, *hierarchy_);
+  }
+  full_.swap(next_);
+  link_boxes_stand_ = false;
+}
+
+void RobotChecker::set_base(const Pose& base) {
+  if (!is_rigid(base))
+    throw ConfigurationError("base of robot '" + robot_->name() +
+                             "': not a rigid placement (finite, R R^T = 1, det 1)");
+  if (!kinematics_) {
+    const KinematicTree& tree = robot_->model().tree();
+    PoseSource kinematics(std::make_shared<const RigidGroups>(tree, DofSelection::all(tree)), tree.dof_count());
+    kinematics.set_configuration(full_);
+    AnyHierarchy hierarchy = make_hierarchy(engine_, free_model(robot_->model()), filter_, margins_);
+    place(hierarchy, base, kinematics);
+    hierarchy_ = std::move(hierarchy);
+    kinematics_ = std::move(kinematics);
+  } else {
+    place(*hierarchy_, base, *kinematics_);
+  }
+  base_ = base;
+  link_boxes_stand_ = false;
+}
+
+void RobotChecker::place(AnyHierarchy& hierarchy, const Pose& base, PoseSource& kinematics) {
+  std::visit(
+      [&](auto& h) {
+        // The world comes first, then the groups that the robot alone has.
+        poses_.assign(1, Pose{});
+        for (std::size_t g = 0; g + 1 < h.model().groups()->size(); ++g)
+          poses_.push_back(base * kinematics.pose(id<GroupId>(g)));
+        h.update_poses(poses_);
+      },
+      hierarchy);
+}
+
+Pose RobotChecker::link_pose(LinkId link) {
+  if (index(link) >= robot_->link_count())
+    throw ModelError("link " + std::to_string(index(link)) + ": robot '" + robot_->name() + "' and the world have " +
+                     std::to_string(robot_->link_count()));
+  return std::visit([&](auto& hierarchy) { return hierarchy.link_pose(link); }, *hierarchy_);
+}
+
+bool RobotChecker::collides() {
+  return std::visit([](auto& hierarchy) { return hierarchy.self_collides(); }, *hierarchy_);
+}
+
+std::vector<LinkContact> RobotChecker::within(double margin) {
+  check_margin(margin);
+  const auto ask = [&](LinkPairHits& found) {
+    std::visit([&](auto& hierarchy) { hierarchy.self_query(found); }, *hierarchy_);
+    std::vector<LinkContact> contacts;
+    const std::span<const LinkId> links = robot_->model().links();
+    for (const Hit& hit : found.hits()) contacts.push_back({links[index(hit.first)], links[index(hit.second)], hit});
+    return contacts;
+  };
+  if (margin > 0.0) {
+    LinkPairHits found(robot_->model().links(), margin);
+    return ask(found);
+  }
+  link_hits_.clear();
+  return ask(link_hits_);
+}
+
+std::vector<Hit> RobotChecker::triangle_pairs() {
+  return std::visit([](auto& hierarchy) { return hierarchy.self_collisions(); }, *hierarchy_);
+}
+
+std::optional<ClosestLinks> RobotChecker::closest() {
+  const std::span<const LinkId> links = robot_->model().links();
+  return std::visit(
+      [&](auto& hierarchy) -> std::optional<ClosestLinks> {
+        std::optional<Hit> hit = hierarchy.self_closest();
+        if (!hit) return {};
+        Closeness found = measure(hierarchy, margins_, hierarchy, margins_, *hit);
+        if (!found.collides) {
+          // By rounding another pair that is a hit may stand a hair behind.
+          AnyHit any;
+          hierarchy.self_query(any);
+          if (any.done()) {
+            hit = any.hit();
+            found = measure(hierarchy, margins_, hierarchy, margins_, *hit);
+          }
+        }
+        return answer(links[index(hit->first)], links[index(hit->second)], *hit, found);
+      },
+      *hierarchy_);
+}
+
+Verdict RobotChecker::check(std::span<const double> independent, const Mode& mode) {
+  update(independent);
+  Verdict verdict;
+  switch (mode.kind) {
+    case Mode::Kind::any: verdict.collides = collides(); break;
+    case Mode::Kind::all:
+      verdict.pairs = colliding_links();
+      verdict.collides = !verdict.pairs.empty();
+      break;
+    case Mode::Kind::within:
+      verdict.pairs = within(mode.margin);
+      // A margin may list pairs that do not collide; the verdict is the strict rule's.
+      verdict.collides = collides();
+      break;
+    case Mode::Kind::closest:
+      verdict.closest = closest();
+      verdict.collides = verdict.closest && verdict.closest->collides();
+      break;
+  }
+  return verdict;
+}
+
+bool RobotChecker::collides(RobotChecker& other) {
+  const std::vector<double> more = filling(*hierarchy_, margins_.clearance(), other.margins_.clearance());
+  return with_same_engine(*hierarchy_, *other.hierarchy_, [&](auto& mine, auto& theirs) {
+    return mine.collides(theirs, AdmitAll{}, {false, more});
+  });
+}
+
+std::vector<LinkContact> RobotChecker::within(RobotChecker& other, double margin) {
+  check_margin(margin);
+  const std::vector<double> more = filling(*hierarchy_, margins_.clearance(), other.margins_.clearance());
+  return with_same_engine(*hierarchy_, *other.hierarchy_, [&](auto& mine, auto& theirs) {
+    return links_within(mine, theirs, margin, AdmitAll{}, {false, more});
+  });
+}
+
+std::optional<ClosestLinks> RobotChecker::closest(RobotChecker& other) {
+  const std::vector<double> more = filling(*hierarchy_, margins_.clearance(), other.margins_.clearance());
+  return with_same_engine(*hierarchy_, *other.hierarchy_, [&](auto& mine, auto& theirs) -> std::optional<ClosestLinks> {
+    const auto found = closest_between(mine, margins_, theirs, other.margins_, AdmitAll{}, {false, more});
+    if (!found) return {};
+    return answer(robot_->model().links()[index(found->first.first)],
+                  other.robot_->model().links()[index(found->first.second)], found->first, found->second);
+  });
+}
+
+}  // namespace hinge::robotics
