@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// LinkPath: the joints between two links, and what is proved of a box of their values, rounding included.
+#include "motion_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "hinge/bounds/round.hpp"
+#include "hinge/exact/error_free.hpp"
+
+namespace hinge::robotics {
+
+std::vector<Drive> find_drives(const Robot& robot) {
+  const auto& joints = robot.description().joints;
+  std::map<std::string_view, std::size_t> position;
+  for (std::size_t k = 0; k < joints.size(); ++k) position[joints[k].name] = k;
+  std::map<std::size_t, std::size_t> independent;
+  for (std::size_t k = 0; k < robot.independent_joints().size(); ++k) independent[robot.independent_joints()[k]] = k;
+  std::vector<Drive> drives;
+  for (std::size_t d = 0; d < robot.model().tree().dof_count(); ++d) {
+    Drive drive;
+    std::size_t k = robot.joint_of(id<DofId>(d));
+    for (; joints[k].mimic; k = position.at(joints[k].mimic->joint)) {
+      drive.offset += drive.multiplier * joints[k].mimic->offset;
+      drive.multiplier *= joints[k].mimic->multiplier;
+    }
+    drive.driver = independent.at(k);
+    drives.push_back(drive);
+  }
+  return drives;
+}
+
+LinkPath::LinkPath(const Robot& robot, const RigidGroups& groups, std::span<const Drive> drives, LinkId a, LinkId b)
+    : groups_(&groups), a_in_group_(groups.link_in_group(a)), b_in_group_(groups.link_in_group(b)) {
+  // Parents have smaller numbers: the larger one is never the common group.
+  GroupId at_a = groups.group_of(a), at_b = groups.group_of(b);
+  const auto climb = [&](GroupId& at, std::vector<Step>& steps) {
+    steps.push_back({at, drives[groups[at].dof]});
+    drivers_.push_back(steps.back().drive.driver);
+    at = groups[at].parent;
+  };
+  while (at_a != at_b) index(at_a) > index(at_b) ? climb(at_a, to_a_) : climb(at_b, to_b_);
+  std::sort(drivers_.begin(), drivers_.end());
+  drivers_.erase(std::unique(drivers_.begin(), drivers_.end()), drivers_.end());
+  for (std::vector<Step>* steps : {&to_a_, &to_b_}) {
+    std::reverse(steps->begin(), steps->end());
+    for (Step& step : *steps)
+      step.drive.driver = static_cast<std::size_t>(
+          std::lower_bound(drivers_.begin(), drivers_.end(), step.drive.driver) - drivers_.begin());
+  }
+  find_sizes(robot, drives, a);
+  find_sizes(robot, drives, b);
+}
+
+void LinkPath::find_sizes(const Robot& robot, std::span<const Drive> drives, LinkId link) {
+  const KinematicTree& tree = robot.model().tree();
+  for (; link != world; link = tree.parent(link)) {
+    const Joint& joint = tree.joint(link);
+    ++joints_;
+    length_ += std::sqrt(squared_norm(joint.origin.translation));
+    const Mat3& r = joint.origin.rotation;
+    const Mat3 gram = product(r, Mat3(r.transpose()));
+    double off = 0.0;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) off = std::max(off, std::abs(gram(i, j) - (i == j ? 1.0 : 0.0)));
+    departure_ += off;
+    if (joint.kind != JointKind::prismatic) continue;
+    const Drive& drive = drives[index(tree.dof_of(link))];
+    for (const double q : {robot.lower()[drive.driver], robot.upper()[drive.driver]})
+      length_ += std::abs(drive.multiplier * q) + std::abs(drive.offset);
+  }
+}
+
+double LinkPath::rounding(double reach_a, double reach_b) const noexcept {
+  constexpr double per_joint = 256.0;   // half ulps of the longest length
+  constexpr double at_the_links = 8.0;  // as many joints' worth: placing, sweeping and comparing
+  constexpr double per_departure = 32.0;
+  const double longest = length_ + reach_a + reach_b;
+  return (per_joint * exact::half_ulp * (static_cast<double>(joints_) + at_the_links) + per_departure * departure_) *
+         longest;
+}
+
+void LinkPath::place(const std::vector<Step>& steps, const RigidGroups& groups, std::span<const Interval> box,
+                     std::vector<AxisInterval>& joints, Pose& end) {
+  for (const Step& step : steps) {
+    const Joint& joint = groups[step.group].joint;
+    const Interval& interval = box[step.drive.driver];
+    const double middle = interval.middle();
+    const double half = next_up(std::max(middle - interval.lower, interval.upper - middle));
+    const double m = step.drive.multiplier, value = m * middle + step.drive.offset;
+    end = end * (joint.origin * motion(joint, value));
+    // m q + offset is rounded, here and in what is asked later: twice on either side.
+    const double largest = std::abs(m) * (std::abs(middle) + half) + std::abs(step.drive.offset);
+    AxisInterval axis;
+    axis.kind = joint.kind;
+    axis.axis = product(end.rotation, joint.axis);
+    axis.point = end * joint.point;
+    axis.joint = step.drive.driver;
+    axis.set_half(interval.lower == interval.upper ? 0.0 : std::abs(m) * half + 8.0 * exact::half_ulp * largest);
+    joints.push_back(axis);
+  }
+}
+
+void LinkPath::place(std::span<const Interval> box, PathState& state) const {
+  state.joints.clear();
+  state.first = state.second = Pose{};
+  place(to_a_, *groups_, box, state.joints, state.first);
+  std::reverse(state.joints.begin(), state.joints.end());
+  place(to_b_, *groups_, box, state.joints, state.second);
+  state.first = state.first * a_in_group_;
+  state.second = state.second * b_in_group_;
+}
+
+}  // namespace hinge::robotics
