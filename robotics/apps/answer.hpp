@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The question asked of every configuration, and what a worker answers.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hinge/robotics/environment.hpp"
+#include "hinge/robotics/robot_checker.hpp"
+#include "options.hpp"
+
+namespace robocd {
+
+/// One configuration: the robot against itself, and against the bodies of the environment where there are any.
+struct Answer {
+  bool collides = false;
+  hinge::robotics::Verdict self;
+  std::vector<hinge::robotics::BodyContact> body_pairs;
+  std::optional<hinge::robotics::ClosestBody> closest_body;
+  // Only with --contained.
+  std::vector<hinge::robotics::LinkContainment> contained;
+  std::vector<hinge::robotics::BodyContainment> contained_bodies;
+};
+
+/// Everything a thread needs; copies share what is constant.
+struct Worker {
+  hinge::robotics::RobotChecker checker;
+  std::optional<hinge::robotics::Environment> environment;
+};
+
+/// ModelError: engine or clearance. LoadError: a mesh of the environment.
+Worker make_worker(const Options& options, const Job& job);
+
+/// q: one value (rad or m) per independent joint. contained: look for meshes inside others, too.
+Answer ask(Worker& worker, std::span<const double> q, const hinge::robotics::Mode& mode, bool contained);
+
+/// Sentences on meshes that are open, in which --contained can find nothing.
+std::vector<std::string> open_meshes(Worker& worker);
+
+}  // namespace robocd

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// robocd check: configurations, checked in parallel, reported in index order.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "answer.hpp"
+#include "configurations.hpp"
+#include "hinge/ensemble/ensemble.hpp"
+#include "hinge/tool/complete_file.hpp"
+#include "hinge/tool/csv_field.hpp"
+#include "hinge/tool/progress_bar.hpp"
+#include "report.hpp"
+
+namespace robocd {
+
+using namespace hinge::robotics;
+
+namespace {
+
+using NamedPair = std::pair<std::string, std::string>;
+
+struct Summary {
+  std::size_t checked = 0;
+  std::size_t colliding = 0;
+  std::map<NamedPair, std::size_t> pairs;
+
+  /// The pairs named most often, most frequent first.
+  std::vector<std::pair<NamedPair, std::size_t>> top(std::size_t n) const {
+    std::vector<std::pair<NamedPair, std::size_t>> all(pairs.begin(), pairs.end());
+    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+    all.resize(std::min(n, all.size()));
+    return all;
+  }
+};
+
+constexpr std::size_t shown_pairs = 10;  // of a summary: more than anyone reads
+
+void print_json_start(const Options& options, const Job& job, const Mode& mode) {
+  Json head{{"tool", "robocd"}, {"command", "check"}, {"robot", robot_json(options, job)}, {"mode", mode.text()}};
+  head["clearance"] = options.clearance;
+  head["seed"] = options.count > 0 ? Json(options.seed) : Json();
+  head["environment"] = options.environment;
+  head["notes"] = job.srdf.notes;
+  std::string text = head.dump(1);
+  text.resize(text.rfind('\n'));  // the closing brace comes with the summary
+  fmt::print("{},\n\"configurations\": [", text);
+}
+
+void print_json_end(const Summary& summary) {
+  Json pairs = Json::array();
+  for (const auto& [pair, count] : summary.top(shown_pairs))
+    pairs.push_back({{"first", pair.first}, {"second", pair.second}, {"count", count}});
+  const Json end{{"checked", summary.checked}, {"colliding", summary.colliding}, {"most_frequent", pairs}};
+  fmt::print("\n],\n\"summary\": {}}}\n", end.dump());
+}
+
+void print_table_end(const Summary& summary, bool sampled, double seconds) {
+  fmt::print("{} of {} configurations collide", summary.colliding, summary.checked);
+  if (sampled)
+    fmt::print(" ({:.2f} %), {:.0f} per second",
+               100.0 * static_cast<double>(summary.colliding) / static_cast<double>(summary.checked),
+               static_cast<double>(summary.checked) / seconds);
+  fmt::print("\n");
+  if (!sampled) return;
+  for (const auto& [pair, count] : summary.top(shown_pairs))
+    fmt::print("  {:<28} {:<28} {:8}\n", pair.first, pair.second, count);
+}
+
+void write_header(std::ostream& out, const Robot& robot) {
+  for (std::size_t j = 0; j < robot.independent_joints().size(); ++j)
+    out << (j == 0 ? "" : ",") << hinge::tool::csv_field(robot.independent_name(j));
+  out << '\n';
+}
+
+void write_row(std::ostream& out, const std::vector<double>& q) {
+  for (std::size_t j = 0; j < q.size(); ++j) out << (j == 0 ? "" : ",") << fmt::format("{}", q[j]);
+  out << '\n';
+}
+
+}  // namespace
+
+Exit run_check(const Options& options) {
+  const Mode mode = Mode::parse(options.mode);
+  const Job job = load(options);
+  const Configurations configurations = find_configurations(options, job);
+  Worker worker = make_worker(options, job);
+  const bool sampled = options.count > 0;
+  print_notes(job);
+  const std::size_t outside = sampled ? 0 : count_outside_limits(configurations, *job.robot);
+  if (outside > 0)
+    std::fprintf(stderr, "note: %zu of %zu configurations are outside the joint limits\n", outside,
+                 configurations.count);
+  if (options.contained)
+    for (const std::string& note : open_meshes(worker)) std::fprintf(stderr, "note: %s\n", note.c_str());
+
+  hinge::tool::CompleteFile file(options.out);
+  if (file.wanted()) write_header(file.stream(), *job.robot);
+  if (options.output == Output::json) print_json_start(options, job, mode);
+  if (options.output == Output::csv) fmt::print("{}", csv_header());
+  if (options.output == Output::table) fmt::print("{}", heading(options, job));
+
+  Summary summary;
+  const Columns columns{mode, !options.environment.empty(), options.contained};
+  hinge::tool::ProgressBar bar(configurations.count);
+  const auto start = std::chrono::steady_clock::now();
+  const auto judge = [&](Worker& own, std::size_t k) {
+    return ask(own, configurations.at(k), mode, options.contained);
+  };
+  const auto report = [&](std::size_t k, const Answer& answer) {
+    ++summary.checked;
+    summary.colliding += answer.collides ? 1 : 0;
+    for (NamedPair& pair : named_pairs(worker, answer)) ++summary.pairs[std::move(pair)];
+    if (options.output == Output::json)
+      fmt::print("{}\n{}", k == 0 ? "" : ",", answer_json(worker, k, answer, columns).dump());
+    if (options.output == Output::csv) fmt::print("{}", csv_rows(worker, k, answer));
+    if (options.output == Output::table && !sampled)
+      fmt::print("configuration {}: {}\n{}", k, answer.collides ? "collides" : "free", pair_lines(worker, answer));
+    if (file.wanted()) write_row(file.stream(), configurations.at(k));
+    bar.show(k + 1);
+  };
+  hinge::Ensemble(worker, options.threads).run(configurations.count, judge, report);
+  const std::chrono::duration<double> checking = std::chrono::steady_clock::now() - start;
+  file.finish();
+  if (options.output == Output::json) print_json_end(summary);
+  if (options.output == Output::table) print_table_end(summary, sampled, checking.count());
+  return summary.colliding > 0 ? Exit::collision : Exit::free;
+}
+
+}  // namespace robocd

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Random, from a CSV file, named by the SRDF, or all zero.
+#include "configurations.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "hinge/core/error.hpp"
+#include "hinge/core/philox.hpp"
+#include "read_configurations.hpp"
+
+namespace robocd {
+
+using namespace hinge::robotics;
+
+namespace {
+
+/// Uniform within the limits.
+std::vector<double> sample(const Robot& robot, std::uint64_t seed, std::uint64_t k) {
+  hinge::SampleStream stream(seed, k);
+  std::vector<double> q(robot.lower().size());
+  for (std::size_t j = 0; j < q.size(); ++j)
+    // Rounding may take the sum past the limit.
+    q[j] = std::min(robot.lower()[j] + stream.uniform() * (robot.upper()[j] - robot.lower()[j]), robot.upper()[j]);
+  return q;
+}
+
+/// Zero but for what the states say, later ones over earlier ones.
+std::vector<double> join_states(const Options& options, const Job& job) {
+  std::vector<double> q(job.robot->independent_joints().size(), 0.0);
+  for (const std::string& wanted : options.states) {
+    std::string known;
+    bool found = false;
+    for (const NamedConfiguration& state : job.srdf.configurations) {
+      const std::string name = state.group + "/" + state.name;
+      known += (known.empty() ? "" : ", ") + name;
+      if (name != wanted) continue;
+      state.apply(q);
+      found = true;
+    }
+    if (!found)
+      throw hinge::ModelError("--state '" + wanted + "': " +
+                              (options.srdf.empty() ? "there is no --srdf to name states"
+                               : known.empty()      ? options.srdf + " has no states"
+                                                    : "expected one of " + known));
+  }
+  return q;
+}
+
+}  // namespace
+
+Configurations find_configurations(const Options& options, const Job& job) {
+  if (options.count > 0)
+    return {options.count, [robot = job.robot, seed = options.seed](std::size_t k) { return sample(*robot, seed, k); }};
+  if (!options.csv_in.empty()) {
+    auto rows =
+        std::make_shared<const std::vector<std::vector<double>>>(read_configurations(options.csv_in, *job.robot));
+    return {rows->size(), [rows](std::size_t k) { return (*rows)[k]; }};
+  }
+  return {1, [q = join_states(options, job)](std::size_t) { return q; }};
+}
+
+std::size_t count_outside_limits(const Configurations& configurations, const Robot& robot) {
+  std::size_t outside = 0;
+  for (std::size_t k = 0; k < configurations.count; ++k) {
+    const std::vector<double> q = configurations.at(k);
+    bool inside = true;
+    for (std::size_t j = 0; j < q.size(); ++j) {
+      const bool continuous = robot.description().joints[robot.independent_joints()[j]].type == JointType::continuous;
+      inside = inside && (continuous || (q[j] >= robot.lower()[j] && q[j] <= robot.upper()[j]));
+    }
+    outside += inside ? 0 : 1;
+  }
+  return outside;
+}
+
+}  // namespace robocd

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The configurations that are to be checked, wherever they come from.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "options.hpp"
+
+namespace robocd {
+
+/// Each is one value (rad or m) per independent joint of the robot; pure in k, so that any thread may ask for any.
+struct Configurations {
+  std::size_t count = 0;
+  std::function<std::vector<double>(std::size_t k)> at;
+};
+
+/// LoadError: a CSV file or SRDF that does not fit the robot. ModelError: a state that the SRDF does not have.
+Configurations find_configurations(const Options& options, const Job& job);
+
+/// How many have a joint outside its limits. They are checked all the same.
+std::size_t count_outside_limits(const Configurations& configurations, const hinge::robotics::Robot& robot);
+
+}  // namespace robocd

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the robocd command line asks for, after parsing, and the robot it is about.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hinge/robotics/collision_matrix.hpp"
+#include "hinge/robotics/link_pairs.hpp"
+#include "hinge/robotics/read_srdf.hpp"
+#include "hinge/robotics/robot.hpp"
+#include "hinge/tool/run_tool.hpp"
+
+namespace robocd {
+
+using hinge::tool::Exit;
+
+enum class Output : std::uint8_t { table, json, csv };
+
+struct Options {
+  std::string urdf;
+  std::string srdf;                          // empty: none
+  std::vector<std::string> skip_pairs;       // files of pairs of links that are not tested
+  bool note_unknown_links = false;           // in the SRDF, instead of refusing them
+  bool reference_primitives = false;         // tessellated as the published reference data is
+  std::vector<std::string> package_folders;  // for package://
+  Output output = Output::table;
+  // check: which configurations; one of the four
+  std::uint64_t count = 0;
+  std::uint64_t seed = 1;
+  std::string csv_in;
+  std::vector<std::string> states;  // GROUP/NAME
+  bool zero = false;
+  // check: what is asked of each
+  std::string mode = "all";
+  double clearance = 0.0;                // m
+  std::vector<std::string> environment;  // mesh files
+  std::string engine = "wide";
+  bool contained = false;  // look for meshes inside others, too
+  unsigned threads = 1;
+  // matrix
+  hinge::robotics::MatrixOptions matrix;  // its clearance is the one above
+  bool disable_unseen = false;
+  // check: CSV file of the configurations, empty: none; matrix: SRDF file, empty: standard output
+  std::string out;
+};
+
+/// A robot read, and the pairs of its links that are tested.
+struct Job {
+  std::shared_ptr<const hinge::robotics::Robot> robot;
+  hinge::robotics::Srdf srdf;           // without a file: nothing disabled
+  hinge::robotics::LinkPairs disabled;  // by the SRDF and by files of pairs
+  hinge::robotics::LinkPairs tested;
+};
+
+/// LoadError: one line naming file and element.
+std::shared_ptr<const hinge::robotics::Robot> load_robot(const Options& options);
+Job load(const Options& options);
+
+/// What the SRDF reader left out, on standard error.
+void print_notes(const Job& job);
+
+Exit run_info(const Options& options);
+Exit run_check(const Options& options);
+Exit run_matrix(const Options& options);
+
+}  // namespace robocd

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Line by line; the header says where each value goes.
+#include "read_configurations.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "hinge/core/error.hpp"
+#include "hinge/core/finite.hpp"
+
+namespace robocd {
+
+using hinge::robotics::JointDescription;
+using hinge::robotics::JointType;
+using hinge::robotics::Robot;
+
+namespace {
+
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // spreadsheets begin UTF-8 with it
+
+std::vector<std::string_view> split(std::string_view line) {
+  constexpr std::string_view blanks = " \t\r";
+  std::vector<std::string_view> fields;
+  while (true) {
+    const std::size_t comma = line.find(',');
+    std::string_view field = line.substr(0, comma);
+    field.remove_prefix(std::min(field.find_first_not_of(blanks), field.size()));
+    field = field.substr(0, field.find_last_not_of(blanks) + 1);
+    fields.push_back(field);
+    if (comma == std::string_view::npos) return fields;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+std::optional<double> parse(std::string_view text) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !hinge::is_finite(value)) return {};
+  return value;
+}
+
+class ConfigurationReader {
+ public:
+  ConfigurationReader(const std::filesystem::path& path, const Robot& robot) : path_(path.string()), robot_(robot) {}
+
+  std::vector<std::vector<double>> read() {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path_, ignored))
+      throw hinge::LoadError(path_ + ": is a directory, expected a file");
+    errno = 0;
+    std::ifstream in(path_, std::ios::binary);
+    if (!in) throw hinge::LoadError(path_ + ": cannot be opened: " + std::strerror(errno != 0 ? errno : ENOENT));
+    std::string line;
+    if (!std::getline(in, line)) throw hinge::LoadError(path_ + ": is empty, expected a header of joint names");
+    if (line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
+    read_header(line);
+    std::vector<std::vector<double>> rows;
+    std::size_t blank = 0;  // the first of the blank lines at the end
+    while (std::getline(in, line)) {
+      ++number_;
+      if (line.find_first_not_of(" \t\r") == std::string::npos) {
+        blank = blank == 0 ? number_ : blank;
+        continue;
+      }
+      if (blank != 0) refuse(blank, "is blank, but lines follow it");
+      rows.push_back(read_row(line));
+    }
+    if (in.bad()) throw hinge::LoadError(path_ + ": cannot be read to its end");
+    if (rows.empty()) throw hinge::LoadError(path_ + ": holds no configurations, only a header");
+    return rows;
+  }
+
+ private:
+  [[noreturn]] void refuse(std::size_t line, const std::string& what) const {
+    throw hinge::LoadError(path_ + ":" + std::to_string(line) + ": " + what);
+  }
+
+  /// Why a name of the header is no independent joint.
+  std::string fault_of(const std::string& name) const {
+    const auto found = robot_.find_joint(name);
+    if (!found) return "joint '" + name + "' is none of robot '" + robot_.name() + "'";
+    const JointDescription& joint = robot_.description().joints[*found];
+    if (joint.type == JointType::fixed) return "joint '" + name + "' is fixed and takes no value";
+    return "joint '" + name + "' follows joint '" + joint.mimic->joint + "' and takes no value of its own";
+  }
+
+  void read_header(std::string_view line) {
+    const std::size_t count = robot_.independent_joints().size();
+    std::vector<bool> seen(count, false);
+    for (const std::string_view field : split(line)) {
+      const std::string name(field), column = "column " + std::to_string(place_.size() + 1) + ": ";
+      std::size_t k = 0;
+      while (k < count && robot_.independent_name(k) != name) ++k;
+      if (k == count) refuse(1, column + (name.empty() ? "has no joint name" : fault_of(name)));
+      if (seen[k]) refuse(1, column + "joint '" + name + "' is there twice");
+      seen[k] = true;
+      place_.push_back(k);
+    }
+    for (std::size_t k = 0; k < count; ++k)
+      if (!seen[k]) refuse(1, "has no column for joint '" + robot_.independent_name(k) + "'");
+  }
+
+  std::vector<double> read_row(std::string_view line) const {
+    const std::vector<std::string_view> fields = split(line);
+    if (fields.size() != place_.size())
+      refuse(number_, std::to_string(fields.size()) + " columns, expected " + std::to_string(place_.size()));
+    std::vector<double> q(place_.size());
+    for (std::size_t column = 0; column < fields.size(); ++column) {
+      const auto value = parse(fields[column]);
+      if (!value)
+        refuse(number_, "column " + std::to_string(column + 1) + ": joint '" + robot_.independent_name(place_[column]) +
+                            "' is '" + std::string(fields[column]) + "', expected a finite number");
+      q[place_[column]] = *value;
+    }
+    return q;
+  }
+
+  std::string path_;
+  const Robot& robot_;
+  std::vector<std::size_t> place_;  // by column: position among the independent joints
+  std::size_t number_ = 1;          // of the line being read
+};
+
+}  // namespace
+
+std::vector<std::vector<double>> read_configurations(const std::filesystem::path& path, const Robot& robot) {
+  return ConfigurationReader(path, robot).read();
+}
+
+}  // namespace robocd

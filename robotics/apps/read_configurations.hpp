@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Configurations from a CSV file.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "hinge/robotics/robot.hpp"
+
+namespace robocd {
+
+/// One value (rad or m) per independent joint, in the robot's order, a configuration a row. The first line names the
+/// independent joints, each once, in any order. LoadError naming line and column: an unknown, missing or repeated
+/// joint, a row of another length, a value that is not a finite number, no rows.
+std::vector<std::vector<double>> read_configurations(const std::filesystem::path& path,
+                                                     const hinge::robotics::Robot& robot);
+
+}  // namespace robocd

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// robocd: self-collision of robots on the command line. This file is the command line itself.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "hinge/simd/instruction_set.hpp"
+#include "hinge/tool/pick_instruction_set.hpp"
+#include "hinge/tool/run_tool.hpp"
+#include "hinge/version.hpp"
+#include "options.hpp"
+
+namespace {
+
+using robocd::Exit;
+using robocd::Options;
+
+constexpr const char* footer =
+    "Exit status: 0 free, 1 collision found, 2 usage, 3 bad input.\n"
+    "Lengths are metres, angles radians. A pair of links is tested unless the two move as one, are joined by one\n"
+    "movable joint, or are disabled by --srdf or --skip-pairs.";
+
+void add_robot_options(CLI::App& command, Options& o) {
+  command.add_option("URDF", o.urdf, "robot description; meshes STL, OBJ, DAE or PLY")->required();
+  command.add_option("--package-path", o.package_folders,
+                     "folder of packages for package://, repeatable; those of ROS_PACKAGE_PATH come after");
+  command
+      .add_option_function<std::string>(
+          "--primitives", [&o](const std::string& text) { o.reference_primitives = text == "reference"; },
+          "exact (default: spheres and capsules exact, cylinders enclosed to 1 mm) or reference (inscribed: 32 sides "
+          "a cylinder, 320 triangles a sphere)")
+      ->check(CLI::IsMember({"exact", "reference"}));
+}
+
+void add_pair_options(CLI::App& command, Options& o) {
+  command.add_option("--srdf", o.srdf, "disabled pairs of links and named states");
+  command.add_option("--skip-pairs", o.skip_pairs, "text file of more disabled pairs, two links a line; repeatable");
+  command.add_flag("--note-unknown-links", o.note_unknown_links,
+                   "pairs of the SRDF with links the robot lacks are noted, not refused");
+}
+
+void add_json_option(CLI::App& command, Options& o) {
+  command.add_flag_callback(
+      "--json", [&o] { o.output = robocd::Output::json; }, "JSON on standard output");
+}
+
+void add_clearance_option(CLI::App& command, Options& o) {
+  command.add_option("--clearance", o.clearance, "links closer than this collide, m; touching ones always do")
+      ->capture_default_str();
+}
+
+void add_configuration_options(CLI::App& command, Options& o) {
+  CLI::Option_group* source = command.add_option_group("configurations", "one of these");
+  CLI::Option* random = source->add_option("--random", o.count, "number of configurations uniform within the limits")
+                            ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 53));
+  source->add_option("--csv-in", o.csv_in, "file of configurations, a row each, under a header of joint names");
+  source->add_option("--state", o.states, "GROUP/NAME of the SRDF; repeatable, together one configuration, rest zero");
+  source->add_flag("--zero", o.zero, "every joint zero");
+  source->require_option(1);
+  command.add_option("--seed", o.seed, "seed; random configuration k is a function of (seed, k) alone")
+      ->capture_default_str()
+      ->needs(random);
+}
+
+void add_check_options(CLI::App& command, Options& o) {
+  add_configuration_options(command, o);
+  add_clearance_option(command, o);
+  add_json_option(command, o);
+  command
+      .add_flag_callback(
+          "--csv", [&o] { o.output = robocd::Output::csv; }, "CSV on standard output")
+      ->excludes("--json");
+  command.add_option("--mode", o.mode, "any, all, within:D (m) or closest")->capture_default_str();
+  command.add_option("--env", o.environment, "mesh that stands in the world; repeatable");
+  command.add_flag("--contained", o.contained, "a closed mesh with another one inside it collides too");
+  command.add_option("--engine", o.engine, "wide, lazy (the paper's) or brute")->capture_default_str();
+  command.add_option("--threads", o.threads, "worker threads; the output does not depend on them")
+      ->check(CLI::Range(1U, 1024U))
+      ->capture_default_str();
+  command.add_option("--out", o.out, "CSV file of the configurations to write, as --csv-in reads them");
+}
+
+void add_matrix_options(CLI::App& command, Options& o) {
+  command.add_option("--samples", o.matrix.samples, "random configurations looked at")->capture_default_str();
+  command.add_option("--seed", o.matrix.seed, "seed of the random configurations")->capture_default_str();
+  command.add_option("--cells", o.matrix.cells, "boxes of joint values a proof may try, per pair; 0: no proofs")
+      ->capture_default_str();
+  add_clearance_option(command, o);
+  command.add_flag("--disable-unseen", o.disable_unseen,
+                   "disable pairs that were never seen to meet too, although that is no proof");
+  command.add_option("--out", o.out, "SRDF file to write (default: standard output)");
+}
+
+Exit run(int argc, char** argv) {
+  Options o;
+  std::function<Exit(const Options&)> command;
+  CLI::App app{"robocd: self-collision of robots as articulated mechanisms"};
+  app.footer(footer);
+  app.set_version_flag("--version", fmt::format("robocd {} ({})", hinge::version_string,
+                                                hinge::simd::name(hinge::simd::compiled_for())));
+  app.require_subcommand(1);
+
+  CLI::App* info = app.add_subcommand("info", "links, joints, rigid groups and tested pairs");
+  add_robot_options(*info, o);
+  add_pair_options(*info, o);
+  add_json_option(*info, o);
+  info->callback([&] { command = robocd::run_info; });
+
+  CLI::App* check = app.add_subcommand("check", "verdict and pairs of links for configurations");
+  add_robot_options(*check, o);
+  add_pair_options(*check, o);
+  add_check_options(*check, o);
+  check->callback([&] { command = robocd::run_check; });
+
+  CLI::App* matrix = app.add_subcommand("matrix", "an SRDF of the pairs of links that need no test, and why");
+  add_robot_options(*matrix, o);
+  add_matrix_options(*matrix, o);
+  matrix->callback([&] { command = robocd::run_matrix; });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? Exit::free : Exit::usage;
+  }
+  return command(o);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return hinge::tool::run_tool("robocd", [&] {
+    hinge::tool::pick_instruction_set(argv);
+    return run(argc, argv);
+  });
+}

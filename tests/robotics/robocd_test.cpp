@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// robocd from outside: exit status, JSON contract, determinism, on a robot whose distances are known without it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "robotics/run_robocd.hpp"
+
+namespace hinge::robotics {
+namespace {
+
+using Json = nlohmann::json;
+using test::ArmFolder;
+using test::run_robocd;
+using test::Said;
+
+std::string content(const std::filesystem::path& path) {
+  std::ifstream stream(path);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::set<std::string> keys(const Json& object) {
+  std::set<std::string> names;
+  for (const auto& [key, value] : object.items()) names.insert(key);
+  return names;
+}
+
+/// "a b;c d;" of rows with two names.
+std::string pairs(const Json& rows, const char* first = "link1", const char* second = "link2") {
+  std::string text;
+  for (const Json& row : rows) text += row.at(first).get<std::string>() + " " + row.at(second).get<std::string>() + ";";
+  return text;
+}
+
+/// The JSON of a check that is expected to end with this status.
+Json check(const std::string& arguments, int status) {
+  const Said said = run_robocd("check" + arguments + " --json");
+  EXPECT_EQ(said.status, status) << arguments;
+  return Json::parse(said.out);
+}
+
+TEST(Robocd, ExitsWithTheDocumentedStatus) {
+  const ArmFolder arm;
+  const std::string check_arm = "check" + arm.urdf(), srdf = " --srdf" + arm.file("arm.srdf");
+  EXPECT_EQ(run_robocd(check_arm + " --zero").status, 0);
+  EXPECT_EQ(run_robocd(check_arm + srdf + " --state slide/in").status, 1);
+  EXPECT_EQ(run_robocd("info" + arm.urdf()).status, 0);
+  EXPECT_EQ(run_robocd("--version").status, 0);
+  EXPECT_EQ(run_robocd("--help").status, 0);
+  for (const std::string& wrong :
+       {std::string(), std::string("check"), std::string("frobnicate"), check_arm, check_arm + " --zero --random 3",
+        check_arm + " --random 0", check_arm + " --random -1", check_arm + " --zero --seed 3",
+        check_arm + " --zero --mode x", check_arm + " --zero --mode within:-1", check_arm + " --zero --engine x",
+        check_arm + " --zero --clearance -1", check_arm + " --zero --clearance nan", check_arm + " --zero --json --csv",
+        check_arm + " --zero --threads 0", check_arm + " --zero --primitives x", check_arm + srdf + " --state all/x",
+        check_arm + " --state slide/in", "matrix" + arm.urdf() + " --clearance -1"})
+    EXPECT_EQ(run_robocd(wrong + " 2>&1").status, 2) << wrong;
+}
+
+TEST(Robocd, InformsAboutLinksJointsAndPairs) {
+  const ArmFolder arm;
+  const Said said = run_robocd("info" + arm.urdf() + " --json --srdf" + arm.file("arm.srdf"));
+  ASSERT_EQ(said.status, 0);
+  const Json json = Json::parse(said.out);
+  const Json& robot = json.at("robot");
+  EXPECT_EQ(robot.at("name"), "arm");
+  EXPECT_EQ(robot.at("links"), 5);
+  EXPECT_EQ(robot.at("links_with_geometry"), 5);
+  EXPECT_EQ(robot.at("dof"), 2);
+  EXPECT_EQ(robot.at("movable_joints"), 3);
+  EXPECT_EQ(robot.at("rigid_groups"), 4);
+  EXPECT_EQ(robot.at("degenerate_triangles"), 0);
+  EXPECT_EQ(robot.at("tested_pairs"), 4);
+  EXPECT_EQ(robot.at("disabled_pairs"), 1);
+  EXPECT_EQ(pairs(json.at("tested_pairs")), "base fore;upper mast;fore mast;camera mast;");
+
+  std::string links;
+  for (const Json& link : json.at("links")) {
+    EXPECT_EQ(keys(link),
+              (std::set<std::string>{"name", "group", "triangles", "degenerate_triangles", "rounded", "closed"}));
+    links += link["name"].get<std::string>() + " " + link["triangles"].dump() + " " + link["rounded"].dump() + " " +
+             link["group"].dump() + " " + link["closed"].dump() + ";";
+  }
+  EXPECT_EQ(links, "base 12 0 0 true;upper 12 0 1 true;fore 12 0 2 true;camera 1 1 2 true;mast 12 0 3 true;");
+  const Json& follower = json.at("joints").at(3);
+  EXPECT_EQ(follower.at("name"), "follower");
+  EXPECT_EQ(follower.at("mimic"), (Json{{"joint", "elbow"}, {"multiplier", 0.5}, {"offset", 0.25}}));
+  EXPECT_EQ(json["joints"][1].at("lower"), -1.5);
+  EXPECT_TRUE(json["joints"][0].at("upper").is_null()) << "a continuous joint has no limits";
+  EXPECT_EQ(json.at("states").at(0), (Json{{"state", "all/turned"}, {"values", {{"shoulder", 0.5}, {"elbow", 0.25}}}}));
+}
+
+TEST(Robocd, TellsOpenAndDegenerateMeshes) {
+  const ArmFolder arm;
+  // The last triangle of the cube becomes a point.
+  std::string bytes = test::cube_stl(Vec3::Zero(), 0.125);
+  for (int k = 0; k < 36; ++k) bytes[bytes.size() - 38 + static_cast<std::size_t>(k)] = '\0';
+  arm.write("cube.stl", bytes);
+  const Json json = Json::parse(run_robocd("info" + arm.urdf() + " --json").out);
+  EXPECT_EQ(json.at("links").at(0).at("closed"), false);
+  EXPECT_EQ(json["links"][0].at("degenerate_triangles"), 1);
+  EXPECT_EQ(json["links"][0].at("triangles"), 12);
+}
+
+TEST(Robocd, KnowsTheClosestPoints) {
+  const ArmFolder arm;
+  const Json json = check(arm.urdf() + " --zero --mode closest", 0);
+  const Json& c = json.at("configurations").at(0);
+  EXPECT_EQ(keys(c), (std::set<std::string>{"index", "collides", "closest"}));
+  const Json& closest = c["closest"];
+  EXPECT_EQ(keys(closest), (std::set<std::string>{"link1", "link2", "distance", "point1", "point2"}));
+  EXPECT_EQ(closest["link1"], "base");
+  EXPECT_EQ(closest["link2"], "fore");
+  EXPECT_EQ(closest["distance"], 1.5 - 0.0625 - 0.125);
+  EXPECT_EQ(closest["point1"][0], 0.125);
+  EXPECT_EQ(closest["point2"][0], 1.5 - 0.0625);
+  EXPECT_EQ(closest["point1"][1], closest["point2"][1]);
+
+  // Seventeen digits must come back as the same double: sqrt(x^2 + y^2) of the turned frame has them all.
+  const Json turned = check(arm.urdf() + " --srdf" + arm.file("arm.srdf") + " --state all/turned --mode closest", 0);
+  const Json& far = turned["configurations"][0]["closest"];
+  double squared = 0.0;
+  for (std::size_t k = 0; k < 3; ++k)
+    squared += std::pow(far["point1"][k].get<double>() - far["point2"][k].get<double>(), 2);
+  EXPECT_NEAR(far["distance"].get<double>(), std::sqrt(squared), 1e-15);
+}
+
+TEST(Robocd, KeepsTheJsonContractOfCheck) {
+  const ArmFolder arm;
+  arm.write("env.stl", test::cube_stl({0, 1.625, 0}, 0.125));
+  const std::string in = arm.urdf() + " --srdf" + arm.file("arm.srdf") + " --state slide/in --mode ";
+  const std::string env = " --env" + arm.file("env.stl");
+  using Keys = std::set<std::string>;
+  const auto row = [](const Json& json) { return json.at("configurations").at(0); };
+  EXPECT_EQ(keys(row(check(in + "any", 1))), (Keys{"index", "collides"}));
+  EXPECT_EQ(keys(row(check(in + "any" + env, 1))), (Keys{"index", "collides"}));
+  EXPECT_EQ(keys(row(check(in + "all", 1))), (Keys{"index", "collides", "pairs"}));
+  EXPECT_EQ(keys(row(check(in + "within:0.1 --contained", 1))), (Keys{"index", "collides", "pairs", "contained"}));
+  EXPECT_EQ(keys(row(check(in + "all --contained" + env, 1))),
+            (Keys{"index", "collides", "pairs", "environment_pairs", "contained", "environment_contained"}));
+  EXPECT_EQ(keys(row(check(in + "closest" + env, 1))), (Keys{"index", "collides", "closest", "environment_closest"}));
+
+  const Json json = check(in + "all" + env, 1);
+  EXPECT_EQ(keys(json), (Keys{"tool", "command", "robot", "mode", "clearance", "seed", "environment", "notes",
+                              "configurations", "summary"}));
+  EXPECT_EQ(keys(json["summary"]), (Keys{"checked", "colliding", "most_frequent"}));
+  EXPECT_EQ(pairs(row(json)["pairs"]), "base fore;camera mast;");
+  EXPECT_EQ(keys(row(json)["pairs"][0]), (Keys{"link1", "link2"}));
+}
+
+TEST(Robocd, ReportsPairsWithinAMarginAndAClearance) {
+  const ArmFolder arm;
+  const std::string zero = arm.urdf() + " --zero --mode ";
+  EXPECT_EQ(pairs(check(zero + "all", 0)["configurations"][0]["pairs"]), "");
+  EXPECT_EQ(pairs(check(zero + "within:1.3", 0)["configurations"][0]["pairs"]), "");
+  EXPECT_EQ(pairs(check(zero + "within:1.32", 0)["configurations"][0]["pairs"]), "base fore;");
+  EXPECT_EQ(pairs(check(zero + "all --clearance 1.32", 1)["configurations"][0]["pairs"]), "base fore;");
+  EXPECT_EQ(check(zero + "any --clearance 1.32", 1)["configurations"][0]["collides"], true);
+  EXPECT_EQ(check(zero + "closest --clearance 1.3", 0)["configurations"][0]["closest"]["distance"], 1.3125);
+  // A file of pairs that are skipped counts like the SRDF's.
+  arm.write("skip.txt", "# the closest ones\nfore base\n");
+  EXPECT_EQ(
+      pairs(check(zero + "all --clearance 1.32 --skip-pairs" + arm.file("skip.txt"), 0)["configurations"][0]["pairs"]),
+      "");
+}
+
+TEST(Robocd, AsksTheEnvironmentToo) {
+  const ArmFolder arm;
+  arm.write("env.stl", test::cube_stl({0, 1.625, 0}, 0.125));
+  arm.write("room.stl", test::cube_stl({0, 0, 0}, 8));
+  arm.write("q.csv", "elbow,shoulder\n0,0\n0,1.5707963267948966\n");
+  const std::string rows = arm.urdf() + " --csv-in" + arm.file("q.csv");
+  const std::string env = " --env" + arm.file("env.stl"), room = " --env" + arm.file("room.stl");
+  const Json all = check(rows + env + " --mode all", 1)["configurations"];
+  EXPECT_EQ(all[0]["collides"], false);
+  EXPECT_EQ(all[1]["collides"], true);
+  EXPECT_EQ(pairs(all[1]["pairs"]), "");
+  const std::string name = (arm.path() / "env.stl").string();
+  EXPECT_EQ(pairs(all[1]["environment_pairs"], "link", "body"), "fore " + name + ";");
+  EXPECT_EQ(check(rows + env + " --mode any", 1)["configurations"][1]["collides"], true);
+  // The base stands nearest to the cube in the first row: from y = 0.125 to y = 1.5.
+  const Json closest = check(rows + env + " --mode closest", 1)["configurations"];
+  EXPECT_EQ(closest[0]["environment_closest"]["link"], "base");
+  EXPECT_EQ(closest[0]["environment_closest"]["body"], name);
+  EXPECT_EQ(closest[0]["environment_closest"]["distance"], 1.375);
+  EXPECT_EQ(closest[1]["environment_closest"]["distance"], 0.0);
+  EXPECT_EQ(closest[1]["collides"], true);
+  const Json within = check(rows + env + " --mode within:1.38", 1)["configurations"];
+  EXPECT_EQ(within[0]["collides"], false);
+  EXPECT_EQ(pairs(within[0]["environment_pairs"], "link", "body"), "base " + name + ";");
+
+  // A surface around the robot touches nothing.
+  EXPECT_EQ(check(rows + room + " --mode all", 0)["configurations"][0]["collides"], false);
+  const Json inside = check(rows + room + " --mode all --contained", 1)["configurations"][0];
+  EXPECT_EQ(inside["collides"], true);
+  EXPECT_EQ(inside["environment_contained"].size(), 5U);
+  EXPECT_EQ(inside["environment_contained"][0]["inner"], "base");
+}
+
+TEST(Robocd, SamplesWithinTheLimitsAndByIndexAlone) {
+  const ArmFolder arm;
+  const auto few = arm.path() / "few.csv", many = arm.path() / "many.csv";
+  run_robocd("check" + arm.urdf() + " --random 20 --seed 4 --out" + arm.file("few.csv"));
+  run_robocd("check" + arm.urdf() + " --random 2000 --seed 4 --threads 2 --out" + arm.file("many.csv"));
+  const std::string start = content(few);
+  EXPECT_TRUE(content(many).starts_with(start));
+  std::istringstream rows(content(many));
+  std::string line;
+  std::getline(rows, line);
+  EXPECT_EQ(line, "shoulder,elbow");
+  double low[2] = {9, 9}, high[2] = {-9, -9};
+  while (std::getline(rows, line)) {
+    const std::size_t comma = line.find(',');
+    const double q[2] = {std::stod(line.substr(0, comma)), std::stod(line.substr(comma + 1))};
+    for (std::size_t k = 0; k < 2; ++k) {
+      low[k] = std::min(low[k], q[k]);
+      high[k] = std::max(high[k], q[k]);
+    }
+  }
+  EXPECT_GE(low[0], -3.14159265358979324);
+  EXPECT_LE(high[0], 3.14159265358979324);
+  EXPECT_GE(low[1], -1.5);
+  EXPECT_LE(high[1], 1.0);
+  // Of 2 000 samples the extremes are within 1 % of the limits: the chance of missing one is 2e-9.
+  EXPECT_LT(low[0], -3.08);
+  EXPECT_GT(high[0], 3.08);
+  EXPECT_LT(low[1], -1.475);
+  EXPECT_GT(high[1], 0.975);
+
+  const Json sampled = check(arm.urdf() + " --random 20 --seed 4", 1);
+  const Json reread = check(arm.urdf() + " --csv-in" + arm.file("few.csv"), 1);
+  EXPECT_EQ(sampled["configurations"], reread["configurations"]);
+  EXPECT_NE(sampled["configurations"], check(arm.urdf() + " --random 20 --seed 5", 1)["configurations"]);
+}
+
+TEST(Robocd, JoinsStates) {
+  const ArmFolder arm;
+  const std::string srdf = arm.urdf() + " --srdf" + arm.file("arm.srdf");
+  run_robocd("check" + srdf + " --state all/turned --state slide/in --out" + arm.file("q.csv"));
+  EXPECT_EQ(content(arm.path() / "q.csv"), "shoulder,elbow\n0.5,-1.4\n");
+  run_robocd("check" + srdf + " --state slide/in --out" + arm.file("q.csv"));
+  EXPECT_EQ(content(arm.path() / "q.csv"), "shoulder,elbow\n0,-1.4\n");
+}
+
+TEST(Robocd, WritesAMatrixThatItReads) {
+  const ArmFolder arm;
+  const std::string command = "matrix" + arm.urdf() + " --samples 500 --seed 2";
+  const Said printed = run_robocd(command + " 2>/dev/null");
+  ASSERT_EQ(printed.status, 0);
+  EXPECT_EQ(run_robocd(command + " --out" + arm.file("out.srdf") + " 2>/dev/null").out, "");
+  EXPECT_EQ(content(arm.path() / "out.srdf"), printed.out);
+  const Json json = Json::parse(run_robocd("info --json" + arm.urdf() + " --srdf" + arm.file("out.srdf")).out);
+  const std::string tested = pairs(json.at("tested_pairs"));
+  // Fore meets base and camera meets mast when the elbow is in. Upper stays at x = 1, mast on the axis.
+  EXPECT_NE(tested.find("base fore;"), std::string::npos) << tested;
+  EXPECT_NE(tested.find("camera mast;"), std::string::npos) << tested;
+  EXPECT_EQ(tested.find("upper mast;"), std::string::npos) << tested;
+}
+
+TEST(Robocd, LeavesNothingHalfWritten) {
+  const ArmFolder arm;
+  EXPECT_EQ(run_robocd("check" + arm.urdf() + " --zero --out /nonexistent/x.csv 2>&1").status, 3);
+  EXPECT_EQ(run_robocd("matrix" + arm.urdf() + " --samples 10 --out /nonexistent/x.srdf 2>&1").status, 3);
+  EXPECT_EQ(run_robocd("check" + arm.urdf() + " --zero --json >/dev/full 2>/dev/null").status, 3);
+}
+
+}  // namespace
+}  // namespace hinge::robotics
