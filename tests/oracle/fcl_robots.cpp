@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// FCL as Debian ships it.
+#include "oracle/fcl_robots.hpp"
+
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/sphere.h>
+
+#include "oracle/define_fcl_robots.hpp"
+
+namespace hinge::oracle {
+
+template class FclTrees<FclBuild::debian>;
+template class FclScene<FclBuild::debian>;
+template class FclRobot<FclBuild::debian>;
+
+namespace {
+
+template <class A, class B>
+double shape_distance(const A& a, const Placement& at_a, const B& b, const Placement& at_b) {
+  fcl::DistanceRequest<double> request;
+  request.distance_tolerance = 1e-12;  // where libccd's iteration stops; its default, 1e-6, would be its error
+  fcl::DistanceResult<double> result;
+  return fcl::distance(&a, transform(at_a), &b, transform(at_b), request, result);
+}
+
+}  // namespace
+
+double distance(const FclSphere& a, const Placement& at_a, const FclSphere& b, const Placement& at_b) {
+  return shape_distance(fcl::Sphere<double>(a.radius), at_a, fcl::Sphere<double>(b.radius), at_b);
+}
+double distance(const FclCapsule& a, const Placement& at_a, const FclCapsule& b, const Placement& at_b) {
+  return shape_distance(fcl::Capsule<double>(a.radius, a.length), at_a, fcl::Capsule<double>(b.radius, b.length), at_b);
+}
+double distance(const FclBox& a, const Placement& at_a, const FclBox& b, const Placement& at_b) {
+  return shape_distance(fcl::Box<double>(a.size[0], a.size[1], a.size[2]), at_a,
+                        fcl::Box<double>(b.size[0], b.size[1], b.size[2]), at_b);
+}
+
+}  // namespace hinge::oracle
