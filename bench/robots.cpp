@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Robots against FCL, as Debian ships it and compiled for this machine: self-collision, all pairs of links, minimum
+// distance, 1.26 million triangles around, building; five robots, poses given, warm and cold caches. Answers compared.
+#include "results.hpp"
+#include "robots/run_robots.hpp"
+
+int main(int argc, char** argv) {
+  using namespace hinge::bench;
+  const Arguments arguments = Arguments::parse(argc, argv, 5, "SECONDS for each query of each robot");
+  Results results("robots");
+  RobotRatios ratios;
+  const int differences = run_robots({200, arguments.number, true, 50}, ratios, results);
+  ratios.print("fcl-best", results);
+  ratios.print("fcl-native-best", results);
+  ratios.print("fcl-unshared", results);
+  results.write(arguments.json);
+  return differences == 0 ? 0 : 1;
+}
