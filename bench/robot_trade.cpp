@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What coarser links buy and cost: every tier of every robot beside its exact meshes, answers over the same
+// configurations and pairs of links.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hinge/hierarchy.hpp"
+#include "hinge/query/link_pair_hits.hpp"
+#include "hinge/robotics/link_margins.hpp"
+#include "hinge/robotics/tiers.hpp"
+#include "results.hpp"
+#include "robots/make_subject.hpp"
+#include "timing.hpp"
+
+namespace {
+
+using namespace hinge;
+using namespace hinge::bench;
+using robotics::LinkMargins;
+using robotics::LinkPairFilter;
+using robotics::LinkPairs;
+using robotics::Robot;
+using robotics::RobotDescription;
+using robotics::Tier;
+
+constexpr Tier tiers[] = {Tier::mesh, Tier::hull, Tier::capsule, Tier::spheres};
+
+struct Case {
+  std::string name;
+  RobotDescription description;
+  LinkPairs disabled;
+};
+
+std::vector<Case> cases() {
+  std::vector<Case> cases;
+  for (const test::SharedRobot& shared : test::shared_robots()) {
+    if (!std::filesystem::exists(test::shared_folder(shared.name))) continue;
+    const test::LoadedRobot loaded = test::load_shared(shared.name);
+    cases.push_back({shared.name, loaded.robot.description(), loaded.disabled});
+  }
+  if (!cases.empty()) return cases;
+  std::printf("the shared data is not beside the repository: robots made in code take its place\n");
+  for (const SubjectKind& kind : subject_kinds) {
+    const Robot robot = generated_robot(kind);
+    cases.push_back({robot.name(), robot.description(), LinkPairs(robot.link_count())});
+  }
+  return cases;
+}
+
+/// Of one tier, by configuration.
+struct Answers {
+  std::size_t primitives = 0;
+  double fit_ms = 0.0, build_ms = 0.0;  // from the shapes to the tier's; from those to the engine
+  std::vector<bool> collides;
+  std::vector<double> distance;                          // m, 0 when they meet; fewer where they take long
+  double any_us = 0.0, all_us = 0.0, distance_us = 0.0;  // means, from the joint values
+};
+
+/// Mean over the configurations of the best of the repetitions; `ask(k)` of all in turn, so that each pays for its
+/// update.
+template <class Ask>
+double mean_of_best(std::size_t count, const Ask& ask) {
+  std::vector<double> best(count, std::numeric_limits<double>::infinity());
+  for (int repetition = 0; repetition < repetitions; ++repetition)
+    for (std::size_t k = 0; k < count; ++k) best[k] = std::min(best[k], microseconds([&] { ask(k); }));
+  double sum = 0.0;
+  for (const double us : best) sum += us;
+  return sum / static_cast<double>(count);
+}
+
+/// As many distances as two seconds allow; `most` when the first tier has said how many.
+Answers ask(const RobotDescription& exact, Tier tier, const LinkPairs& tested,
+            const std::vector<std::vector<double>>& configurations, std::optional<std::size_t> most) {
+  constexpr double distance_seconds = 2.0;
+  Answers answers;
+  robotics::Tiers chosen;
+  chosen.all = tier;
+  RobotDescription description;
+  answers.fit_ms = microseconds([&] { description = robotics::with_tiers(exact, chosen); }) / 1e3;
+  const Robot robot(std::move(description));
+  answers.primitives = robot.model().size();
+  const LinkPairFilter filter(robot, tested);
+  const LinkMargins margins(robot);
+  using Checked = Hierarchy<Triangle, LinkPairFilter, LinkMargins>;
+  std::optional<Checked> hierarchy;
+  answers.build_ms = microseconds([&] { hierarchy.emplace(robot.model(), filter, margins); }) / 1e3;
+
+  const std::size_t count = configurations.size();
+  answers.collides.resize(count);
+  answers.any_us = mean_of_best(count, [&](std::size_t k) {
+    hierarchy->update(configurations[k]);
+    answers.collides[k] = hierarchy->self_collides();
+  });
+  LinkPairHits hits(robot.model().links());
+  answers.all_us = mean_of_best(count, [&](std::size_t k) {
+    hierarchy->update(configurations[k]);
+    hits.clear();
+    hierarchy->self_query(hits);
+  });
+  const auto distance = [&](std::size_t k) {
+    hierarchy->update(configurations[k]);
+    const auto hit = hierarchy->self_closest();
+    return hit ? std::max(0.0, hit->gap()) : std::numeric_limits<double>::infinity();
+  };
+  const auto start = Clock::now();
+  while (answers.distance.size() < most.value_or(count) && (most || seconds_since(start) < distance_seconds))
+    answers.distance.push_back(distance(answers.distance.size()));
+  answers.distance_us = mean_of_best(answers.distance.size(), distance);
+  return answers;
+}
+
+struct Errors {
+  int colliding = 0, false_accepts = 0, false_rejects = 0;
+  double mean = 0.0, largest = 0.0;  // m, of the distances
+};
+
+Errors compare(const Answers& exact, const Answers& given) {
+  Errors e;
+  for (std::size_t k = 0; k < exact.collides.size(); ++k) {
+    e.colliding += exact.collides[k] ? 1 : 0;
+    e.false_accepts += exact.collides[k] && !given.collides[k] ? 1 : 0;
+    e.false_rejects += !exact.collides[k] && given.collides[k] ? 1 : 0;
+  }
+  for (std::size_t k = 0; k < exact.distance.size(); ++k) {
+    const bool same = exact.distance[k] == given.distance[k];  // both infinite where no pair is tested
+    const double off = same ? 0.0 : std::abs(exact.distance[k] - given.distance[k]);
+    e.mean += off / static_cast<double>(exact.distance.size());
+    e.largest = std::max(e.largest, off);
+  }
+  return e;
+}
+
+void run(const Case& scene, std::size_t count, Results& results) {
+  const Robot exact(scene.description);
+  const LinkPairs tested = tested_pairs(exact, scene.disabled);
+  std::vector<std::vector<double>> configurations;
+  for (std::size_t k = 0; k < count; ++k) {
+    SampleStream stream(robot_seed, k);
+    configurations.push_back(exact.expand(test::random_configuration(exact, stream)));
+  }
+  std::optional<Answers> by_mesh;
+  for (const Tier tier : tiers) {
+    const Answers answers = ask(scene.description, tier, tested, configurations,
+                                by_mesh ? std::optional(by_mesh->distance.size()) : std::nullopt);
+    if (!by_mesh) by_mesh = answers;
+    const Errors e = compare(*by_mesh, answers);
+    const auto percent = [](int part, double of) { return 100.0 * part / std::max(1.0, of); };
+    const double colliding = e.colliding, n = static_cast<double>(count);
+    if (tier == Tier::mesh)
+      std::printf("\n%s: %zu configurations, %.1f %% collide, %zu pairs of links, %zu distances\n", scene.name.c_str(),
+                  count, 100 * colliding / n, tested.size(), answers.distance.size());
+    if (tier == Tier::mesh)
+      std::printf("  %-8s %10s %9s %9s %9s %9s %11s %9s %9s %9s %9s\n", "", "primitives", "fit ms", "build ms",
+                  "any us", "all us", "distance us", "accept %", "reject %", "mean mm", "max mm");
+    std::printf("  %-8s %10zu %9.1f %9.2f %9.2f %9.2f %11.1f %9.2f %9.2f %9.3g %9.3g\n", name(tier), answers.primitives,
+                answers.fit_ms, answers.build_ms, answers.any_us, answers.all_us, answers.distance_us,
+                percent(e.false_accepts, colliding), percent(e.false_rejects, n - colliding), 1e3 * e.mean,
+                1e3 * e.largest);
+    std::fflush(stdout);
+    results.add({{"kind", "robot-trade"},
+                 {"robot", scene.name},
+                 {"tier", name(tier)},
+                 {"configurations", count},
+                 {"colliding", e.colliding},
+                 {"pairs", tested.size()},
+                 {"primitives", answers.primitives},
+                 {"fit_ms", answers.fit_ms},
+                 {"build_ms", answers.build_ms},
+                 {"any_us", answers.any_us},
+                 {"all_us", answers.all_us},
+                 {"distance_us", answers.distance_us},
+                 {"distances", answers.distance.size()},
+                 {"false_accepts", e.false_accepts},
+                 {"false_rejects", e.false_rejects},
+                 {"mean_distance_error", e.mean},
+                 {"largest_distance_error", e.largest}});
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Arguments arguments = Arguments::parse(argc, argv, 1000, "CONFIGURATIONS");
+  Results results("robot_trade");
+  std::printf(
+      "tiers against exact meshes; configurations uniform in the joint limits, seed %llu\n"
+      "accept: called free though the meshes meet; reject: called colliding though they do not\n",
+      static_cast<unsigned long long>(robot_seed));
+  for (const Case& scene : cases()) run(scene, static_cast<std::size_t>(arguments.number), results);
+  results.write(arguments.json);
+  return 0;
+}
