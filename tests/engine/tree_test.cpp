@@ -142,6 +142,12 @@ TEST(TreeQueries, EqualBruteForceWithoutThresholds) {
     Hierarchy<Triangle, DifferentLinks, UniformClearance, Brute> reference(model, filter, UniformClearance(0.0));
     LinkPairHits links(model.links());
     std::vector<double> q(tested.dof_count());
+    // Half of the runs with an order of pairs, which changes no answer.
+    for (int k = 0; seed % 2 == 0 && k < 10; ++k) {
+      for (double& value : q) value = random.uniform(-3.0, 3.0);
+      tested.update(q);
+      tested.learn_order();
+    }
     for (int step = 0; step < 6; ++step) {
       for (double& value : q) value = random.uniform(-3.0, 3.0);
       tested.update(q);
@@ -162,6 +168,25 @@ TEST(TreeQueries, EqualBruteForceWithoutThresholds) {
     }
     if (HasFailure()) return;
   }
+}
+
+class Refuses {
+ public:
+  static constexpr bool ranks = false;
+  void add(const Hit&) { throw ModelError("full"); }
+  double cutoff() const noexcept { return 0.0; }
+  bool done() const noexcept { return false; }
+};
+
+/// A collector may throw, and the next query is answered as ever.
+TEST(TreeQueries, LetExceptionsThrough) {
+  Random random(4);
+  const auto model = bumpy_chain(random, 4, 50, 1.0);
+  Hierarchy tree(model, DifferentLinks({model.links().begin(), model.links().end()}), UniformClearance(0.5));
+  ASSERT_TRUE(tree.self_collides());
+  Refuses refuses;
+  EXPECT_THROW(tree.self_query(refuses), ModelError);
+  EXPECT_TRUE(tree.self_collides());
 }
 
 /// The same answers wherever the model stands and whatever its unit: trees are kept about their own middles.

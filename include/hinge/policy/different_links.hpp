@@ -20,9 +20,11 @@ class DifferentLinks {
   explicit DifferentLinks(std::vector<LinkId> link_of, std::vector<std::pair<LinkId, LinkId>> ignored = {});
 
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept {
-    const std::size_t a = hinge::index(data_->link_of[hinge::index(i)]);
-    const std::size_t b = hinge::index(data_->link_of[hinge::index(j)]);
-    return data_->admitted[a * data_->links + b];
+    return admits(data_->link_of[hinge::index(i)], data_->link_of[hinge::index(j)]);
+  }
+  /// Links that have primitives.
+  bool admits(LinkId a, LinkId b) const noexcept {
+    return data_->admitted[hinge::index(a) * data_->links + hinge::index(b)];
   }
   std::size_t size() const noexcept { return data_->link_of.size(); }
 
@@ -48,6 +50,6 @@ inline DifferentLinks::DifferentLinks(std::vector<LinkId> link_of, std::vector<s
   data_ = std::make_shared<const Data>(std::move(data));
 }
 
-static_assert(PairFilter<DifferentLinks>);
+static_assert(AdmitsLinks<DifferentLinks>);
 
 }  // namespace hinge

@@ -59,7 +59,7 @@ class ClosestFinder {
   /// flush(slots of a, slots of b, how many, bounds) -> the new bound.
   template <class Flush>
   float run(const TreeParts<P>& a, const TreePart& part_a, const TreeParts<P>& b, const TreePart& part_b,
-            const RelativeTurn& turn, float bound, QueryCounts& counts, const Flush& flush) noexcept {
+            const RelativeTurn& turn, float bound, QueryCounts& counts, const Flush& flush) {
     constexpr auto width = static_cast<std::uint32_t>(simd::width);
     std::size_t left = 0;
     queued_ = 0;
@@ -122,7 +122,7 @@ class ClosestFinder {
 
   template <class Flush>
   float run_leaves(const TreeParts<P>& a, BoxId x, const TreeParts<P>& b, BoxId y, const RelativeTurn& turn,
-                   float bound, QueryCounts& counts, const Flush& flush) noexcept {
+                   float bound, QueryCounts& counts, const Flush& flush) {
     const std::uint32_t leaf_a = a.store.leaf(x), leaf_b = b.store.leaf(y);
     const typename Leaf<P>::Turned turned(b.leaf(leaf_b),
                                           {turn.b_to_a.rotation, turn.b_to_a.size, turn.b_to_a.translation});
@@ -153,7 +153,7 @@ class ClosestFinder {
   }
 
   template <class Flush>
-  float hand_over(float bound, const Flush& flush) noexcept {
+  float hand_over(float bound, const Flush& flush) {
     Bounds16 bounds;
     queue_.bound(bounds);
     if (!sane_) {

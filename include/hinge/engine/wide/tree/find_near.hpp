@@ -35,7 +35,7 @@ class NearFinder {
   /// Returns false when stopped.
   template <class Visit>
   bool run(const TreeParts<P>& a, const TreePart& part_a, const TreeParts<P>& b, const TreePart& part_b,
-           const RelativeTurn& turn, float margin, QueryCounts& counts, const Visit& visit) noexcept {
+           const RelativeTurn& turn, float margin, QueryCounts& counts, const Visit& visit) {
     const float other_margin = margin / turn.b_to_a.ratio;
     const auto open_a = [&](BoxId x, BoxId y) __attribute__((always_inline)) {
       const TreeBox box = b.store.box(y);
@@ -106,7 +106,7 @@ class NearFinder {
   template <class Visit>
   [[gnu::always_inline]] bool run_leaves(const TreeParts<P>& a, BoxId x, const TreeParts<P>& b, BoxId y,
                                          const RelativeTurn& turn, float margin, QueryCounts& counts,
-                                         const Visit& visit) noexcept {
+                                         const Visit& visit) {
     const std::uint32_t leaf_a = a.store.leaf(x), leaf_b = b.store.leaf(y);
     const typename Leaf<P>::Turned turned(b.leaf(leaf_b),
                                           {turn.b_to_a.rotation, turn.b_to_a.size, turn.b_to_a.translation});

@@ -138,8 +138,8 @@ class TreeSide {
     const std::size_t n = theirs.state_.parts().parts.size();
     const double most = mine.largest_clearance();
     if constexpr (C::ranks) {
-      if (witnessed_ != theirs.state_.shared_parts().get()) cross_witnesses_.clear();
-      witnessed_ = theirs.state_.shared_parts().get();
+      if (witnessed_.lock() != theirs.state_.shared_parts()) cross_witnesses_.clear();
+      witnessed_ = theirs.state_.shared_parts();
       find_closest(mine, others, cross_witnesses_, judge, collector, counts, [&](double bound) {
         for (std::size_t q = 0; q < n; ++q)
           state_.append_near(their_box(q), mine.scaled(bound + others.clearance_at(q) + most), q, pairs_);
@@ -184,7 +184,7 @@ class TreeSide {
     if (!asks(collector, part_a.link, part_b.link)) return;
     const double margin = cutoff + a.clearance_at(p) + b.clearance_at(q);
     finder_.run(a.state.parts(), part_a, b.state.parts(), part_b, a.turn(p, b, q), a.scaled(margin), counts,
-                [&](std::uint32_t leaf, std::uint32_t slot, simd::Bits lanes) noexcept {
+                [&](std::uint32_t leaf, std::uint32_t slot, simd::Bits lanes) {
                   const PrimitiveId j = b.primitive(slot);
                   const P other = b.placement.alone(j);
                   for (; lanes != 0; lanes &= lanes - 1) {
@@ -245,7 +245,7 @@ class TreeSide {
       const double ratio = scale / b.state.parts().scale;
       closest_.run(a.state.parts(), a.part(pair.first), b.state.parts(), b.part(pair.second),
                    a.turn(pair.first, b, pair.second), a.scaled(bound + extra), counts,
-                   [&](const auto& slots_a, const auto& slots_b, std::size_t n, const Bounds16& bounds) noexcept {
+                   [&](const auto& slots_a, const auto& slots_b, std::size_t n, const Bounds16& bounds) {
                      for (std::size_t k = 0; k < n; ++k) {
                        double reach = 0.0;
                        if (reach_a != nullptr) reach += static_cast<double>(reach_a[slots_a[k]]);
@@ -282,7 +282,7 @@ class TreeSide {
   std::vector<Candidate> candidates_;
   PairOrder order_;
   Witnesses<P> witnesses_, cross_witnesses_;
-  const void* witnessed_ = nullptr;  // whose pairs cross_witnesses_ holds
+  std::weak_ptr<const TreeParts<P>> witnessed_;  // whose pairs cross_witnesses_ holds
 };
 
 }  // namespace hinge
