@@ -39,6 +39,10 @@ class TreeSide {
       : state_(std::move(parts)), order_(state_.parts().parts.size()) {
     finder_.reserve(2 * state_.parts().depth);
     closest_.reserve(2 * state_.parts().depth);
+    // So that queries of usual models never allocate.
+    const std::size_t n = state_.parts().parts.size();
+    pairs_.reserve(std::min<std::size_t>(n * n / 2, 1U << 16U));
+    candidates_.reserve(most_candidates + simd::width);
   }
 
   template <Collector C, class Judge>

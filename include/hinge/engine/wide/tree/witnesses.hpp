@@ -22,6 +22,7 @@ namespace hinge {
 template <Primitive P>
 class Witnesses {
  public:
+  Witnesses() { list_.reserve(most); }
   void clear() noexcept { list_.clear(); }
 
   /// An upper bound of the smallest d - M; infinite when nothing is remembered.

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Queries through trees allocate nothing.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#include "engine/random_mechanism.hpp"
+#include "hinge/hierarchy.hpp"
+#include "hinge/policy/different_links.hpp"
+#include "hinge/primitive/triangle.hpp"
+#include "hinge/query/link_pair_hits.hpp"
+
+namespace {
+
+std::size_t allocations = 0;
+
+}  // namespace
+
+// Counted for the whole test program; malloc aligns as much as the plain forms promise.
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace hinge {
+namespace {
+
+TEST(TreeQueries, AllocateNothing) {
+  test::Random random(8);
+  ModelBuilder<Triangle> builder;
+  LinkId parent = world;
+  for (int l = 0; l < 12; ++l) {
+    std::vector<Triangle> mesh;
+    for (int k = 0; k < 300; ++k) {
+      const Vec3 at = Vec3(random.vector(1.0).normalized()) * 0.15;
+      mesh.push_back({at, at + random.vector(0.03), at + random.vector(0.03)});
+    }
+    parent = builder.add_link(parent, Revolute{Vec3::UnitX(), Vec3::Zero(), random.pose(1.0), {}}, mesh);
+  }
+  const auto model = builder.finish();
+  Hierarchy robot(model, DifferentLinks({model.links().begin(), model.links().end()}), UniformClearance(0.0));
+  LinkPairHits links(model.links());
+  std::vector<double> q(robot.dof_count());
+  std::size_t hits = 0;
+  const auto ask = [&] {
+    for (double& value : q) value = random.uniform(-3.0, 3.0);
+    robot.update(q);
+    AnyHit any;
+    robot.self_query(any);
+    links.clear();
+    robot.self_query(links);
+    Closest closest;
+    robot.self_query(closest);
+    hits += any.done() ? 1U : 0U;
+  };
+  // The list of hits is the caller's: it grows to what the largest answer takes.
+  for (int k = 0; k < 200; ++k) ask();
+  const std::size_t before = allocations;
+  for (int k = 0; k < 100; ++k) ask();
+  EXPECT_EQ(allocations, before);
+  EXPECT_GT(hits, 0U);
+  EXPECT_LT(hits, 300U);
+}
+
+}  // namespace
+}  // namespace hinge
