@@ -17,6 +17,7 @@
 #include "contestant.hpp"
 #include "hinge/molecular/radii.hpp"
 #include "results.hpp"
+#include "robots/trade_tiers.hpp"
 #include "scene.hpp"
 #include "timing.hpp"
 
@@ -72,7 +73,7 @@ double best_time(const Away& away, const Work& work) {
 }
 
 /// engine/wide: banded float, decided in double.
-Variant exact(std::string name, const Protein& protein, const DofSelection& selection) {
+Variant banded(std::string name, const Protein& protein, const DofSelection& selection) {
   const auto h =
       std::make_shared<Molecular<Wide>>(protein.molecule->model(), selection, protein.filter, protein.thresholds);
   return {std::move(name), [=](const Turns& turns) {
@@ -262,16 +263,16 @@ int main(int argc, char** argv) {
   const Protein protein = read_protein(heavy, false);
   const DofSelection all = select(protein, "all");
   run(results, "float only", protein, all,
-      {exact("banded float, decided in double", protein, all), float_only("float, every pair", protein, all, 0.0),
+      {banded("banded float, decided in double", protein, all), float_only("float, every pair", protein, all, 0.0),
        float_only("float, every pair, 1e3 A off the origin", protein, all, 1e3),
        float_only("float, every pair, 1e5 A off the origin", protein, all, 1e5)},
       n);
   run(results, "fewer torsions moved", protein, all,
-      {exact("all residues", protein, all), exact("35 residues", protein, select(protein, "count:35")),
-       exact("10 residues", protein, select(protein, "count:10"))},
+      {banded("all residues", protein, all), banded("35 residues", protein, select(protein, "count:35")),
+       banded("10 residues", protein, select(protein, "count:10"))},
       n);
   run(results, "rigid secondary structure", protein, all,
-      {exact("all free", protein, all), exact("helices and strands rigid", protein, select(protein, "loops"))}, n);
+      {banded("all free", protein, all), banded("helices and strands rigid", protein, select(protein, "loops"))}, n);
   if (hydrogens.empty()) {
     std::printf("explicit hydrogens are left out: no file with hydrogens is there\n");
     hydrogens = heavy;
@@ -282,18 +283,19 @@ int main(int argc, char** argv) {
                   united = with_radii(hydrogens, false, "probe-united"), bare = with_radii(hydrogens, false, "bondi");
     const DofSelection moved = select(reference, "all");
     run(results, "explicit against united hydrogens", reference, moved,
-        {exact("hydrogens explicit (probe)", reference, moved),
-         exact("united with their carbons (probe-united)", united, select(united, "all")),
-         exact("heavy atoms alone (bondi)", bare, select(bare, "all"))},
+        {banded("hydrogens explicit (probe)", reference, moved),
+         banded("united with their carbons (probe-united)", united, select(united, "all")),
+         banded("heavy atoms alone (bondi)", bare, select(bare, "all"))},
         n);
   }
   std::vector<Variant> sets;
   const Protein bondi = with_radii(hydrogens, explicit_hydrogens, "bondi");
   for (const char* set : {"bondi", "probe", "probe-united", "amber"}) {
     const Protein p = with_radii(hydrogens, explicit_hydrogens && std::string(set) != "probe-united", set);
-    sets.push_back(exact(set, p, select(p, "all")));
+    sets.push_back(banded(set, p, select(p, "all")));
   }
   run(results, "radii sets", bondi, select(bondi, "all"), std::move(sets), n);
+  trade_tiers(static_cast<std::size_t>(arguments.number), results);
   results.write(arguments.json);
   return 0;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What coarser links buy and cost: every tier of every robot beside its exact meshes, answers over the same
-// configurations and pairs of links.
+// trade_tiers: what coarser links buy and cost, every tier of every robot beside its exact meshes, answers over the
+// same configurations and pairs of links.
+#pragma once
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -21,10 +23,8 @@
 #include "robots/make_subject.hpp"
 #include "timing.hpp"
 
-namespace {
+namespace hinge::bench {
 
-using namespace hinge;
-using namespace hinge::bench;
 using robotics::LinkMargins;
 using robotics::LinkPairFilter;
 using robotics::LinkPairs;
@@ -32,16 +32,16 @@ using robotics::Robot;
 using robotics::RobotDescription;
 using robotics::Tier;
 
-constexpr Tier tiers[] = {Tier::mesh, Tier::hull, Tier::capsule, Tier::spheres};
+inline constexpr Tier tiers[] = {Tier::mesh, Tier::hull, Tier::capsule, Tier::spheres};
 
-struct Case {
+struct TierCase {
   std::string name;
   RobotDescription description;
   LinkPairs disabled;
 };
 
-std::vector<Case> cases() {
-  std::vector<Case> cases;
+inline std::vector<TierCase> tier_cases() {
+  std::vector<TierCase> cases;
   for (const test::SharedRobot& shared : test::shared_robots()) {
     if (!std::filesystem::exists(test::shared_folder(shared.name))) continue;
     const test::LoadedRobot loaded = test::load_shared(shared.name);
@@ -57,7 +57,7 @@ std::vector<Case> cases() {
 }
 
 /// Of one tier, by configuration.
-struct Answers {
+struct TierAnswers {
   std::size_t primitives = 0;
   double fit_ms = 0.0, build_ms = 0.0;  // from the shapes to the tier's; from those to the engine
   std::vector<bool> collides;
@@ -78,10 +78,10 @@ double mean_of_best(std::size_t count, const Ask& ask) {
 }
 
 /// As many distances as two seconds allow; `most` when the first tier has said how many.
-Answers ask(const RobotDescription& exact, Tier tier, const LinkPairs& tested,
-            const std::vector<std::vector<double>>& configurations, std::optional<std::size_t> most) {
+inline TierAnswers ask_tier(const RobotDescription& exact, Tier tier, const LinkPairs& tested,
+                            const std::vector<std::vector<double>>& configurations, std::optional<std::size_t> most) {
   constexpr double distance_seconds = 2.0;
-  Answers answers;
+  TierAnswers answers;
   robotics::Tiers chosen;
   chosen.all = tier;
   RobotDescription description;
@@ -118,13 +118,13 @@ Answers ask(const RobotDescription& exact, Tier tier, const LinkPairs& tested,
   return answers;
 }
 
-struct Errors {
+struct TierErrors {
   int colliding = 0, false_accepts = 0, false_rejects = 0;
   double mean = 0.0, largest = 0.0;  // m, of the distances
 };
 
-Errors compare(const Answers& exact, const Answers& given) {
-  Errors e;
+inline TierErrors compare(const TierAnswers& exact, const TierAnswers& given) {
+  TierErrors e;
   for (std::size_t k = 0; k < exact.collides.size(); ++k) {
     e.colliding += exact.collides[k] ? 1 : 0;
     e.false_accepts += exact.collides[k] && !given.collides[k] ? 1 : 0;
@@ -139,7 +139,7 @@ Errors compare(const Answers& exact, const Answers& given) {
   return e;
 }
 
-void run(const Case& scene, std::size_t count, Results& results) {
+inline void trade_tiers(const TierCase& scene, std::size_t count, Results& results) {
   const Robot exact(scene.description);
   const LinkPairs tested = tested_pairs(exact, scene.disabled);
   std::vector<std::vector<double>> configurations;
@@ -147,12 +147,12 @@ void run(const Case& scene, std::size_t count, Results& results) {
     SampleStream stream(robot_seed, k);
     configurations.push_back(exact.expand(test::random_configuration(exact, stream)));
   }
-  std::optional<Answers> by_mesh;
+  std::optional<TierAnswers> by_mesh;
   for (const Tier tier : tiers) {
-    const Answers answers = ask(scene.description, tier, tested, configurations,
-                                by_mesh ? std::optional(by_mesh->distance.size()) : std::nullopt);
+    const TierAnswers answers = ask_tier(scene.description, tier, tested, configurations,
+                                         by_mesh ? std::optional(by_mesh->distance.size()) : std::nullopt);
     if (!by_mesh) by_mesh = answers;
-    const Errors e = compare(*by_mesh, answers);
+    const TierErrors e = compare(*by_mesh, answers);
     const auto percent = [](int part, double of) { return 100.0 * part / std::max(1.0, of); };
     const double colliding = e.colliding, n = static_cast<double>(count);
     if (tier == Tier::mesh)
@@ -186,16 +186,12 @@ void run(const Case& scene, std::size_t count, Results& results) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const Arguments arguments = Arguments::parse(argc, argv, 1000, "CONFIGURATIONS");
-  Results results("robot_trade");
+inline void trade_tiers(std::size_t count, Results& results) {
   std::printf(
-      "tiers against exact meshes; configurations uniform in the joint limits, seed %llu\n"
+      "\nrobots, tiers against exact meshes; configurations uniform in the joint limits, seed %llu\n"
       "accept: called free though the meshes meet; reject: called colliding though they do not\n",
       static_cast<unsigned long long>(robot_seed));
-  for (const Case& scene : cases()) run(scene, static_cast<std::size_t>(arguments.number), results);
-  results.write(arguments.json);
-  return 0;
+  for (const TierCase& scene : tier_cases()) trade_tiers(scene, count, results);
 }
+
+}  // namespace hinge::bench
