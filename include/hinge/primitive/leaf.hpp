@@ -16,9 +16,9 @@ namespace hinge {
 
 /// How the coordinates of another tree are brought into this one's: x -> rotation x + translation.
 struct LeafTurn {
-  const std::array<float, 9>& rotation;  ///< column by column
-  const std::array<float, 9>& size;      ///< its magnitudes, rounded up
-  const std::array<float, 3>& translation;
+  const std::array<float, 12>& rotation;  ///< column by column, each with a spare entry
+  const std::array<float, 12>& size;      ///< its magnitudes, rounded up
+  const std::array<float, 4>& translation;
 };
 
 /// What counts as near: distance <= margin + reach of both. `error` bounds how far one coordinate of a turned
@@ -56,8 +56,8 @@ struct Leaf {
       for (std::size_t k = 0; k < 3; ++k) {
         Float16 m(turn.translation[k]), h(0.0F);
         for (std::size_t j = 0; j < 3; ++j) {
-          m = m + Float16(turn.rotation[3 * j + k]) * Float16(other + j * n);
-          h = h + Float16(turn.size[3 * j + k]) * Float16(other + (3 + j) * n);
+          m = m + Float16(turn.rotation[4 * j + k]) * Float16(other + j * n);
+          h = h + Float16(turn.size[4 * j + k]) * Float16(other + (3 + j) * n);
         }
         m.store(middle_.data() + k * n);
         h.store(half_.data() + k * n);

@@ -65,7 +65,7 @@ struct Leaf<Triangle> {
       for (std::size_t c = 0; c < 3; ++c) {
         const Lanes3 p = corner(other, c);
         for (std::size_t k = 0; k < 3; ++k)
-          (Float16(r[k]) * p.x + Float16(r[3 + k]) * p.y + Float16(r[6 + k]) * p.z + Float16(turn.translation[k]))
+          (Float16(r[k]) * p.x + Float16(r[4 + k]) * p.y + Float16(r[8 + k]) * p.z + Float16(turn.translation[k]))
               .store(at_.data() + (3 * c + k) * n);
       }
       for (std::size_t k = 0; k < 3; ++k) {

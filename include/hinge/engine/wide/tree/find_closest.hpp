@@ -34,10 +34,10 @@ namespace hinge {
     first = first + gap * gap;
   }
   for (std::size_t k = 0; k < 3; ++k) {
-    const Float16 along = d[0] * Float16(turn.rotation[3 * k]) + d[1] * Float16(turn.rotation[3 * k + 1]) +
-                          d[2] * Float16(turn.rotation[3 * k + 2]);
-    const Float16 reach = half[0] * Float16(turn.size[3 * k]) + half[1] * Float16(turn.size[3 * k + 1]) +
-                          half[2] * Float16(turn.size[3 * k + 2]);
+    const Float16 along = d[0] * Float16(turn.rotation[4 * k]) + d[1] * Float16(turn.rotation[4 * k + 1]) +
+                          d[2] * Float16(turn.rotation[4 * k + 2]);
+    const Float16 reach = half[0] * Float16(turn.size[4 * k]) + half[1] * Float16(turn.size[4 * k + 1]) +
+                          half[2] * Float16(turn.size[4 * k + 2]);
     const Float16 gap =
         max(abs(along) - (reach + Float16(turn.ratio * (turn.ratio * box.half[k] + turn.box_error))), zero);
     second = second + gap * gap;

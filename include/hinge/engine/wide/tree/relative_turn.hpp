@@ -19,13 +19,12 @@ struct TreeFrame {
   TreeFrame() = default;
   /// `local`: the tree's origin in the frame of its group.
   TreeFrame(const Frame& frame, const Vec3& local) noexcept : turn(frame) {
-    FrameColumns(frame).place(local[0], local[1], local[2]).store(middle.data());
+    const simd::Double4 origin = FrameColumns(frame).place(local[0], local[1], local[2]);
+    origin.store(middle.data());
+    magnitude = largest(max(max(abs(origin), abs(simd::Double4(frame.column.data() + 12))),
+                            abs(simd::Double4::of(local[0], local[1], local[2], 0.0))));
     for (std::size_t r = 0; r < 3; ++r)
       for (std::size_t c = 0; c < 3; ++c) back.column[4 * r + c] = frame.column[4 * c + r];
-    magnitude = 0.0;
-    for (std::size_t k = 0; k < 3; ++k)
-      magnitude = std::max({magnitude, std::abs(middle[k]), std::abs(frame.column[12 + k]),
-                            std::abs(local[static_cast<Eigen::Index>(k)])});
   }
 
   Frame turn, back;
@@ -35,9 +34,9 @@ struct TreeFrame {
 
 /// x -> rotation x + translation in float, from one tree's unit to another's; the rotation holds the ratio of units.
 struct Turn {
-  std::array<float, 9> rotation;  ///< column by column
-  std::array<float, 9> size;      ///< its magnitudes, rounded up
-  std::array<float, 3> translation;
+  alignas(16) std::array<float, 12> rotation;  ///< column by column, each with a spare entry
+  alignas(16) std::array<float, 12> size;      ///< its magnitudes, rounded up
+  alignas(16) std::array<float, 4> translation;
   float ratio = 1.0F;        ///< of the units
   float box_error = 0.0F;    ///< of turned boxes, in the unit of the result
   float point_error = 0.0F;  ///< of turned points, and twice the rounding of a projection of such a point
@@ -46,9 +45,9 @@ struct Turn {
   [[gnu::always_inline]] TreeBox operator()(const TreeBox& box) const noexcept {
     TreeBox r;
     for (std::size_t k = 0; k < 3; ++k) {
-      r.middle[k] = rotation[k] * box.middle[0] + rotation[3 + k] * box.middle[1] + rotation[6 + k] * box.middle[2] +
+      r.middle[k] = rotation[k] * box.middle[0] + rotation[4 + k] * box.middle[1] + rotation[8 + k] * box.middle[2] +
                     translation[k];
-      r.half[k] = size[k] * box.half[0] + size[3 + k] * box.half[1] + size[6 + k] * box.half[2];
+      r.half[k] = size[k] * box.half[0] + size[4 + k] * box.half[1] + size[8 + k] * box.half[2];
     }
     return r;
   }
@@ -62,37 +61,35 @@ struct RelativeTurn {
     constexpr double u = 0x1p-24, v = 0x1p-53;
     const double ratio = scale_a / scale_b;  // a power of two
     const simd::Double4 between = simd::Double4(b.middle.data()) - simd::Double4(a.middle.data());
-    std::array<double, 4> d, t, s, column;
+    std::array<double, 4> d, t;
     between.store(d.data());
     const FrameColumns to_a(a.back), to_b(b.back);
-    to_a.turn(d[0], d[1], d[2]).store(t.data());
-    to_b.turn(-d[0], -d[1], -d[2]).store(s.data());
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double* x = b.turn.column.data() + 4 * c;
-      to_a.turn(x[0], x[1], x[2]).store(column.data());
-      for (std::size_t r = 0; r < 3; ++r) {
-        b_to_a.rotation[3 * c + r] = static_cast<float>(column[r] * ratio);
-        a_to_b.rotation[3 * r + c] = static_cast<float>(column[r] / ratio);
-        const double size = std::abs(column[r]) * (1 + 16 * u) + 2 * u;
-        b_to_a.size[3 * c + r] = static_cast<float>(size * ratio);
-        a_to_b.size[3 * r + c] = static_cast<float>(size / ratio);
+    const simd::Double4 shift = to_a.turn(d[0], d[1], d[2]);
+    shift.store(t.data());
+    (shift * simd::Double4(scale_a)).store_rounded(b_to_a.translation.data());
+    (to_b.turn(-d[0], -d[1], -d[2]) * simd::Double4(scale_b)).store_rounded(a_to_b.translation.data());
+    const auto set = [](Turn& turn, const FrameColumns& to, const Frame& from, double units) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double* x = from.column.data() + 4 * c;
+        const simd::Double4 column = to.turn(x[0], x[1], x[2]) * simd::Double4(units);
+        column.store_rounded(turn.rotation.data() + 4 * c);
+        (abs(column) * simd::Double4(1 + 16 * u) + simd::Double4(2 * u * units))
+            .store_rounded(turn.size.data() + 4 * c);
       }
-    }
-    double largest = 0.0;
-    for (std::size_t r = 0; r < 3; ++r) {
-      b_to_a.translation[r] = static_cast<float>(t[r] * scale_a);
-      a_to_b.translation[r] = static_cast<float>(s[r] * scale_b);
-      largest = std::max(largest, std::abs(t[r]));
-    }
+      turn.ratio = static_cast<float>(units);
+    };
+    set(b_to_a, to_a, b.turn, ratio);
+    set(a_to_b, to_b, a.turn, 1 / ratio);
+    const double largest = std::max({std::abs(t[0]), std::abs(t[1]), std::abs(t[2])});
     const double reach =
         2 * (largest * scale_a + static_cast<double>(extent_a) + ratio * static_cast<double>(extent_b));
     const double placing = 64 * v * scale_a * (a.magnitude + b.magnitude);
-    b_to_a.box_error = static_cast<float>(32 * u * reach + 2 * placing) * (1.0F + 0x1p-20F);
-    b_to_a.point_error = static_cast<float>(20 * u * reach + placing) * (1.0F + 0x1p-20F);
-    a_to_b.box_error = static_cast<float>((32 * u * reach + 2 * placing) / ratio) * (1.0F + 0x1p-20F);
-    a_to_b.point_error = static_cast<float>((20 * u * reach + placing) / ratio) * (1.0F + 0x1p-20F);
-    b_to_a.ratio = static_cast<float>(ratio);
-    a_to_b.ratio = static_cast<float>(1 / ratio);
+    const double box_error = 32 * u * reach + 2 * placing, point_error = 20 * u * reach + placing;
+    constexpr float up = 1.0F + 0x1p-20F;
+    b_to_a.box_error = static_cast<float>(box_error) * up;
+    b_to_a.point_error = static_cast<float>(point_error) * up;
+    a_to_b.box_error = static_cast<float>(box_error / ratio) * up;
+    a_to_b.point_error = static_cast<float>(point_error / ratio) * up;
     sane = reach <= 1e6;
   }
 
@@ -116,10 +113,10 @@ struct RelativeTurn {
   }
   // The box's own axes are the rotation's columns, as long as the ratio.
   for (std::size_t k = 0; k < 3; ++k) {
-    const Float16 along = d[0] * Float16(turn.rotation[3 * k]) + d[1] * Float16(turn.rotation[3 * k + 1]) +
-                          d[2] * Float16(turn.rotation[3 * k + 2]);
-    const Float16 reach = half[0] * Float16(turn.size[3 * k]) + half[1] * Float16(turn.size[3 * k + 1]) +
-                          half[2] * Float16(turn.size[3 * k + 2]);
+    const Float16 along = d[0] * Float16(turn.rotation[4 * k]) + d[1] * Float16(turn.rotation[4 * k + 1]) +
+                          d[2] * Float16(turn.rotation[4 * k + 2]);
+    const Float16 reach = half[0] * Float16(turn.size[4 * k]) + half[1] * Float16(turn.size[4 * k + 1]) +
+                          half[2] * Float16(turn.size[4 * k + 2]);
     near &= ~less(reach + Float16(turn.ratio * (turn.ratio * box.half[k] + slack)), abs(along));
   }
   return near;

@@ -133,7 +133,8 @@ class TreeBuilder {
     return x * y + y * z + z * x;
   }
   static float cost(const FloatBox& box, std::size_t n) noexcept {
-    return n == 0 ? 0.0F : surface(box) * static_cast<float>((n + simd::width - 1) / simd::width);
+    const std::size_t leaves = (n + simd::width - 1) / simd::width;
+    return n == 0 ? 0.0F : surface(box) * static_cast<float>(leaves);
   }
 
   static void place(const Part& part, TreeStore& store, std::uint32_t n, std::size_t lane) noexcept {

@@ -107,7 +107,7 @@ void TreeParts<P>::measure(const SelectedModel<P>& model, const std::vector<Aabb
   for (std::size_t g = 0; g < groups; ++g) {
     Aabb box;
     for (const PrimitiveId i : model.primitives_of(id<GroupId>(g))) box.extend(boxes[index(i)]);
-    origin.push_back(Vec3::Zero());
+    origin.emplace_back(Vec3::Zero());
     if (box.is_empty()) continue;
     for (int k = 0; k < 3; ++k) {
       origin[g][k] = box.middle(k);
