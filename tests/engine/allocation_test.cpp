@@ -19,14 +19,15 @@ std::size_t allocations = 0;
 
 }  // namespace
 
-// Counted for the whole test program; malloc aligns as much as the plain forms promise.
-void* operator new(std::size_t size) {
+// Counted for the whole test program; malloc aligns as much as the plain forms promise. Not inlined: g++ 12 would take
+// a free() that it sees beside a call of new for a mistake.
+[[gnu::noinline]] void* operator new(std::size_t size) {
   ++allocations;
   if (void* memory = std::malloc(size)) return memory;
   throw std::bad_alloc();
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace hinge {
 namespace {
