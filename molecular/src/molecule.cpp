@@ -17,26 +17,6 @@ namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-/// Disjoint sets of atoms.
-class Fragments {
- public:
-  explicit Fragments(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0U); }
-  std::uint32_t find(std::uint32_t a) {
-    while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
-    return a;
-  }
-  /// False when the two were one already.
-  bool join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-    return a != b;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 bool is_cross_link(const Structure& s, const Bond& bond) {
   if (bond.origin == BondOrigin::disulphide || bond.origin == BondOrigin::record) return true;
   const std::uint32_t r = s.atoms[bond.first].residue, t = s.atoms[bond.second].residue;
@@ -62,6 +42,26 @@ class MoleculeBuilder {
   }
 
  private:
+  /// Disjoint sets of atoms.
+  class Fragments {
+   public:
+    explicit Fragments(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0U); }
+    std::uint32_t find(std::uint32_t a) {
+      while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
+      return a;
+    }
+    /// False when the two were one already.
+    bool join(std::uint32_t a, std::uint32_t b) {
+      a = find(a);
+      b = find(b);
+      parent_[std::max(a, b)] = std::min(a, b);
+      return a != b;
+    }
+
+   private:
+    std::vector<std::uint32_t> parent_;
+  };
+
   struct Hinge {  // a torsion's central bond
     std::uint32_t torsion;
     std::uint32_t from, to;  // atoms

@@ -10,8 +10,6 @@ namespace hinge::robotics {
 
 namespace {
 
-double length(const Vec3& v) { return std::sqrt(squared_norm(v)); }
-
 /// A driver whose interval is this small a part of what it was is not halved further: links that come within a
 /// millionth of a millimetre of each other stay undecided.
 constexpr double smallest_part = 0x1p-30;
@@ -155,7 +153,7 @@ PairSearch::Outcome PairSearch::test(NodePair pair) {
   const BallTree::Node &na = a_.tree().node(pair.a), &nb = b_.tree().node(pair.b);
   const SweptTree::Swept &sa = a_.swept(pair.a), &sb = b_.swept(pair.b);
   const Vec3 between = sb.ball.centre() - sa.ball.centre();
-  const double distance = length(between);
+  const double distance = norm(between);
   const Vec3 n = distance > 0.0 ? Vec3(between / distance) : Vec3(Vec3::UnitX());
   const double moved = sa.ball.growth() + sb.ball.growth() + sa.ball.generators_along(n) + sb.ball.generators_along(n);
   const double gap = distance - (na.extent + nb.extent + na.radius + nb.radius) - moved;
@@ -184,7 +182,7 @@ bool PairSearch::triangles_apart(NodePair pair, bool& met) {
   const double radii = na.radius + nb.radius;
   const Triangle p = a_.piece(pair.a), q = b_.piece(pair.b);
   const auto [x, y] = closest_points(p, q);
-  const double distance = length(y - x);
+  const double distance = norm(y - x);
   result_.smallest_gap = std::min(result_.smallest_gap, std::max(distance - radii, 0.0));
   if (distance <= enough_ + radii) {
     met = closer_than(a_.triangle(pair.a), b_.triangle(pair.b), clearance_ + radii);
@@ -196,10 +194,10 @@ bool PairSearch::triangles_apart(NodePair pair, bool& met) {
   Vec3 along = Vec3::UnitX();
   for (const Vec3& direction :
        {Vec3(y - x), last_direction_, cross(p.b - p.a, p.c - p.a), cross(q.b - q.a, q.c - q.a)}) {
-    const double norm = length(direction);
-    if (!(norm > 0.0)) continue;
+    const double length = norm(direction);
+    if (!(length > 0.0)) continue;
     const double sign = dot(direction, sb.start - sa.start) < 0.0 ? -1.0 : 1.0;
-    const Vec3 n = direction * (sign / norm);
+    const Vec3 n = direction * (sign / length);
     const double gap = triangles_gap(n, p, q, na, nb, sa, sb) - radii;
     if (gap > enough_) {
       last_direction_ = n;

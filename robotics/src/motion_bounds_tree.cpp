@@ -10,12 +10,6 @@
 
 namespace hinge::robotics {
 
-namespace {
-
-double length(const Vec3& v) { return std::sqrt(squared_norm(v)); }
-
-}  // namespace
-
 BallTree::BallTree(const Robot& robot, LinkId link) {
   const Model<Triangle>& model = robot.model();
   Aabb box;
@@ -24,12 +18,12 @@ BallTree::BallTree(const Robot& robot, LinkId link) {
     const Triangle& t = model.primitives()[i];
     const double radius = robot.radii().empty() ? 0.0 : robot.radii()[i];
     box.extend(t.bounds());
-    for (const Vec3& corner : {t.a, t.b, t.c}) reach_ = std::max(reach_, length(corner) + radius);
+    for (const Vec3& corner : {t.a, t.b, t.c}) reach_ = std::max(reach_, norm(corner) + radius);
   }
   // Pieces this much smaller than the link: what turns with the link is bounded by a ball per piece, so a long triangle
   // would take the whole link's ball; finer ones only cost memory, since small boxes of joint values hardly turn them.
   constexpr double fraction_of_link = 0.125;
-  const double longest = fraction_of_link * length(Vec3(box.upper - box.lower));
+  const double longest = fraction_of_link * norm(Vec3(box.upper - box.lower));
   for (std::size_t i = 0; i < model.size(); ++i)
     if (model.links()[i] == link) cut({model.primitives()[i], id<PrimitiveId>(i)}, longest);
   nodes_.reserve(2 * pieces_.size());
@@ -44,7 +38,7 @@ void BallTree::cut(const Piece& piece, double longest) {
   for (std::size_t e = 1; e < 3; ++e)
     if (squared_norm(v[(e + 1) % 3] - v[e]) > squared_norm(v[(k + 1) % 3] - v[k])) k = e;
   const Vec3 &from = v[k], &to = v[(k + 1) % 3], &apex = v[(k + 2) % 3];
-  if (!(length(to - from) > longest)) {
+  if (!(norm(to - from) > longest)) {
     pieces_.push_back(piece);
     return;
   }
@@ -60,7 +54,7 @@ void BallTree::build(std::uint32_t n, std::size_t begin, std::size_t end, std::s
   node.centre = {box.middle(0), box.middle(1), box.middle(2)};
   for (std::size_t k = begin; k < end; ++k) {
     const Triangle& t = pieces_[k].part;
-    for (const Vec3& corner : {t.a, t.b, t.c}) node.extent = std::max(node.extent, length(corner - node.centre));
+    for (const Vec3& corner : {t.a, t.b, t.c}) node.extent = std::max(node.extent, norm(corner - node.centre));
     if (!radii.empty()) node.radius = std::max(node.radius, radii[index(pieces_[k].triangle)]);
   }
   node.is_leaf = end - begin == 1;

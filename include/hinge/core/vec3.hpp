@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 namespace hinge {
 
@@ -20,6 +21,8 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) noexcept {
 }
 
 inline double squared_norm(const Vec3& a) noexcept { return dot(a, a); }
+
+inline double norm(const Vec3& a) noexcept { return std::sqrt(squared_norm(a)); }
 
 /// r * v, each component summed from x to z.
 inline Vec3 product(const Mat3& r, const Vec3& v) noexcept {
