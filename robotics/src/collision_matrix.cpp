@@ -96,7 +96,6 @@ void prove(const Robot& robot, const MatrixOptions& options, const Progress& pro
   const auto open = static_cast<std::size_t>(std::count_if(entries.begin(), entries.end(), is_open));
   const KinematicTree& tree = robot.model().tree();
   const RigidGroups groups(tree, DofSelection::all(tree));
-  const std::vector<Drive> drives = find_drives(robot);
   std::vector<std::unique_ptr<const BallTree>> balls(robot.link_count());
   const auto balls_of = [&](LinkId link) -> const BallTree& {
     auto& made = balls[index(link)];
@@ -106,7 +105,7 @@ void prove(const Robot& robot, const MatrixOptions& options, const Progress& pro
   std::size_t done = 0;
   for (MatrixEntry& entry : entries) {
     if (!is_open(entry)) continue;
-    const LinkPath path(robot, groups, drives, entry.link1, entry.link2);
+    const LinkPath path(robot, groups, entry.link1, entry.link2);
     std::vector<Interval> box;
     for (const std::size_t k : path.drivers()) box.push_back({robot.lower()[k], robot.upper()[k]});
     PairSearch search(robot, path, balls_of(entry.link1), balls_of(entry.link2), options.clearance);

@@ -4,42 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string>
-#include <string_view>
 
 #include "hinge/bounds/round.hpp"
 #include "hinge/exact/error_free.hpp"
 
 namespace hinge::robotics {
 
-std::vector<Drive> find_drives(const Robot& robot) {
-  const auto& joints = robot.description().joints;
-  std::map<std::string_view, std::size_t> position;
-  for (std::size_t k = 0; k < joints.size(); ++k) position[joints[k].name] = k;
-  std::map<std::size_t, std::size_t> independent;
-  for (std::size_t k = 0; k < robot.independent_joints().size(); ++k) independent[robot.independent_joints()[k]] = k;
-  std::vector<Drive> drives;
-  for (std::size_t d = 0; d < robot.model().tree().dof_count(); ++d) {
-    Drive drive;
-    std::size_t k = robot.joint_of(id<DofId>(d));
-    for (; joints[k].mimic; k = position.at(joints[k].mimic->joint)) {
-      drive.offset += drive.multiplier * joints[k].mimic->offset;
-      drive.multiplier *= joints[k].mimic->multiplier;
-    }
-    drive.driver = independent.at(k);
-    drives.push_back(drive);
-  }
-  return drives;
-}
-
-LinkPath::LinkPath(const Robot& robot, const RigidGroups& groups, std::span<const Drive> drives, LinkId a, LinkId b)
+LinkPath::LinkPath(const Robot& robot, const RigidGroups& groups, LinkId a, LinkId b)
     : groups_(&groups), a_in_group_(groups.link_in_group(a)), b_in_group_(groups.link_in_group(b)) {
   // Parents have smaller numbers: the larger one is never the common group.
   GroupId at_a = groups.group_of(a), at_b = groups.group_of(b);
   const auto climb = [&](GroupId& at, std::vector<Step>& steps) {
-    steps.push_back({at, drives[groups[at].dof]});
-    drivers_.push_back(steps.back().drive.driver);
+    steps.push_back({at, robot.drives()[groups[at].dof]});
+    drivers_.push_back(steps.back().drive.independent);
     at = groups[at].parent;
   };
   while (at_a != at_b) index(at_a) > index(at_b) ? climb(at_a, to_a_) : climb(at_b, to_b_);
@@ -48,14 +26,14 @@ LinkPath::LinkPath(const Robot& robot, const RigidGroups& groups, std::span<cons
   for (std::vector<Step>* steps : {&to_a_, &to_b_}) {
     std::reverse(steps->begin(), steps->end());
     for (Step& step : *steps)
-      step.drive.driver = static_cast<std::size_t>(
-          std::lower_bound(drivers_.begin(), drivers_.end(), step.drive.driver) - drivers_.begin());
+      step.drive.independent = static_cast<std::size_t>(
+          std::lower_bound(drivers_.begin(), drivers_.end(), step.drive.independent) - drivers_.begin());
   }
-  find_sizes(robot, drives, a);
-  find_sizes(robot, drives, b);
+  find_sizes(robot, a);
+  find_sizes(robot, b);
 }
 
-void LinkPath::find_sizes(const Robot& robot, std::span<const Drive> drives, LinkId link) {
+void LinkPath::find_sizes(const Robot& robot, LinkId link) {
   const KinematicTree& tree = robot.model().tree();
   for (; link != world; link = tree.parent(link)) {
     const Joint& joint = tree.joint(link);
@@ -68,8 +46,8 @@ void LinkPath::find_sizes(const Robot& robot, std::span<const Drive> drives, Lin
       for (int j = 0; j < 3; ++j) off = std::max(off, std::abs(gram(i, j) - (i == j ? 1.0 : 0.0)));
     departure_ += off;
     if (joint.kind != JointKind::prismatic) continue;
-    const Drive& drive = drives[index(tree.dof_of(link))];
-    for (const double q : {robot.lower()[drive.driver], robot.upper()[drive.driver]})
+    const Robot::Drive& drive = robot.drives()[index(tree.dof_of(link))];
+    for (const double q : {robot.lower()[drive.independent], robot.upper()[drive.independent]})
       length_ += std::abs(drive.multiplier * q) + std::abs(drive.offset);
   }
 }
@@ -87,7 +65,7 @@ void LinkPath::place(const std::vector<Step>& steps, const RigidGroups& groups, 
                      std::vector<AxisInterval>& joints, Pose& end) {
   for (const Step& step : steps) {
     const Joint& joint = groups[step.group].joint;
-    const Interval& interval = box[step.drive.driver];
+    const Interval& interval = box[step.drive.independent];
     const double middle = interval.middle();
     const double half = next_up(std::max(middle - interval.lower, interval.upper - middle));
     const double m = step.drive.multiplier, value = m * middle + step.drive.offset;
@@ -98,7 +76,7 @@ void LinkPath::place(const std::vector<Step>& steps, const RigidGroups& groups, 
     axis.kind = joint.kind;
     axis.axis = product(end.rotation, joint.axis);
     axis.point = end * joint.point;
-    axis.joint = step.drive.driver;
+    axis.joint = step.drive.independent;
     axis.set_half(interval.lower == interval.upper ? 0.0 : std::abs(m) * half + 8.0 * exact::half_ulp * largest);
     joints.push_back(axis);
   }

@@ -15,16 +15,6 @@
 
 namespace hinge::robotics {
 
-/// A DOF is multiplier * value of independent joint `driver` + offset.
-struct Drive {
-  std::size_t driver = 0;
-  double multiplier = 1.0;
-  double offset = 0.0;
-};
-
-/// By DOF, computed as Robot::expand() does.
-std::vector<Drive> find_drives(const Robot& robot);
-
 /// Values of one independent joint, rad or m.
 struct Interval {
   double lower = 0.0;
@@ -42,7 +32,7 @@ struct PathState {
 /// Only joints between the two links count. Followers are functions of their driver: a box has one side per driver.
 class LinkPath {
  public:
-  LinkPath(const Robot& robot, const RigidGroups& groups, std::span<const Drive> drives, LinkId a, LinkId b);
+  LinkPath(const Robot& robot, const RigidGroups& groups, LinkId a, LinkId b);
 
   /// The independent joints that move the links against each other, sorted.
   std::span<const std::size_t> drivers() const noexcept { return drivers_; }
@@ -58,9 +48,9 @@ class LinkPath {
  private:
   struct Step {
     GroupId group{};
-    Drive drive;  // driver: position in drivers_
+    Robot::Drive drive;  // independent: position in drivers_
   };
-  void find_sizes(const Robot& robot, std::span<const Drive> drives, LinkId link);
+  void find_sizes(const Robot& robot, LinkId link);
   static void place(const std::vector<Step>& steps, const RigidGroups& groups, std::span<const Interval> box,
                     std::vector<AxisInterval>& joints, Pose& end);
 

@@ -55,6 +55,15 @@ class Robot {
   std::span<const double> lower() const noexcept { return lower_; }
   std::span<const double> upper() const noexcept { return upper_; }
 
+  /// A DOF's value is multiplier * value of an independent joint + offset.
+  struct Drive {
+    std::size_t independent = 0;  ///< position in independent_joints()
+    double multiplier = 1.0;
+    double offset = 0.0;
+  };
+  /// By DOF: what followers follow in the end.
+  std::span<const Drive> drives() const noexcept { return drives_; }
+
   /// The model's full configuration (one value per DOF) from values of the independent joints. Limits are not looked
   /// at, neither theirs nor the followers'. ConfigurationError: wrong length, or a value that is not finite.
   std::vector<double> expand(std::span<const double> independent) const;
@@ -62,12 +71,6 @@ class Robot {
   void expand(std::span<const double> independent, std::span<double> full) const;
 
  private:
-  /// A DOF's value is multiplier * value of an independent joint + offset.
-  struct Drive {
-    std::size_t independent = 0;
-    double multiplier = 1.0;
-    double offset = 0.0;
-  };
   void build(const Tessellation& tessellation);
   void find_drives();
 
