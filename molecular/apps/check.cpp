@@ -16,7 +16,7 @@ using namespace hinge::molecular;
 
 Exit run_check(const Options& options) {
   const Job job = load(options);
-  const Mode mode = Mode::parse(options.mode);
+  const Mode mode = Mode::parse(options.mode, "angstrom");
   print_notes(job);
   if (!options.explain.empty()) {
     explain(options, job);

@@ -85,7 +85,7 @@ void print_table(const Structure& s, const Summary& summary, double seconds) {
 
 Exit run_sample(const Options& options) {
   const Job job = load(options);
-  const Mode mode = Mode::parse(options.mode);
+  const Mode mode = Mode::parse(options.mode, "angstrom");
   print_notes(job);
   if (!options.explain.empty()) {
     explain(options, job);

@@ -3,38 +3,10 @@
 #include "hinge/molecular/checker.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 #include "hinge/core/error.hpp"
-#include "hinge/core/finite.hpp"
 
 namespace hinge::molecular {
-
-Mode Mode::parse(std::string_view text) {
-  if (text == "any") return {Kind::any, 0.0};
-  if (text == "all") return {Kind::all, 0.0};
-  if (text == "closest") return {Kind::closest, 0.0};
-  if (text.starts_with("within:")) {
-    const std::string_view number = text.substr(7);
-    double margin = -1.0;
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), margin);
-    if (error == std::errc{} && end == number.data() + number.size() && is_finite(margin) && margin >= 0.0)
-      return {Kind::within, margin};
-  }
-  throw ModelError("mode '" + std::string(text) + "': expected any, all, within:D (angstrom, D >= 0) or closest");
-}
-
-std::string Mode::text() const {
-  switch (kind) {
-    case Kind::any: return "any";
-    case Kind::all: return "all";
-    case Kind::closest: return "closest";
-    case Kind::within: break;
-  }
-  char buffer[32];
-  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, margin);
-  return "within:" + std::string(buffer, error == std::errc{} ? end : buffer);
-}
 
 namespace {
 

@@ -89,7 +89,7 @@ void write_row(std::ostream& out, const std::vector<double>& q) {
 }  // namespace
 
 Exit run_check(const Options& options) {
-  const Mode mode = Mode::parse(options.mode);
+  const Mode mode = Mode::parse(options.mode, "metres");
   const Job job = load(options);
   const Configurations configurations = find_configurations(options, job);
   Worker worker = make_worker(options, job);

@@ -3,15 +3,12 @@
 #include "hinge/robotics/robot_checker.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
 #include "between.hpp"
 #include "closeness.hpp"
 #include "hinge/core/error.hpp"
-#include "hinge/core/finite.hpp"
 #include "hinge/query/collectors.hpp"
 
 namespace hinge::robotics {
@@ -55,28 +52,6 @@ std::vector<Aabb> local_boxes_of(const Robot& robot, const LinkMargins& margins)
 }
 
 }  // namespace
-
-Mode Mode::parse(std::string_view text) {
-  if (text == "any") return {Kind::any, 0.0};
-  if (text == "all") return {Kind::all, 0.0};
-  if (text == "closest") return {Kind::closest, 0.0};
-  constexpr std::string_view within = "within:";
-  if (text.starts_with(within)) {
-    const std::string_view number = text.substr(within.size());
-    double margin = -1.0;
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), margin);
-    if (error == std::errc{} && end == number.data() + number.size() && is_finite(margin) && margin >= 0.0)
-      return {Kind::within, margin};
-  }
-  throw ModelError("mode '" + std::string(text) + "': expected any, all, within:D (metres, D >= 0) or closest");
-}
-
-std::string Mode::text() const {
-  if (kind != Kind::within) return kind == Kind::any ? "any" : kind == Kind::all ? "all" : "closest";
-  std::array<char, 32> buffer;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), margin).ptr;
-  return "within:" + std::string(buffer.data(), end);
-}
 
 RobotChecker::RobotChecker(std::shared_ptr<const Robot> robot, LinkPairs tested, LinkMargins margins,
                            const CheckOptions& options)

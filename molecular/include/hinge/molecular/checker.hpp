@@ -7,7 +7,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -21,21 +20,14 @@
 #include "hinge/molecular/radii.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/primitive/point.hpp"
+#include "hinge/query/mode.hpp"
 
 namespace hinge::molecular {
 
 template <template <class, class, class> class EngineOf>
 using MolecularHierarchy = Hierarchy<Point, BondExclusions, TypedThresholds, EngineOf>;
 
-/// What is asked of every conformation.
-struct Mode {
-  enum class Kind : std::uint8_t { any, all, within, closest } kind = Kind::all;
-  double margin = 0.0;  ///< within: pairs with d - M below it, angstrom
-
-  /// "any", "all", "within:0.5", "closest"; ModelError otherwise.
-  static Mode parse(std::string_view text);
-  std::string text() const;
-};
+using hinge::Mode;
 
 struct CheckOptions {
   ThresholdOptions thresholds;

@@ -8,7 +8,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "hinge/bounds/aabb.hpp"
@@ -18,6 +17,7 @@
 #include "hinge/policy/collector.hpp"
 #include "hinge/primitive/triangle.hpp"
 #include "hinge/query/link_pair_hits.hpp"
+#include "hinge/query/mode.hpp"
 #include "hinge/robotics/any_hierarchy.hpp"
 #include "hinge/robotics/contact.hpp"
 #include "hinge/robotics/containment.hpp"
@@ -30,15 +30,7 @@ namespace hinge::robotics {
 
 class Environment;
 
-/// What is asked of every configuration.
-struct Mode {
-  enum class Kind : std::uint8_t { any, all, within, closest } kind = Kind::all;
-  double margin = 0.0;  ///< within: pairs with d - M below it, m
-
-  /// "any", "all", "within:0.01", "closest"; ModelError otherwise.
-  static Mode parse(std::string_view text);
-  std::string text() const;
-};
+using hinge::Mode;
 
 struct CheckOptions {
   std::string engine = "wide";  ///< "wide", "lazy" (the paper's) or "brute"
