@@ -102,15 +102,16 @@ TEST(StaticTree, StaysShallowOnInputThatCannotBeCutWell) {
   expect_whole(exponential, 60);
 }
 
-/// Links of many triangles: bumpy balls around the link's origin.
+/// Links of many triangles: bumpy balls around the link's origin, every other one a quarter as large and as fine.
 Model<Triangle> bumpy_chain(Random& random, std::size_t links, std::size_t triangles, double size) {
   ModelBuilder<Triangle> builder;
   LinkId parent = world;
   for (std::size_t l = 0; l < links; ++l) {
     std::vector<Triangle> mesh;
+    const double ball = l % 2 == 0 ? size : size / 4;
     for (std::size_t k = 0; k < triangles; ++k) {
-      const Vec3 at = Vec3(random.vector(1.0).normalized()) * (size * random.uniform(0.8, 1.0));
-      mesh.push_back({at, at + random.vector(size / 8), at + random.vector(size / 8)});
+      const Vec3 at = Vec3(random.vector(1.0).normalized()) * (ball * random.uniform(0.8, 1.0));
+      mesh.push_back({at, at + random.vector(ball / 8), at + random.vector(ball / 8)});
     }
     Pose origin = random.pose(size);
     Joint joint = Revolute{Vec3(random.vector(1.0).normalized()), Vec3::Zero(), origin, {}};

@@ -117,6 +117,11 @@ class Lanes {
       for (std::size_t p = 0; p < parts; ++p) m[p] = a.m_[p] & b.m_[p];
       return Mask(m);
     }
+    [[gnu::always_inline]] friend Mask operator|(const Mask& a, const Mask& b) noexcept {
+      Parts m;
+      for (std::size_t p = 0; p < parts; ++p) m[p] = a.m_[p] | b.m_[p];
+      return Mask(m);
+    }
     [[gnu::always_inline]] operator Bits() const noexcept {
       Bits r = 0;
       for (std::size_t p = 0; p < parts; ++p) r |= static_cast<Bits>(m_[p].__to_bitset().to_ulong()) << (p * part_size);
@@ -186,6 +191,7 @@ using AlignedVector = std::vector<T, Eigen::aligned_allocator<T>>;
 inline constexpr std::size_t width = 16;
 inline constexpr Bits all_bits = (Bits{1} << width) - 1;
 
+using Float4 = Lanes<float, 4>;
 using Float16 = Lanes<float, 16>;
 using Double4 = Lanes<double, 4>;
 using Double8 = Lanes<double, 8>;

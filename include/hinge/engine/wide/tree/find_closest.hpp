@@ -11,9 +11,9 @@
 #include <limits>
 #include <vector>
 
+#include "hinge/engine/wide/tree/leaf_pair.hpp"
 #include "hinge/engine/wide/tree/relative_turn.hpp"
 #include "hinge/engine/wide/tree/tree_parts.hpp"
-#include "hinge/primitive/leaf.hpp"
 #include "hinge/primitive/pair_queue.hpp"
 #include "hinge/query/query_options.hpp"
 
@@ -88,7 +88,7 @@ class ClosestFinder {
                     });
       }
     }
-    if (queued_ != 0) bound = hand_over(bound, flush);
+    if (queued_ != 0) bound = hand_over(bound, turn.sane, flush);
     return bound;
   }
 
@@ -123,40 +123,29 @@ class ClosestFinder {
   template <class Flush>
   float run_leaves(const TreeParts<P>& a, BoxId x, const TreeParts<P>& b, BoxId y, const RelativeTurn& turn,
                    float bound, QueryCounts& counts, const Flush& flush) {
-    const std::uint32_t leaf_a = a.store.leaf(x), leaf_b = b.store.leaf(y);
-    const typename Leaf<P>::Turned turned(b.leaf(leaf_b),
-                                          {turn.b_to_a.rotation, turn.b_to_a.size, turn.b_to_a.translation});
-    Nearness near{bound, turn.b_to_a.point_error, a.leaf_reach(leaf_a), b.leaf_reach(leaf_b)};
-    alignas(64) std::array<float, simd::width> scaled;
-    if (near.other_reach != nullptr && turn.b_to_a.ratio != 1.0F) {
-      for (std::size_t k = 0; k < simd::width; ++k) scaled[k] = near.other_reach[k] * turn.b_to_a.ratio;
-      near.other_reach = scaled.data();
-    }
-    const TreeBox box = a.store.box(x);
-    for (simd::Bits ones = turned.near_box(box.middle, box.half, near) & b.store.real[leaf_b]; ones != 0;
-         ones &= ones - 1) {
+    LeafPair<P> pair(a, x, b, y, turn.b_to_a, bound);
+    for (simd::Bits ones = pair.ones(); ones != 0; ones &= ones - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(ones));
       ++counts.pairs_tested;
-      near.margin = bound;
+      pair.set_margin(bound);
       simd::Bits lanes =
-          turn.sane ? turned.roughly_near(k, a.leaf(leaf_a), a.store.real[leaf_a], near) : a.store.real[leaf_a];
+          turn.sane ? pair.turned().roughly_near(k, pair.own(), pair.real(), pair.nearness()) : pair.real();
       for (; lanes != 0; lanes &= lanes - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
-        slot_a_[queued_] = static_cast<std::uint32_t>(leaf_a * simd::width + i);
-        slot_b_[queued_] = static_cast<std::uint32_t>(leaf_b * simd::width + k);
-        queue_.set(queued_, a.leaf(leaf_a), i, turned, k, turn.b_to_a.point_error);
-        sane_ = turn.sane;
-        if (++queued_ == simd::width) bound = hand_over(bound, flush);
+        slot_a_[queued_] = static_cast<std::uint32_t>(pair.leaf() * simd::width + i);
+        slot_b_[queued_] = pair.other_slot(k);
+        queue_.set(queued_, pair.own(), i, pair.turned(), k, turn.b_to_a.point_error);
+        if (++queued_ == simd::width) bound = hand_over(bound, turn.sane, flush);
       }
     }
     return bound;
   }
 
   template <class Flush>
-  float hand_over(float bound, const Flush& flush) {
+  float hand_over(float bound, bool sane, const Flush& flush) {
     Bounds16 bounds;
     queue_.bound(bounds);
-    if (!sane_) {
+    if (!sane) {
       bounds.lower.fill(0.0F);
       bounds.upper.fill(std::numeric_limits<float>::infinity());
     }
@@ -169,7 +158,6 @@ class ClosestFinder {
   PairQueue<P> queue_;
   std::array<std::uint32_t, simd::width> slot_a_{}, slot_b_{};
   std::size_t queued_ = 0;
-  bool sane_ = true;
 };
 
 }  // namespace hinge

@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "hinge/engine/wide/tree/leaf_pair.hpp"
 #include "hinge/engine/wide/tree/relative_turn.hpp"
 #include "hinge/engine/wide/tree/tree_parts.hpp"
-#include "hinge/primitive/leaf.hpp"
 #include "hinge/query/query_options.hpp"
 #include "hinge/simd/gather_bits.hpp"
 
@@ -31,8 +31,8 @@ class NearFinder {
     leaf_b_.resize((per_round + 2) * simd::width);
   }
 
-  /// visit(leaf of a, slot of b, lanes of that leaf) -> go on? `margin`: what counts as near beyond reaches, unit of a.
-  /// Returns false when stopped.
+  /// visit(slot, leaf, lanes of that leaf, is the slot in a and the leaf in b?) -> go on? `margin`: what counts as near
+  /// beyond reaches, unit of a. Returns false when stopped.
   template <class Visit>
   bool run(const TreeParts<P>& a, const TreePart& part_a, const TreeParts<P>& b, const TreePart& part_b,
            const RelativeTurn& turn, float margin, QueryCounts& counts, const Visit& visit) {
@@ -87,7 +87,7 @@ class NearFinder {
         }
       }
       for (std::size_t k = 0; going && k < leaves; ++k)
-        going = run_leaves(a, leaf_a_[k], b, leaf_b_[k], turn, margin, counts, visit);
+        going = run_leaves(a, leaf_a_[k], b, leaf_b_[k], turn, margin, other_margin, counts, visit);
       leaves = 0;
     }
     counts.boxes_tested += tested;
@@ -96,6 +96,8 @@ class NearFinder {
 
  private:
   static constexpr std::size_t per_round = 12;
+  /// Up to as many are looked at one by one without asking whether the other way round there are fewer.
+  static constexpr int few = 1;
 
   /// One value for every set bit; writes `width` of them, whatever the mask.
   [[gnu::always_inline]] static std::size_t fill(simd::Bits mask, std::uint32_t value, std::uint32_t* to) noexcept {
@@ -104,27 +106,27 @@ class NearFinder {
   }
 
   template <class Visit>
-  [[gnu::always_inline]] bool run_leaves(const TreeParts<P>& a, BoxId x, const TreeParts<P>& b, BoxId y,
-                                         const RelativeTurn& turn, float margin, QueryCounts& counts,
-                                         const Visit& visit) {
-    const std::uint32_t leaf_a = a.store.leaf(x), leaf_b = b.store.leaf(y);
-    const typename Leaf<P>::Turned turned(b.leaf(leaf_b),
-                                          {turn.b_to_a.rotation, turn.b_to_a.size, turn.b_to_a.translation});
-    Nearness near{margin, turn.b_to_a.point_error, a.leaf_reach(leaf_a), b.leaf_reach(leaf_b)};
-    const TreeBox box = a.store.box(x);
-    // Reaches of the other tree are in its own unit.
-    alignas(64) std::array<float, simd::width> scaled;
-    if (near.other_reach != nullptr && turn.b_to_a.ratio != 1.0F) {
-      for (std::size_t k = 0; k < simd::width; ++k) scaled[k] = near.other_reach[k] * turn.b_to_a.ratio;
-      near.other_reach = scaled.data();
-    }
-    for (simd::Bits ones = turned.near_box(box.middle, box.half, near) & b.store.real[leaf_b]; ones != 0;
-         ones &= ones - 1) {
+  [[gnu::always_inline]] static bool run_leaves(const TreeParts<P>& a, BoxId x, const TreeParts<P>& b, BoxId y,
+                                                const RelativeTurn& turn, float margin, float other_margin,
+                                                QueryCounts& counts, const Visit& visit) {
+    const LeafPair<P> pair(a, x, b, y, turn.b_to_a, margin);
+    const auto to_b = [&](auto slot, auto leaf, auto lanes) { return visit(slot, leaf, lanes, false); };
+    if (std::popcount(pair.ones()) <= few) return run_pair(pair, turn.sane, counts, to_b);
+    // Small primitives of b in a large leaf of a: those of a that touch their leaf may be fewer.
+    const LeafPair<P> turned(b, y, a, x, turn.a_to_b, other_margin);
+    if (std::popcount(turned.ones()) >= std::popcount(pair.ones())) return run_pair(pair, turn.sane, counts, to_b);
+    return run_pair(turned, turn.sane, counts,
+                    [&](auto slot, auto leaf, auto lanes) { return visit(slot, leaf, lanes, true); });
+  }
+
+  template <class Visit>
+  [[gnu::always_inline]] static bool run_pair(const LeafPair<P>& pair, bool sane, QueryCounts& counts,
+                                              const Visit& visit) {
+    for (simd::Bits ones = pair.ones(); ones != 0; ones &= ones - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(ones));
       ++counts.pairs_tested;
-      const simd::Bits lanes =
-          turn.sane ? turned.near(k, a.leaf(leaf_a), a.store.real[leaf_a], near) : a.store.real[leaf_a];
-      if (lanes != 0 && !visit(leaf_a, static_cast<std::uint32_t>(leaf_b * simd::width + k), lanes)) return false;
+      const simd::Bits lanes = sane ? pair.turned().near(k, pair.own(), pair.real(), pair.nearness()) : pair.real();
+      if (lanes != 0 && !visit(pair.other_slot(k), pair.leaf(), lanes)) return false;
     }
     return true;
   }

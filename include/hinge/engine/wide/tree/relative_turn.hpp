@@ -43,13 +43,15 @@ struct Turn {
 
   /// The box around the turned box, up to box_error.
   [[gnu::always_inline]] TreeBox operator()(const TreeBox& box) const noexcept {
-    TreeBox r;
-    for (std::size_t k = 0; k < 3; ++k) {
-      r.middle[k] = rotation[k] * box.middle[0] + rotation[4 + k] * box.middle[1] + rotation[8 + k] * box.middle[2] +
-                    translation[k];
-      r.half[k] = size[k] * box.half[0] + size[4 + k] * box.half[1] + size[8 + k] * box.half[2];
-    }
-    return r;
+    using simd::Float4;
+    alignas(16) std::array<float, 4> middle, half;
+    (Float4(rotation.data()) * Float4(box.middle[0]) + Float4(rotation.data() + 4) * Float4(box.middle[1]) +
+     Float4(rotation.data() + 8) * Float4(box.middle[2]) + Float4(translation.data()))
+        .store(middle.data());
+    (Float4(size.data()) * Float4(box.half[0]) + Float4(size.data() + 4) * Float4(box.half[1]) +
+     Float4(size.data() + 8) * Float4(box.half[2]))
+        .store(half.data());
+    return {{middle[0], middle[1], middle[2]}, {half[0], half[1], half[2]}};
   }
 };
 
@@ -105,21 +107,24 @@ struct RelativeTurn {
   constexpr std::size_t n = simd::width;
   const float slack = margin + turn.box_error;
   std::array<Float16, 3> d, half;
-  simd::Bits near = node.used;
+  std::array<Float16, 6> reach, apart;
   for (std::size_t k = 0; k < 3; ++k) {
     d[k] = Float16(node.middle.data() + k * n) - Float16(turned.middle[k]);
     half[k] = Float16(node.half.data() + k * n);
-    near &= ~less(half[k] + Float16(turned.half[k] + slack), abs(d[k]));
+    reach[k] = half[k] + Float16(turned.half[k] + slack);
+    apart[k] = abs(d[k]);
   }
   // The box's own axes are the rotation's columns, as long as the ratio.
   for (std::size_t k = 0; k < 3; ++k) {
-    const Float16 along = d[0] * Float16(turn.rotation[4 * k]) + d[1] * Float16(turn.rotation[4 * k + 1]) +
-                          d[2] * Float16(turn.rotation[4 * k + 2]);
-    const Float16 reach = half[0] * Float16(turn.size[4 * k]) + half[1] * Float16(turn.size[4 * k + 1]) +
-                          half[2] * Float16(turn.size[4 * k + 2]);
-    near &= ~less(reach + Float16(turn.ratio * (turn.ratio * box.half[k] + slack)), abs(along));
+    apart[3 + k] = abs(d[0] * Float16(turn.rotation[4 * k]) + d[1] * Float16(turn.rotation[4 * k + 1]) +
+                       d[2] * Float16(turn.rotation[4 * k + 2]));
+    reach[3 + k] = half[0] * Float16(turn.size[4 * k]) + half[1] * Float16(turn.size[4 * k + 1]) +
+                   half[2] * Float16(turn.size[4 * k + 2]) + Float16(turn.ratio * (turn.ratio * box.half[k] + slack));
   }
-  return near;
+  const auto far =
+      ((less(reach[0], apart[0]) | less(reach[1], apart[1])) | (less(reach[2], apart[2]) | less(reach[3], apart[3]))) |
+      (less(reach[4], apart[4]) | less(reach[5], apart[5]));
+  return node.used & ~static_cast<simd::Bits>(far);
 }
 
 }  // namespace hinge

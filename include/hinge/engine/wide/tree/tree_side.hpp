@@ -29,9 +29,7 @@
 
 namespace hinge {
 
-/// One model and its scratch. Counts are of sixteen lanes each. A query's Judge has, for i of the one model and j of
-/// the other: decide(i, j, p, q) for a pair that floats could not rule out, placed; threshold(i, j); admits(i, j);
-/// admits_links(a, b), which may refuse all pairs of two links.
+/// One model and its scratch. Counts are of sixteen lanes each. A query's Judge is a TreeJudge.
 template <Primitive P>
 class TreeSide {
  public:
@@ -188,13 +186,15 @@ class TreeSide {
     if (!asks(collector, part_a.link, part_b.link)) return;
     const double margin = cutoff + a.clearance_at(p) + b.clearance_at(q);
     finder_.run(a.state.parts(), part_a, b.state.parts(), part_b, a.turn(p, b, q), a.scaled(margin), counts,
-                [&](std::uint32_t leaf, std::uint32_t slot, simd::Bits lanes) {
-                  const PrimitiveId j = b.primitive(slot);
-                  const P other = b.placement.alone(j);
+                [&](std::uint32_t slot, std::uint32_t leaf, simd::Bits lanes, bool slot_in_a) {
+                  const TreeOperand<P>&of_slot = slot_in_a ? a : b, &of_leaf = slot_in_a ? b : a;
+                  const PrimitiveId one = of_slot.primitive(slot);
+                  const P alone = of_slot.placement.alone(one);
                   for (; lanes != 0; lanes &= lanes - 1) {
                     const auto k = static_cast<std::uint32_t>(std::countr_zero(lanes));
-                    const PrimitiveId i = a.primitive(leaf * static_cast<std::uint32_t>(simd::width) + k);
-                    judge.decide(i, j, a.placement.alone(i), other);
+                    const PrimitiveId i = of_leaf.primitive(leaf * static_cast<std::uint32_t>(simd::width) + k);
+                    const P other = of_leaf.placement.alone(i);
+                    slot_in_a ? judge.decide(one, i, alone, other) : judge.decide(i, one, other, alone);
                     if (collector.done() || !asks(collector, part_a.link, part_b.link)) return false;
                   }
                   return true;
