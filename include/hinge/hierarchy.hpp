@@ -2,6 +2,7 @@
 // Hierarchy: the public face. Which primitives of an articulated model come too close at a configuration?
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
+#include "hinge/core/id.hpp"
 #include "hinge/engine/engine.hpp"
 #include "hinge/engine/wide/wide.hpp"
 #include "hinge/model/model.hpp"
@@ -32,11 +34,12 @@ template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, c
 requires Engine<EngineOf<P, F, D>, P, F, D>
 class Hierarchy {
  public:
-  /// Every DOF free. ModelError: a filter or matrix made for another number of primitives.
+  /// Every DOF free. ModelError: a filter or matrix made for another number of primitives, or for other links; listed
+  /// exclusions of a primitive with itself, with one that does not exist, or out of order.
   Hierarchy(Model<P> model, F filter, D matrix)
       : Hierarchy(model, DofSelection::all(model.tree()), std::move(filter), std::move(matrix)) {}
 
-  /// Only the selected DOF free, all others at their reference.
+  /// Only the selected DOF free, all others at their reference. ModelError: also a selection made for another tree.
   Hierarchy(Model<P> model, DofSelection selection, F filter, D matrix)
       : filter_(std::move(filter)),
         matrix_(std::move(matrix)),
@@ -106,6 +109,10 @@ class Hierarchy {
     if (!matrix_.compatible(other.matrix_)) throw ModelError("the two models use different distance matrices");
     check_clearance(options.clearance, model().groups()->size());
     check_clearance(options.other_clearance, other.model().groups()->size());
+    if (this == &other) {
+      Hierarchy twin(other);  // engines keep scratch on either side
+      return engine_.query(twin.engine_, across, collector, options);
+    }
     engine_.query(other.engine_, across, collector, options);
   }
 
@@ -118,8 +125,11 @@ class Hierarchy {
     for (std::size_t g = 0; g < model().groups()->size(); ++g) placement().place(id<GroupId>(g));
     return placement().placed();
   }
-  /// World pose of a link at the current configuration or poses.
+  /// World pose of a link at the current configuration or poses. ModelError: no such link.
   Pose link_pose(LinkId link) {
+    if (index(link) >= model().model().tree().link_count())
+      throw ModelError("link " + std::to_string(index(link)) + ": the model has " +
+                       std::to_string(model().model().tree().link_count()));
     const RigidGroups& groups = *model().groups();
     return placement().pose(groups.group_of(link)) * groups.link_in_group(link);
   }
@@ -139,10 +149,27 @@ class Hierarchy {
     };
     check(filter, "pair filter");
     check(matrix, "distance matrix");
+    if constexpr (KnowsLinks<F>)
+      if (const std::span<const LinkId> links = filter.links(); !std::ranges::equal(links, model.links()))
+        throw ModelError("pair filter made for primitives that hang on other links than the model's");
+    if constexpr (ListsExclusions<F>)
+      for (std::size_t i = 0; i < model.size(); ++i) check_exclusions(i, filter.excluded(id<PrimitiveId>(i)), model);
     return model;
   }
+  static void check_exclusions(std::size_t i, std::span<const PrimitiveId> excluded, const Model<P>& model) {
+    for (std::size_t k = 0; k < excluded.size(); ++k) {
+      const std::size_t j = index(excluded[k]);
+      const char* flaw = j >= model.size()                           ? "which does not exist"
+                         : j == i                                    ? "itself"
+                         : k > 0 && !(excluded[k - 1] < excluded[k]) ? "out of order"
+                                                                     : nullptr;
+      if (flaw != nullptr)
+        throw ModelError("pair filter: primitive " + std::to_string(i) + " is excluded with primitive " +
+                         std::to_string(j) + ", " + flaw);
+    }
+  }
   static double checked(double margin) {
-    if (!is_finite(margin) || margin < 0.0)
+    if (!is_length(margin) || margin < 0.0)
       throw ConfigurationError("margin " + std::to_string(margin) + ": expected a finite length >= 0");
     return margin;
   }
@@ -151,7 +178,7 @@ class Hierarchy {
       throw ConfigurationError(std::to_string(clearance.size()) + " extra clearances, expected one for each of " +
                                std::to_string(groups) + " rigid groups");
     for (std::size_t g = 0; g < clearance.size(); ++g)
-      if (!is_finite(clearance[g]) || clearance[g] < 0.0)
+      if (!is_length(clearance[g]) || clearance[g] < 0.0)
         throw ConfigurationError("extra clearance of rigid group " + std::to_string(g) + " is " +
                                  std::to_string(clearance[g]) + ": expected a finite length >= 0");
   }

@@ -37,13 +37,14 @@ struct Pose {
 /// given; a wider bound would let scaled or sheared placements pass, whose boxes no longer hold what they bound.
 inline constexpr double rigid_tolerance = 1e-9;
 
-/// Is every entry finite and the rotation orthonormal (within rigid_tolerance) and right-handed?
+/// Is the translation made of lengths (is_length), and the rotation of finite entries, orthonormal (within
+/// rigid_tolerance) and right-handed?
 inline bool is_rigid(const Pose& x) noexcept {
   const Vec3 a = x.rotation.col(0), b = x.rotation.col(1), c = x.rotation.col(2);
-  // Entries that are not finite leave no sum near 0.
   const auto is_near = [](double value, double wanted) { return std::abs(value - wanted) <= rigid_tolerance; };
-  return is_finite(x.translation) && is_near(dot(a, a), 1.0) && is_near(dot(b, b), 1.0) && is_near(dot(c, c), 1.0) &&
-         is_near(dot(a, b), 0.0) && is_near(dot(a, c), 0.0) && is_near(dot(b, c), 0.0) && dot(a, cross(b, c)) > 0.0;
+  return is_length(x.translation) && is_finite(a) && is_finite(b) && is_finite(c) && is_near(dot(a, a), 1.0) &&
+         is_near(dot(b, b), 1.0) && is_near(dot(c, c), 1.0) && is_near(dot(a, b), 0.0) && is_near(dot(a, c), 0.0) &&
+         is_near(dot(b, c), 0.0) && dot(a, cross(b, c)) > 0.0;
 }
 
 }  // namespace hinge

@@ -35,10 +35,13 @@ class KinematicTree {
  public:
   KinematicTree() : parent_{world}, joint_(1), dof_of_link_(1) {}
 
-  /// Adds a link. ModelError: unknown parent, axis of zero or non-finite length, origin that is no rigid placement.
+  /// Adds a link. ModelError: unknown parent, an axis that is zero or not finite, an axis point that is no length, an
+  /// origin that is no rigid placement. What is refused, here and below, leaves the tree as it was.
   LinkId add_link(LinkId parent, Joint joint);
+  /// The link add_link would add, with its axis at unit length; the same refusals.
+  Joint checked(LinkId parent, Joint joint) const;
 
-  /// Adds a closure. ModelError: unknown or equal links, non-finite points.
+  /// Adds a closure. ModelError: unknown or equal links, points that are no lengths.
   void add_closure(Closure closure);
 
   std::size_t link_count() const noexcept { return parent_.size(); }
@@ -69,18 +72,29 @@ inline double closure_residual(const Closure& closure, const Pose& first, const 
   return worst;
 }
 
-inline LinkId KinematicTree::add_link(LinkId parent, Joint joint) {
+inline Joint KinematicTree::checked(LinkId parent, Joint joint) const {
   const std::string who = "link " + std::to_string(link_count()) + (joint.name.empty() ? "" : " (" + joint.name + ")");
   if (index(parent) >= link_count())
     throw ModelError(who + ": parent " + std::to_string(index(parent)) + " does not exist yet");
   if (!is_rigid(joint.origin))
-    throw ModelError(who + ": its origin is not a rigid placement (finite, R R^T = 1, det 1)");
-  const double length = std::sqrt(squared_norm(joint.axis));
-  if (joint.has_dof() && !(is_finite(length) && length > 0.0))
-    throw ModelError(who + ": the axis has length " + std::to_string(length) + ", expected a finite length above 0");
-  if (!is_finite(joint.point)) throw ModelError(who + ": the axis point is not finite");
+    throw ModelError(who + ": its origin is not a rigid placement (finite, R R^T = 1 within 1e-9, det 1)");
+  if (!is_finite(joint.axis)) throw ModelError(who + ": the axis is not finite");
+  if (!is_length(joint.point)) throw ModelError(who + ": the axis point is not finite, or beyond 2^1000");
+  if (!joint.has_dof()) return joint;
+  // By a power of two first, which rounds nothing: the squares of a tiny or huge axis leave the range of doubles.
+  double largest = 0.0;
+  for (const double x : joint.axis) largest = std::max(largest, std::abs(x));
+  if (largest == 0.0) throw ModelError(who + ": the axis has length 0, expected any other");
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  for (double& x : joint.axis) x = std::ldexp(x, -exponent);
+  joint.axis /= std::sqrt(squared_norm(joint.axis));
+  return joint;
+}
+
+inline LinkId KinematicTree::add_link(LinkId parent, Joint joint) {
+  joint = checked(parent, std::move(joint));
   const LinkId link = id<LinkId>(link_count());
-  if (joint.has_dof()) joint.axis /= length;
   parent_.push_back(parent);
   dof_of_link_.push_back(id<DofId>(dof_count()));
   if (joint.has_dof()) link_of_dof_.push_back(link);
@@ -95,8 +109,8 @@ inline void KinematicTree::add_closure(Closure closure) {
     throw ModelError(who + ": joins a link that does not exist");
   if (closure.first == closure.second) throw ModelError(who + ": joins a link with itself");
   for (std::size_t k = 0; k < 2; ++k)
-    if (!is_finite(closure.in_first[k]) || !is_finite(closure.in_second[k]))
-      throw ModelError(who + ": a point is not finite");
+    if (!is_length(closure.in_first[k]) || !is_length(closure.in_second[k]))
+      throw ModelError(who + ": a point is not finite, or beyond 2^1000");
   closures_.push_back(std::move(closure));
 }
 

@@ -34,11 +34,15 @@ class PoseSource {
         frames_(groups_->size()),
         moved_(groups_->size(), true),
         component_(groups_->size()) {
+    for (std::size_t g = 1; g < groups_->size(); ++g) {
+      const RigidGroup& group = (*groups_)[id<GroupId>(g)];
+      if (group.joint.kind == JointKind::prismatic) slides_.push_back(group.dof);
+    }
     settle();
   }
 
-  /// q: one value per selected DOF, rad or model length unit. ConfigurationError: wrong length or not finite, naming
-  /// the position; the previous state is kept.
+  /// q: one value per selected DOF, rad or model length unit. ConfigurationError: wrong length, a value that is not
+  /// finite or a slide beyond largest_length, naming the position; the previous state is kept.
   void set_configuration(std::span<const double> q);
 
   /// One world pose per group; group 0 must keep the identity, it is the world. ConfigurationError: wrong number or no
@@ -97,6 +101,7 @@ class PoseSource {
   bool settled_ = false;  // moved_ and component_ belong to the last set_...()
   std::vector<std::uint8_t> moved_;
   std::vector<std::size_t> component_;
+  std::vector<std::size_t> slides_;  // positions in q_ of prismatic joints
   JointMotions motions_{};
 };
 
@@ -114,6 +119,10 @@ inline void PoseSource::set_configuration(std::span<const double> q) {
     if (!is_finite(q[k]))
       throw ConfigurationError("configuration value " + std::to_string(k) + " is " + std::to_string(q[k]) +
                                ", expected a finite number");
+  for (const std::size_t k : slides_)
+    if (!is_length(q[k]))
+      throw ConfigurationError("configuration value " + std::to_string(k) + " is " + std::to_string(q[k]) +
+                               ", expected a slide of at most 2^1000");
   std::uint64_t changes = 0;
   for (std::size_t k = 0; k < q.size(); ++k) {
     const double old = q_[k];

@@ -4,8 +4,10 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "hinge/core/error.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
@@ -25,7 +27,11 @@ struct RigidGroup {
 /// Groups in topological order (parents first). Group 0 is the one of the world and never moves.
 class RigidGroups {
  public:
+  /// ModelError: a selection made for another tree, with a DOF that this one has not.
   RigidGroups(const KinematicTree& tree, const DofSelection& selection) {
+    if (selection.size() > 0 && index(selection.dofs().back()) >= tree.dof_count())
+      throw ModelError("selected DOF " + std::to_string(index(selection.dofs().back())) + ": the model's tree has " +
+                       std::to_string(tree.dof_count()));
     std::vector<bool> selected(tree.dof_count(), false);
     std::vector<std::size_t> position(tree.dof_count(), 0);
     for (std::size_t k = 0; k < selection.size(); ++k) {

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
-#include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/kinematics/kinematic_tree.hpp"
 #include "hinge/policy/primitive.hpp"
@@ -48,28 +47,27 @@ class Model {
   std::shared_ptr<const Data> data_;
 };
 
-/// Collects links and primitives, refusing what no query could answer for.
+/// Collects links and primitives, refusing what no query could answer for. What is refused leaves it as it was.
 template <Primitive P>
 class ModelBuilder {
  public:
   /// Adds a link and its primitives (link frame). ModelError: see KinematicTree::add_link and add_primitive.
   LinkId add_link(LinkId parent, Joint joint, const std::vector<P>& primitives = {}) {
-    const LinkId link = data_.tree.add_link(parent, std::move(joint));
-    for (const P& primitive : primitives) add_primitive(link, primitive);
+    joint = data_.tree.checked(parent, std::move(joint));
+    const LinkId link = id<LinkId>(data_.tree.link_count());
+    for (std::size_t k = 0; k < primitives.size(); ++k) check(data_.primitives.size() + k, link, primitives[k]);
+    data_.tree.add_link(parent, std::move(joint));
+    for (const P& primitive : primitives) insert(link, primitive);
     return link;
   }
 
-  /// Adds a primitive to a link (the world included). ModelError: unknown link; bounds empty or not finite.
+  /// Adds a primitive to a link (the world included). ModelError: unknown link; a primitive that is not sound.
   PrimitiveId add_primitive(LinkId link, const P& primitive) {
-    const std::string who = "primitive " + std::to_string(data_.primitives.size());
     if (index(link) >= data_.tree.link_count())
-      throw ModelError(who + ": link " + std::to_string(index(link)) + " does not exist");
-    const Aabb box = primitive.bounds();
-    if (!is_finite(box.lower) || !is_finite(box.upper) || box.is_empty())
-      throw ModelError(who + " on link " + std::to_string(index(link)) + ": its bounds are empty or not finite");
-    data_.primitives.push_back(primitive);
-    data_.links.push_back(link);
-    return id<PrimitiveId>(data_.primitives.size() - 1);
+      throw ModelError("primitive " + std::to_string(data_.primitives.size()) + ": link " +
+                       std::to_string(index(link)) + " does not exist");
+    check(data_.primitives.size(), link, primitive);
+    return insert(link, primitive);
   }
 
   void add_closure(Closure closure) { data_.tree.add_closure(std::move(closure)); }
@@ -92,6 +90,17 @@ class ModelBuilder {
   }
 
  private:
+  static void check(std::size_t position, LinkId link, const P& primitive) {
+    if (!is_sound(primitive))
+      throw ModelError("primitive " + std::to_string(position) + " on link " + std::to_string(index(link)) + ": " +
+                       flaw_of(primitive));
+  }
+  PrimitiveId insert(LinkId link, const P& primitive) {
+    data_.primitives.push_back(primitive);
+    data_.links.push_back(link);
+    return id<PrimitiveId>(data_.primitives.size() - 1);
+  }
+
   typename Model<P>::Data data_;
 };
 

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
-#include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/kinematics/pose_source.hpp"
 #include "hinge/model/selected_model.hpp"
@@ -46,7 +45,8 @@ class Placement {
     begin(Source::poses);
   }
 
-  /// World coordinates of every primitive, computed elsewhere. ConfigurationError: wrong number, or bounds not finite.
+  /// World coordinates of every primitive, computed elsewhere. ConfigurationError: wrong number, or a primitive that
+  /// is not sound; the previous state is kept.
   void update_placed(std::span<const P> placed);
 
   const SelectedModel<P>& model() const noexcept { return *model_; }
@@ -162,11 +162,9 @@ void Placement<P>::update_placed(std::span<const P> placed) {
   if (placed.size() != placed_.size())
     throw ConfigurationError(std::to_string(placed.size()) + " placed primitives, expected " +
                              std::to_string(placed_.size()));
-  for (std::size_t i = 0; i < placed.size(); ++i) {
-    const Aabb box = placed[i].bounds();
-    if (!is_finite(box.lower) || !is_finite(box.upper))
-      throw ConfigurationError("placed primitive " + std::to_string(i) + ": its bounds are not finite");
-  }
+  for (std::size_t i = 0; i < placed.size(); ++i)
+    if (!is_sound(placed[i]))
+      throw ConfigurationError("placed primitive " + std::to_string(i) + ": " + flaw_of(placed[i]));
   std::copy(placed.begin(), placed.end(), placed_.begin());
   begin(Source::coordinates);
 }

@@ -36,7 +36,8 @@ class SelectedModel {
     return std::span(by_group_).subspan(group_start_[index(group)],
                                         group_start_[index(group) + 1] - group_start_[index(group)]);
   }
-  /// Groups other than its own in whose frame the primitive does not move either: it lies on the axis between.
+  /// Groups other than its own in whose frame the primitive does not move either: it lies on the axis between. Empty
+  /// for primitives on the axes of more than most_listed groups; constant() knows about them as well.
   std::span<const GroupId> also_fixed_in(PrimitiveId i) const noexcept {
     return std::span(also_fixed_in_).subspan(also_start_[index(i)], also_start_[index(i) + 1] - also_start_[index(i)]);
   }
@@ -47,11 +48,21 @@ class SelectedModel {
     return (fixed_in_bits_[index(i)] & fixed_in_bits_[index(j)]) != 0 && share_a_group(i, j);
   }
 
+  /// On a line of joints every primitive is fixed in every group: lists of them would fill the memory. Longer ones are
+  /// walked when asked for; proteins and robots have at most four.
+  static constexpr std::size_t most_listed = 64;
+
  private:
   void find_axis_primitives();
+  /// Takes a primitive of a group's frame to the frame of its parent, or child, if it lies on the axis between.
+  bool cross_to_parent(P& primitive, GroupId group) const noexcept;
+  bool cross_to_child(P& primitive, GroupId child) const noexcept;
+  bool meet_on_the_way(PrimitiveId i, PrimitiveId j) const noexcept;
+  bool unlisted(PrimitiveId i) const noexcept { return std::binary_search(unlisted_.begin(), unlisted_.end(), i); }
   [[gnu::noinline]] bool share_a_group(PrimitiveId i, PrimitiveId j) const noexcept {
     const GroupId gi = group_of(i), gj = group_of(j);
     if (gi == gj) return true;
+    if (!unlisted_.empty() && (unlisted(i) || unlisted(j))) return meet_on_the_way(i, j);
     const auto more_i = also_fixed_in(i), more_j = also_fixed_in(j);
     for (const GroupId g : more_i)
       if (g == gj || std::find(more_j.begin(), more_j.end(), g) != more_j.end()) return true;
@@ -67,6 +78,7 @@ class SelectedModel {
   std::vector<std::size_t> group_start_;
   std::vector<GroupId> also_fixed_in_;
   std::vector<std::size_t> also_start_;
+  std::vector<PrimitiveId> unlisted_;         // sorted: those in more groups than are listed
   std::vector<std::uint64_t> fixed_in_bits_;  // per primitive: the groups it is fixed in, modulo 64
 };
 
@@ -96,8 +108,31 @@ SelectedModel<P>::SelectedModel(Model<P> model, DofSelection selection)
   for (std::size_t i = 0; i < n; ++i) {
     std::uint64_t bits = bit(group_of_[i]);
     for (const GroupId g : also_fixed_in(id<PrimitiveId>(i))) bits |= bit(g);
+    if (unlisted(id<PrimitiveId>(i))) bits = ~std::uint64_t{0};
     fixed_in_bits_.push_back(bits);
   }
+}
+
+template <Primitive P>
+bool SelectedModel<P>::cross_to_parent(P& primitive, GroupId group) const noexcept {
+  if constexpr (HasAxisInvariance<P>) {
+    const Joint& joint = (*groups_)[group].joint;
+    if (joint.kind != JointKind::revolute || !primitive.fixed_on_axis(joint.point, joint.axis)) return false;
+    primitive = primitive.placed(joint.origin);
+    return true;
+  }
+  return false;
+}
+
+template <Primitive P>
+bool SelectedModel<P>::cross_to_child(P& primitive, GroupId child) const noexcept {
+  if constexpr (HasAxisInvariance<P>) {
+    const Joint& joint = (*groups_)[child].joint;
+    if (joint.kind != JointKind::revolute) return false;
+    if (!(joint.origin == Pose{})) primitive = primitive.placed(joint.origin.inverse());
+    return primitive.fixed_on_axis(joint.point, joint.axis);
+  }
+  return false;
 }
 
 template <Primitive P>
@@ -115,27 +150,54 @@ void SelectedModel<P>::find_axis_primitives() {
     for (std::size_t i = 0; i < size(); ++i) {
       // Walk from the primitive's own group across every axis it lies on.
       stops.assign(1, {group_of_[i], primitives_[i]});
-      for (std::size_t s = 0; s < stops.size(); ++s) {
+      const auto unseen = [&](GroupId g) {
+        return std::none_of(stops.begin(), stops.end(), [g](const Stop& other) { return other.group == g; });
+      };
+      for (std::size_t s = 0; s < stops.size() && stops.size() <= most_listed; ++s) {
         const Stop here = stops[s];
-        const auto unseen = [&](GroupId g) {
-          return std::none_of(stops.begin(), stops.end(), [g](const Stop& other) { return other.group == g; });
-        };
-        const RigidGroup& group = (*groups_)[here.group];
-        if (group.joint.kind == JointKind::revolute && unseen(group.parent) &&
-            here.primitive.fixed_on_axis(group.joint.point, group.joint.axis))
-          stops.push_back({group.parent, here.primitive.placed(group.joint.origin)});
+        const GroupId parent = (*groups_)[here.group].parent;
+        if (P there = here.primitive; unseen(parent) && cross_to_parent(there, here.group))
+          stops.push_back({parent, there});
         for (const GroupId c : children[index(here.group)]) {
-          const Joint& joint = (*groups_)[c].joint;
-          if (joint.kind != JointKind::revolute || !unseen(c)) continue;
-          const Pose back = joint.origin.inverse();
-          const P there = joint.origin == Pose{} ? here.primitive : here.primitive.placed(back);
-          if (there.fixed_on_axis(joint.point, joint.axis)) stops.push_back({c, there});
+          if (stops.size() > most_listed) break;
+          if (P there = here.primitive; unseen(c) && cross_to_child(there, c)) stops.push_back({c, there});
         }
       }
-      for (std::size_t s = 1; s < stops.size(); ++s) also_fixed_in_.push_back(stops[s].group);
+      if (stops.size() > most_listed)
+        unlisted_.push_back(id<PrimitiveId>(i));
+      else
+        for (std::size_t s = 1; s < stops.size(); ++s) also_fixed_in_.push_back(stops[s].group);
       also_start_[i + 1] = also_fixed_in_.size();
     }
   }
+}
+
+template <Primitive P>
+bool SelectedModel<P>::meet_on_the_way(PrimitiveId i, PrimitiveId j) const noexcept {
+  // The groups a primitive is fixed in hang together, and groups form a tree: two primitives that share a group share
+  // one on the way between their own. Both go up to where their ways join; one that got there goes on to the other.
+  struct Walk {
+    GroupId at, reached;  // `reached` is the last group the primitive is fixed in
+    P primitive;
+    bool stuck = false;
+    std::vector<GroupId> way{};
+  };
+  Walk a{group_of(i), group_of(i), primitives_[index(i)]}, b{group_of(j), group_of(j), primitives_[index(j)]};
+  while (a.at != b.at) {
+    Walk& later = a.at < b.at ? b : a;  // parents come first
+    later.way.push_back(later.at);
+    later.stuck = later.stuck || !cross_to_parent(later.primitive, later.at);
+    later.at = (*groups_)[later.at].parent;
+    if (!later.stuck) later.reached = later.at;
+    if (a.stuck && b.stuck) return false;
+  }
+  Walk& walker = a.stuck ? b : a;
+  const Walk& other = a.stuck ? a : b;
+  for (std::size_t k = other.way.size(); walker.at != other.reached; --k) {
+    walker.at = other.way[k - 1];
+    if (!cross_to_child(walker.primitive, walker.at)) return false;
+  }
+  return true;
 }
 
 }  // namespace hinge

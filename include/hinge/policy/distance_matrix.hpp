@@ -6,6 +6,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -47,12 +48,29 @@ concept TypesPrimitives = DistanceMatrix<D> && requires(const D& matrix, Primiti
   noexcept->std::same_as<double>;
 };
 
+/// Per primitive of n, 1 or 0: are its thresholds with all others 0?
+template <DistanceMatrix D>
+std::vector<std::uint8_t> zero_thresholds(const D& matrix, std::size_t n) {
+  if constexpr (TypesPrimitives<D>) {
+    std::vector<std::uint8_t> zero_type(matrix.type_count(), 1), zero(n);
+    for (std::size_t s = 0; s < zero_type.size(); ++s)
+      for (std::size_t t = 0; t < zero_type.size(); ++t)
+        if (matrix.between_types(s, t) > 0.0) zero_type[s] = 0;
+    for (std::size_t i = 0; i < n; ++i) zero[i] = zero_type[matrix.type(id<PrimitiveId>(i))];
+    return zero;
+  }
+  // A reach of 0 says nothing by itself: the other's may cover the threshold of both.
+  bool all = true;
+  for (std::size_t i = 0; i < n; ++i) all = all && matrix.reach(id<PrimitiveId>(i)) == 0.0;
+  return std::vector<std::uint8_t>(n, all ? 1 : 0);
+}
+
 /// The same threshold for every pair.
 class UniformClearance {
  public:
-  /// clearance: finite, >= 0, model length unit; else ModelError.
+  /// clearance: a length >= 0, model length unit; else ModelError.
   explicit UniformClearance(double clearance) : clearance_(clearance) {
-    if (!is_finite(clearance) || clearance < 0.0)
+    if (!is_length(clearance) || clearance < 0.0)
       throw ModelError("clearance " + std::to_string(clearance) + ": expected a finite length >= 0");
   }
 
@@ -70,7 +88,8 @@ class UniformClearance {
 /// A symmetric table of thresholds between types, and the type of every primitive.
 class TypedThresholds {
  public:
-  /// types[i] < type_count; table is type_count x type_count, row-major, symmetric, finite, >= 0; else ModelError.
+  /// types[i] < type_count <= 65536; table is type_count x type_count, row-major, symmetric, lengths >= 0; else
+  /// ModelError.
   TypedThresholds(std::vector<std::uint16_t> types, std::size_t type_count, std::vector<double> table);
 
   double threshold(PrimitiveId i, PrimitiveId j) const noexcept { return threshold(i, *this, j); }
@@ -100,6 +119,11 @@ class TypedThresholds {
 
 inline TypedThresholds::TypedThresholds(std::vector<std::uint16_t> types, std::size_t type_count,
                                         std::vector<double> table) {
+  // More types than a type can name would be of no use, and their square could pass for any number.
+  constexpr std::size_t most_types = std::size_t{std::numeric_limits<std::uint16_t>::max()} + 1;
+  if (type_count > most_types)
+    throw ModelError("threshold table: " + std::to_string(type_count) + " types, expected at most " +
+                     std::to_string(most_types));
   if (table.size() != type_count * type_count)
     throw ModelError("threshold table: " + std::to_string(table.size()) + " entries, expected " +
                      std::to_string(type_count) + " x " + std::to_string(type_count));
@@ -107,10 +131,12 @@ inline TypedThresholds::TypedThresholds(std::vector<std::uint16_t> types, std::s
   for (std::size_t s = 0; s < type_count; ++s)
     for (std::size_t t = 0; t < type_count; ++t) {
       const double m = table[s * type_count + t];
-      const std::string entry = "threshold table: entry (" + std::to_string(s) + ", " + std::to_string(t) + ") is ";
-      if (!is_finite(m) || m < 0.0) throw ModelError(entry + std::to_string(m) + ", expected a finite length >= 0");
-      if (m != table[t * type_count + s])
-        throw ModelError(entry + std::to_string(m) + " but its mirror is " + std::to_string(table[t * type_count + s]));
+      const double mirror = table[t * type_count + s];
+      const auto entry = [&] {
+        return "threshold table: entry (" + std::to_string(s) + ", " + std::to_string(t) + ") is " + std::to_string(m);
+      };
+      if (!is_length(m) || m < 0.0) throw ModelError(entry() + ", expected a finite length >= 0");
+      if (m != mirror) throw ModelError(entry() + " but its mirror is " + std::to_string(mirror));
       reach[s] = std::max(reach[s], m / 2);
     }
   for (std::size_t i = 0; i < types.size(); ++i)

@@ -39,6 +39,13 @@ concept KnowsSize = requires(const T& policy) {
   noexcept->std::same_as<std::size_t>;
 };
 
+/// Optional refinement of filters that go by links: made for primitives that hang on these; checked against the model.
+template <class F>
+concept KnowsLinks = PairFilter<F> && requires(const F& filter) {
+  { filter.links() }
+  noexcept->std::convertible_to<std::span<const LinkId>>;
+};
+
 /// Every pair counts.
 struct AdmitAll {
   bool admits(PrimitiveId, PrimitiveId) const noexcept { return true; }

@@ -35,7 +35,14 @@ class Lazy {
         filter_(std::move(filter)),
         matrix_(std::move(matrix)),
         trees_(layout_->body_count()),
-        built_(layout_->body_count(), 0) {}
+        built_(layout_->body_count(), 0) {
+    if constexpr (HasNoBody<P>) {
+      const std::vector<std::uint8_t> idle = zero_thresholds(matrix_, placement_.model().size());
+      for (std::uint32_t l = 0; l < layout_->leaf_count(); ++l)
+        idle_.push_back(
+            std::ranges::all_of(layout_->primitives(l), [&](PrimitiveId i) { return idle[index(i)] != 0; }));
+    }
+  }
 
   Placement<P>& placement() noexcept { return placement_; }
   const Placement<P>& placement() const noexcept { return placement_; }
@@ -61,22 +68,31 @@ class Lazy {
     other.make_upper(options.other_clearance);
     const CrossRules<P, G, D> rules{placement_, other.placement_, across, matrix_, other.matrix_, options};
     const auto cutoff = [&] { return collector.cutoff(); };
-    traverse(upper_, other.upper_, stack_, counts, cutoff, [&](std::uint32_t a, std::uint32_t b) {
-      const double extra = extra_of(a, options.clearance) + other.extra_of(b, options.other_clearance);
-      const auto inner = [&] { return collector.cutoff() + extra; };
-      return traverse(trees_[a], other.trees_[b], stack_, counts, inner, [&](std::uint32_t m, std::uint32_t n) {
-        const auto p = layout_->primitives(layout_->first_leaf(a) + m);
-        const auto q = other.layout_->primitives(other.layout_->first_leaf(b) + n);
-        counts.pairs_tested += p.size() * q.size();
-        for (const PrimitiveId i : p)
-          for (const PrimitiveId j : q) {
-            offer(collector, i, j, placement_.placed()[index(i)], other.placement_.placed()[index(j)],
-                  rules.threshold(i, j), [&] { return rules.admits(i, j); });
-            if (collector.done()) return false;
-          }
-        return true;
-      });
-    });
+    // Compatible tables of types are alike; of other matrices nothing is known but that no threshold is above 0.
+    const bool skip_idle = without_margin(collector, options) && other.without_margin(collector, options) &&
+                           (TypesPrimitives<D> || (idle_.front() != 0 && other.idle_.front() != 0));
+    traverse(
+        upper_, other.upper_, stack_, counts, cutoff,
+        [&](std::uint32_t a, std::uint32_t b) {
+          const double extra = extra_of(a, options.clearance) + other.extra_of(b, options.other_clearance);
+          const auto inner = [&] { return collector.cutoff() + extra; };
+          return traverse(
+              trees_[a], other.trees_[b], stack_, counts, inner,
+              [&](auto m, auto n) {
+                const auto p = layout_->primitives(layout_->first_leaf(a) + m);
+                const auto q = other.layout_->primitives(other.layout_->first_leaf(b) + n);
+                counts.pairs_tested += p.size() * q.size();
+                for (const PrimitiveId i : p)
+                  for (const PrimitiveId j : q) {
+                    offer(collector, i, j, placement_.placed()[index(i)], other.placement_.placed()[index(j)],
+                          rules.threshold(i, j), [&] { return rules.admits(i, j); });
+                    if (collector.done()) return false;
+                  }
+                return true;
+              },
+              skip_idle);
+        },
+        skip_idle);
     add(options.counts, counts);
   }
 
@@ -106,7 +122,7 @@ class Lazy {
       if (version == built_[b]) continue;
       built_[b] = version;
       for (const GroupId g : layout_->groups(b)) placement_.place(g);
-      trees_[b].reset(boxes_of(b));
+      trees_[b].reset(boxes_of(b), idle_of(b));
     }
   }
 
@@ -122,6 +138,19 @@ class Lazy {
     return boxes_;
   }
 
+  std::span<const std::uint8_t> idle_of(std::size_t body) const noexcept {
+    if (idle_.empty()) return {};
+    return std::span(idle_).subspan(layout_->first_leaf(body),
+                                    layout_->first_leaf(body + 1) - layout_->first_leaf(body));
+  }
+
+  /// Does the query ask for collisions alone, so that primitives whose thresholds are all 0 take no part?
+  template <Collector C>
+  bool without_margin(const C& collector, const QueryOptions& options) const noexcept {
+    return !C::ranks && !idle_.empty() && collector.cutoff() == 0.0 && options.clearance.empty() &&
+           options.other_clearance.empty();
+  }
+
   double extra_of(std::size_t body, std::span<const double> clearance) const noexcept {
     double extra = 0.0;
     for (const GroupId g : layout_->groups(body)) extra = std::max(extra, clearance_of(clearance, g));
@@ -130,22 +159,25 @@ class Lazy {
 
   void make_upper(std::span<const double> clearance) {
     boxes_.clear();
+    idle_bodies_.clear();
     for (std::size_t b = 0; b < trees_.size(); ++b) {
+      idle_bodies_.push_back(trees_[b].node(0).idle);
       const Aabb& root = trees_[b].node(0).box;
       const double extra = extra_of(b, clearance);
       boxes_.push_back(extra > 0.0 ? root.inflated(extra) : root);
     }
-    upper_.reset(boxes_);
+    upper_.reset(boxes_, idle_bodies_);
   }
 
   template <Collector C>
   void run_self(C& collector, const Rules& rules, QueryCounts& counts) {
     const QueryOptions& options = rules.options;
+    const bool skip_idle = without_margin(collector, options);
     for (std::uint32_t b = 0; b < trees_.size(); ++b) {
       const bool deforms = placement_.groups_may_deform();
       if (layout_->groups(b).size() > 1 || deforms)
         for (std::uint32_t l = layout_->first_leaf(b); l < layout_->first_leaf(b + 1); ++l)
-          if (!test_leaves(l, l, collector, rules, counts)) return;
+          if (!(skip_idle && idle_[l] != 0) && !test_leaves(l, l, collector, rules, counts)) return;
       if (deforms && !test_bodies(b, b, collector, rules, counts)) return;
     }
     make_upper(options.clearance);
@@ -153,7 +185,8 @@ class Lazy {
         upper_, upper_, stack_, counts, [&] { return collector.cutoff(); },
         [&](std::uint32_t a, std::uint32_t b) {
           return (options.moved_only && !moved_apart(a, b)) || test_bodies(a, b, collector, rules, counts);
-        });
+        },
+        skip_idle);
   }
 
   bool moved_apart(std::uint32_t a, std::uint32_t b) noexcept {
@@ -167,9 +200,12 @@ class Lazy {
   bool test_bodies(std::uint32_t a, std::uint32_t b, C& collector, const Rules& rules, QueryCounts& counts) {
     const double extra = extra_of(a, rules.options.clearance) + extra_of(b, rules.options.clearance);
     const auto cutoff = [&] { return collector.cutoff() + extra; };
-    return traverse(trees_[a], trees_[b], stack_, counts, cutoff, [&](std::uint32_t m, std::uint32_t n) {
-      return test_leaves(layout_->first_leaf(a) + m, layout_->first_leaf(b) + n, collector, rules, counts);
-    });
+    return traverse(
+        trees_[a], trees_[b], stack_, counts, cutoff,
+        [&](std::uint32_t m, std::uint32_t n) {
+          return test_leaves(layout_->first_leaf(a) + m, layout_->first_leaf(b) + n, collector, rules, counts);
+        },
+        without_margin(collector, rules.options));
   }
 
   /// Every admitted pair of two leaves, or inside one; false when the collector wants no more.
@@ -181,7 +217,8 @@ class Lazy {
       return !collector.done();
     };
     std::span<const LazyLayout::PrimitivePair> sri;
-    if (layout_->near(std::min(a, b), std::max(a, b), sri)) {
+    const auto admission = layout_->admission(std::min(a, b), std::max(a, b), sri);
+    if (admission == LazyLayout::Admission::listed) {
       counts.pairs_tested += sri.size();
       for (const auto& [i, j] : sri)
         if (!test(i, j, [&, i = i, j = j] { return rules.counts(i, j); })) return false;
@@ -193,7 +230,8 @@ class Lazy {
       for (std::size_t n = a == b ? m + 1 : 0; n < q.size(); ++n) {
         const PrimitiveId i = std::min(p[m], q[n]), j = std::max(p[m], q[n]);
         const auto admitted = [&] {
-          if constexpr (ListsExclusions<F>) return rules.counts(i, j);
+          if constexpr (ListsExclusions<F>)
+            if (admission == LazyLayout::Admission::all) return rules.counts(i, j);
           return rules.admits(i, j);
         };
         if (!test(i, j, admitted)) return false;
@@ -205,11 +243,13 @@ class Lazy {
   Placement<P> placement_;
   F filter_;
   D matrix_;
-  std::vector<LazyTree> trees_;       // per body, items are its leaves
-  std::vector<std::uint64_t> built_;  // per body: sum of the versions its tree was built from
-  LazyTree upper_;                    // items are bodies
-  std::vector<Aabb> boxes_;           // scratch
-  NodePairs stack_;                   // scratch
+  std::vector<LazyTree> trees_;            // per body, items are its leaves
+  std::vector<std::uint64_t> built_;       // per body: sum of the versions its tree was built from
+  std::vector<std::uint8_t> idle_;         // per leaf: its thresholds are all 0; empty where that means nothing
+  LazyTree upper_;                         // items are bodies
+  std::vector<std::uint8_t> idle_bodies_;  // scratch
+  std::vector<Aabb> boxes_;                // scratch
+  NodePairs stack_;                        // scratch
 };
 
 }  // namespace hinge

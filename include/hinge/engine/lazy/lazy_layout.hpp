@@ -21,7 +21,8 @@ namespace hinge {
 /// Leaves are the basic groups of BioCD section III. A body is what has a low-level tree of its own: a rigid group with
 /// the basic groups that lie wholly in it, or one basic group that spans several rigid groups (an articulated unit,
 /// such as a side chain whose torsions are free), which is a single leaf. Near leaf pairs are those with pairs the
-/// filter does not admit; the admitted rest of each is its SRI list, so that the filter is never asked inside a query.
+/// filter does not admit; the admitted rest of each is its SRI list, so that the filter is seldom asked inside a query:
+/// only about leaves so large that lists of their pairs would fill the memory.
 class LazyLayout {
  public:
   using PrimitivePair = std::pair<PrimitiveId, PrimitiveId>;
@@ -43,22 +44,27 @@ class LazyLayout {
   std::span<const PrimitiveId> primitives(std::uint32_t leaf) const noexcept {
     return std::span(primitives_).subspan(leaf_start_[leaf], leaf_start_[leaf + 1] - leaf_start_[leaf]);
   }
-  /// Has the pair of leaves (a <= b) an SRI list? Then `pairs` is set to it.
-  bool near(std::uint32_t a, std::uint32_t b, std::span<const PrimitivePair>& pairs) const noexcept {
-    if (near_start_.empty()) return false;
-    for (std::size_t k = near_start_[a]; k < near_start_[a + 1]; ++k)
-      if (near_[k].leaf == b) {
-        pairs = std::span(sri_).subspan(near_[k].begin, near_[k].end - near_[k].begin);
-        return true;
-      }
-    return false;
+  enum class Admission : unsigned char { all, listed, ask };  ///< which pairs of two leaves the filter admits
+  /// For a <= b; `pairs` is set when they are listed.
+  Admission admission(std::uint32_t a, std::uint32_t b, std::span<const PrimitivePair>& pairs) const noexcept {
+    if (near_start_.empty()) return Admission::all;
+    const auto end = near_.begin() + static_cast<std::ptrdiff_t>(near_start_[a + 1]);
+    const auto found = std::lower_bound(near_.begin() + static_cast<std::ptrdiff_t>(near_start_[a]), end, b,
+                                        [](const Near& near, std::uint32_t leaf) { return near.leaf < leaf; });
+    if (found == end || found->leaf != b) return Admission::all;
+    if (!found->listed) return Admission::ask;
+    pairs = std::span(sri_).subspan(found->begin, found->end - found->begin);
+    return Admission::listed;
   }
 
  private:
   struct Near {
     std::uint32_t leaf;
     std::size_t begin, end;  // in sri_
+    bool listed;
   };
+  /// Pairs of two leaves, up to which they are listed: two basic groups of 32, the largest of a protein has 14.
+  static constexpr std::size_t longest_list = 1024;
 
   template <Primitive P>
   void make_bodies(const SelectedModel<P>& model);
@@ -130,10 +136,11 @@ void LazyLayout::make_sri_lists(const F& filter) {
     neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
     for (const std::uint32_t b : neighbours) {
       const std::size_t begin = sri_.size();
-      for (const PrimitiveId i : primitives(a))
+      const bool listed = primitives(a).size() * primitives(b).size() <= longest_list;
+      for (const PrimitiveId i : listed ? primitives(a) : std::span<const PrimitiveId>())
         for (const PrimitiveId j : primitives(b))
           if ((a != b || i < j) && filter.admits(i, j)) sri_.emplace_back(std::min(i, j), std::max(i, j));
-      near_.push_back({b, begin, sri_.size()});
+      near_.push_back({b, begin, sri_.size(), listed});
     }
     near_start_.push_back(near_.size());
   }

@@ -25,12 +25,14 @@ class LazyTree {
     std::uint32_t end = 0;
     std::uint32_t left = 0;  ///< children are left and left + 1; 0 while not split
     std::uint32_t depth = 0;
+    bool idle = false;  ///< all its items are
     bool is_leaf() const noexcept { return end - begin == 1; }
     std::uint32_t size() const noexcept { return end - begin; }
   };
 
-  /// Drops the tree and makes the root of these boxes; at least one. The boxes are copied.
-  void reset(std::span<const Aabb> boxes);
+  /// Drops the tree and makes the root of these boxes; at least one. idle: items, not 0, that queries without a margin
+  /// may pass over; empty: none. Both are copied.
+  void reset(std::span<const Aabb> boxes, std::span<const std::uint8_t> idle = {});
 
   const Node& node(std::uint32_t k) const noexcept { return nodes_[k]; }
   std::size_t node_count() const noexcept { return nodes_.size(); }
@@ -47,23 +49,34 @@ class LazyTree {
 
  private:
   void make_children(std::uint32_t k);
+  /// Fills in the box of a node, and whether it is idle.
+  void join_items(Node& node) const noexcept {
+    node.idle = !idle_.empty();
+    for (std::uint32_t i = node.begin; i < node.end; ++i) {
+      node.box.extend(boxes_[order_[i]]);
+      node.idle = node.idle && idle_[order_[i]] != 0;
+    }
+  }
   /// Number of items that go left, after reordering the node's range.
   std::uint32_t partition(const Node& node);
 
   std::vector<Aabb> boxes_;
+  std::vector<std::uint8_t> idle_;
   std::vector<std::uint32_t> order_;
   std::vector<Node> nodes_;
   std::uint32_t midpoint_depth_ = 0;
 };
 
-inline void LazyTree::reset(std::span<const Aabb> boxes) {
+inline void LazyTree::reset(std::span<const Aabb> boxes, std::span<const std::uint8_t> idle) {
+  HINGE_ASSERT(idle.empty() || idle.size() == boxes.size());
   HINGE_ASSERT(!boxes.empty());
   boxes_.assign(boxes.begin(), boxes.end());
+  idle_.assign(idle.begin(), idle.end());
   order_.resize(boxes.size());
   std::iota(order_.begin(), order_.end(), 0U);
   Node root;
-  for (const Aabb& box : boxes_) root.box.extend(box);
   root.end = static_cast<std::uint32_t>(boxes_.size());
+  join_items(root);
   nodes_.clear();
   nodes_.push_back(root);
   // The midpoint rule can be one-sided on clustered or coincident input, level after level. Natural input stays within
@@ -104,8 +117,8 @@ inline void LazyTree::make_children(std::uint32_t k) {
   left.end = right.begin = border;
   right.end = node.end;
   left.depth = right.depth = node.depth + 1;
-  for (std::uint32_t i = left.begin; i < left.end; ++i) left.box.extend(boxes_[order_[i]]);
-  for (std::uint32_t i = right.begin; i < right.end; ++i) right.box.extend(boxes_[order_[i]]);
+  join_items(left);
+  join_items(right);
   nodes_[k].left = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back(left);
   nodes_.push_back(right);
