@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/random_mechanism.hpp"
+#include "hinge/exact/error_free.hpp"
 #include "hinge/primitive/capsule.hpp"
 #include "hinge/primitive/point.hpp"
 #include "hinge/primitive/sphere.hpp"
@@ -46,6 +47,59 @@ TEST(Sphere, TouchesWhenClosed) {
   EXPECT_EQ(squared_distance(p, q), 0.0);
   EXPECT_TRUE(closer_than(p, q, 0.0));
   EXPECT_FALSE(closer_than(p, Sphere{Vec3(3.0000001, 0, 0), 2.0}, 0.0));
+}
+
+TEST(Sphere, HasBoundsThatHoldItAndNoMore) {
+  Random random(4);
+  for (int k = 0; k < 1000; ++k) {
+    const double size = std::pow(10.0, random.uniform(-8.0, 8.0));
+    const Sphere sphere{random.vector(1.0), random.uniform(0.0, size)};
+    const Aabb box = sphere.bounds();
+    for (int axis = 0; axis < 3; ++axis) {
+      // Whatever is off is off by less than the spacing of doubles there.
+      const exact::Exactly low = exact::two_difference(sphere.center[axis], sphere.radius);
+      const exact::Exactly high = exact::two_sum(sphere.center[axis], sphere.radius);
+      EXPECT_TRUE(box.lower[axis] < low.value || (box.lower[axis] == low.value && low.rest >= 0.0));
+      EXPECT_TRUE(box.upper[axis] > high.value || (box.upper[axis] == high.value && high.rest <= 0.0));
+      EXPECT_GE(box.lower[axis], std::nextafter(low.value, -1e300));
+      EXPECT_LE(box.upper[axis], std::nextafter(high.value, 1e300));
+    }
+  }
+  const Aabb whole = Sphere{Vec3(1, 2, 3), 0.5}.bounds();
+  EXPECT_EQ(whole.lower, Vec3(0.5, 1.5, 2.5));
+  EXPECT_EQ(whole.upper, Vec3(1.5, 2.5, 3.5));
+}
+
+TEST(Sphere, TouchesOneAnotherOrNotByTheRealSumOfRadii) {
+  // These doubles add up to less than their rounded sum 0.1 + 0.2, and to more than the double 0.3.
+  EXPECT_FALSE(closer_than(Sphere{Vec3::Zero(), 0.1}, Sphere{Vec3(0.1 + 0.2, 0, 0), 0.2}, 0.0));
+  EXPECT_GT(squared_distance(Sphere{Vec3::Zero(), 0.1}, Sphere{Vec3(0.1 + 0.2, 0, 0), 0.2}), 0.0);
+  EXPECT_TRUE(closer_than(Sphere{Vec3::Zero(), 0.1}, Sphere{Vec3(0.3, 0, 0), 0.2}, 0.0));
+  EXPECT_EQ(squared_distance(Sphere{Vec3::Zero(), 0.1}, Sphere{Vec3(0.3, 0, 0), 0.2}), 0.0);
+}
+
+TEST(Sphere, RefusesToBeWhatHasNoSize) {
+  EXPECT_TRUE((Sphere{Vec3::Zero(), 0.0}.is_valid()));
+  EXPECT_FALSE((Sphere{Vec3::Zero(), -1.0}.is_valid()));
+  EXPECT_FALSE((Sphere{Vec3::Zero(), std::nan("")}.is_valid()));
+  EXPECT_FALSE((Capsule{Vec3::Zero(), Vec3(0, std::nan(""), 0), 1.0}.is_valid()));
+  EXPECT_FALSE((Capsule{Vec3::Zero(), Vec3::Zero(), -0.5}.is_valid()));
+  EXPECT_TRUE((Capsule{Vec3::Zero(), Vec3::Zero(), 0.5}.is_valid()));
+}
+
+TEST(Solids, HaveClosestPointsAtAnyScale) {
+  for (const double scale : {1e-300, 1e-160, 1.0, 1e160, 1e300}) {
+    const Sphere p{Vec3::Zero(), scale}, q{Vec3(3 * scale, 4 * scale, 0), 2 * scale};
+    const auto [x, y] = closest_points(p, q);
+    EXPECT_NEAR(x[1] / scale, 0.8, 1e-15);
+    EXPECT_NEAR(y[1] / scale, 2.4, 1e-15);
+    const Capsule r{Vec3(-scale, 0, 0), Vec3(scale, 0, 0), scale},
+        s{Vec3(0, 5 * scale, -scale), Vec3(0, 5 * scale, scale), scale};
+    const auto [u, v] = closest_points(r, s);
+    EXPECT_NEAR(u[1] / scale, 1.0, 1e-15);
+    EXPECT_NEAR(v[1] / scale, 4.0, 1e-15);
+    EXPECT_NEAR(v[0] / scale, 0.0, 1e-15);
+  }
 }
 
 TEST(Capsule, HandlesParallelCrossingAndDegenerateSegments) {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cfloat>
+#include <cmath>
+#include <type_traits>
 
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #error "hinge/exact needs IEEE arithmetic: compile without -ffast-math (or -Ofast)"
@@ -35,10 +37,17 @@ constexpr Exactly fast_two_sum(double a, double b) noexcept {
 
 constexpr Exactly two_difference(double a, double b) noexcept { return two_sum(a, -b); }
 
-/// a b (Veltkamp's splitting, Dekker's product): no fused multiply-add, so the same operations on every CPU. Holds for
-/// |a|, |b| <= 2^995 and a product that is 0 or has a magnitude in [2^-967, 2^1022]; beyond, the halves overflow or the
-/// rest underflows.
+/// a b (Veltkamp's splitting, Dekker's product; the same numbers from a fused multiply-add where the CPU has one).
+/// Holds for |a|, |b| <= 2^995 and a product that is 0 or has a magnitude in [2^-967, 2^1022]; beyond, the halves
+/// overflow or the rest underflows.
 constexpr Exactly two_product(double a, double b) noexcept {
+#ifdef __FP_FAST_FMA
+  // Also because compilers that are left to contract fuse the product below into its own subtraction (g++ 12).
+  if (!std::is_constant_evaluated()) {
+    const double rounded = a * b;
+    return {rounded, std::fma(a, b, -rounded)};
+  }
+#endif
   constexpr double splitter = 0x1p27 + 1.0;
   const double ca = splitter * a, cb = splitter * b;
   const double high_a = ca - (ca - a), low_a = a - high_a, high_b = cb - (cb - b), low_b = b - high_b;

@@ -9,34 +9,54 @@
 #include "hinge/bounds/aabb.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/core/vec3.hpp"
+#include "hinge/exact/balls.hpp"
+#include "hinge/exact/error_free.hpp"
 #include "hinge/policy/primitive.hpp"
 
 namespace hinge {
 
 struct Point {
+  static constexpr bool has_no_body = true;
   Vec3 position = Vec3::Zero();
 
   Point placed(const Pose& pose) const noexcept { return {pose * position}; }
   Aabb bounds() const noexcept { return Aabb(position); }
 
+  /// 0 exactly when the points coincide. The distance, its root, is right to 4 half ulps; beyond 2^512 and below 2^-537
+  /// its square leaves the range of doubles and is infinite or the smallest positive number, and below 2^-511 it has
+  /// lost digits.
   friend double squared_distance(const Point& p, const Point& q) noexcept {
-    return squared_norm(Vec3(p.position - q.position));
+    const double squared = squared_norm(Vec3(p.position - q.position));
+    if (squared >= lost) [[likely]]
+      return squared;
+    return exact::squared_gap_of_balls(p.position, q.position, {});
   }
 
-  /// Strictly d < m; never when m = 0, also for coincident points. Squares leave the range of doubles beyond about
-  /// 1e154 and below 1e-154: there both sides are scaled by a power of two, which changes no comparison.
-  friend bool closer_than(const Point& p, const Point& q, double m) noexcept {
-    constexpr double large = 0x1p400, small = 0x1p-400;
+  /// Right to 4 half ulps, whatever the size; 0 exactly when the points coincide.
+  friend double distance(const Point& p, const Point& q) noexcept {
+    constexpr double smallest = 0x1p-900, largest = 0x1p1000;  // between them squares have all their digits
     const Vec3 d = p.position - q.position;
-    const double square = m * m, squared = squared_norm(d);
-    if (square <= large && square >= small && squared <= large) return squared < square;
-    const double scale = std::max({m, std::abs(d[0]), std::abs(d[1]), std::abs(d[2])});
-    if (!(m > 0.0)) return false;
+    const double squared = squared_norm(d);
+    if (squared >= smallest && squared <= largest) [[likely]]
+      return std::sqrt(squared);
     int exponent = 0;
-    std::frexp(scale, &exponent);
-    const Vec3 e(std::ldexp(d[0], -exponent), std::ldexp(d[1], -exponent), std::ldexp(d[2], -exponent));
-    const double n = std::ldexp(m, -exponent);
-    return squared_norm(e) < n * n;
+    std::frexp(std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])}), &exponent);
+    Vec3 scaled;
+    for (int k = 0; k < 3; ++k) scaled[k] = std::ldexp(d[k], -exponent);
+    return std::ldexp(std::sqrt(squared_norm(scaled)), exponent);
+  }
+
+  /// Strictly d < m, the answer for the real numbers that coordinates and m are; never when m = 0, also for coincident
+  /// points.
+  friend bool closer_than(const Point& p, const Point& q, double m) noexcept {
+    if (!(m > 0.0)) return false;
+    // Half ulps: 5 for the sum of squares, its differences included, 1 for m * m, 1 for the product with the band. What
+    // is infinite is below nothing.
+    constexpr double band = 1.0 + 8 * exact::half_ulp;
+    const double square = m * m, squared = squared_norm(Vec3(p.position - q.position));
+    if (square * band + lost < squared) return false;
+    if (squared * band + lost < square) return true;
+    return exact::points_closer_than(p.position, q.position, m);
   }
 
   friend std::pair<Vec3, Vec3> closest_points(const Point& p, const Point& q) noexcept {
@@ -50,6 +70,9 @@ struct Point {
     const double off = 16 * 0x1p-53 * size;
     return squared_norm(cross(Vec3(position - axis_point), axis)) <= off * off;
   }
+
+ private:
+  static constexpr double lost = 0x1p-900;  // of a sum of squares to underflow, at most, and nothing to larger sums
 };
 
 static_assert(HasClosestPoints<Point> && HasAxisInvariance<Point>);

@@ -7,8 +7,12 @@
 #include <utility>
 
 #include "hinge/bounds/aabb.hpp"
+#include "hinge/bounds/round.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/core/vec3.hpp"
+#include "hinge/exact/balls.hpp"
+#include "hinge/exact/error_free.hpp"
 #include "hinge/policy/primitive.hpp"
 #include "hinge/primitive/point.hpp"
 
@@ -19,34 +23,66 @@ struct Sphere {
   double radius = 0.0;  ///< >= 0
 
   Sphere placed(const Pose& pose) const noexcept { return {pose * center, radius}; }
-  Aabb bounds() const noexcept { return {center - Vec3::Constant(radius), center + Vec3::Constant(radius)}; }
+  bool is_valid() const noexcept { return is_finite(center) && is_finite(radius) && radius >= 0.0; }
+
+  /// Rounded outward, by no more than has to be.
+  Aabb bounds() const noexcept {
+    Aabb box;
+    for (int k = 0; k < 3; ++k) {
+      const exact::Exactly low = exact::two_difference(center[k], radius), high = exact::two_sum(center[k], radius);
+      box.lower[k] = low.rest < 0.0 ? next_down(low.value) : low.value;
+      box.upper[k] = high.rest > 0.0 ? next_up(high.value) : high.value;
+    }
+    return box;
+  }
   bool fixed_on_axis(const Vec3& axis_point, const Vec3& axis) const noexcept {
     return Point{center}.fixed_on_axis(axis_point, axis);
   }
 
+  /// 0 exactly when the closed balls share a point. The distance, its root, is right to 8 half ulps of the largest
+  /// coordinate difference and 10 of itself; beyond 2^512 and below 2^-537 its square leaves the range of doubles and
+  /// is infinite or the smallest positive number, and below 2^-511 it has lost digits.
   friend double squared_distance(const Sphere& p, const Sphere& q) noexcept {
-    const double gap = std::sqrt(squared_norm(Vec3(p.center - q.center))) - (p.radius + q.radius);
-    return gap > 0.0 ? gap * gap : 0.0;
+    // Half ulps: of the larger, 4 for the root of squares, 1 for the sum, 1 for the difference.
+    constexpr double band = 16 * exact::half_ulp;
+    const double touch = p.radius + q.radius, squared = squared_norm(Vec3(p.center - q.center));
+    if (squared >= lost && squared <= large) [[likely]] {
+      const double apart = std::sqrt(squared), gap = apart - touch;
+      if (gap > band * apart) return gap * gap;
+      if (gap < -band * touch) return 0.0;
+    }
+    return exact::squared_gap_of_balls(p.center, q.center, {p.radius, q.radius, 0.0});
   }
 
-  /// Compares squares before any root: d < m is |c - c'| < r + r' + m; touching counts.
+  /// |c - c'| < r + r' + m, or they touch: the answer for the real numbers that centres, radii and m are. m >= 0.
   friend bool closer_than(const Sphere& p, const Sphere& q, double m) noexcept {
-    const double touch = p.radius + q.radius, near = touch + m;
+    // Half ulps: 5 for the sum of squares, its differences included, 5 for the square of a sum of three, 1 for the
+    // product with the band. What is infinite is below nothing.
+    constexpr double band = 1.0 + 16 * exact::half_ulp;
+    const double near = p.radius + q.radius + m, square = near * near;
     const double squared = squared_norm(Vec3(p.center - q.center));
-    return squared < near * near || squared <= touch * touch;
+    if (square * band + lost < squared) return false;
+    if (squared * band + lost < square) return true;
+    return exact::balls_closer_than(p.center, q.center, {p.radius, q.radius, m});
   }
 
-  /// On the surfaces along the line of centres; where the balls overlap, the same point twice.
+  /// On the surfaces along the line of centres, up to rounding of the coordinates; where the balls overlap, the same
+  /// point twice.
   friend std::pair<Vec3, Vec3> closest_points(const Sphere& p, const Sphere& q) noexcept {
     const Vec3 apart = q.center - p.center;
-    const double distance = std::sqrt(squared_norm(apart));
-    if (!(distance > 0.0)) return {p.center, p.center};
-    const Vec3 direction = apart / distance;
-    const double reach = std::min(p.radius, distance);
-    const Vec3 on_p = p.center + direction * reach;
-    if (distance <= p.radius + q.radius) return {on_p, on_p};
+    const double largest = std::max({std::abs(apart[0]), std::abs(apart[1]), std::abs(apart[2])});
+    if (!(largest > 0.0)) return {p.center, p.center};
+    const Vec3 scaled = apart / largest;  // squares of what is neither large nor small
+    const double length = std::sqrt(squared_norm(scaled)), distance = length * largest;
+    const Vec3 direction = scaled / length;
+    const Vec3 on_p = p.center + direction * std::min(p.radius, distance);
+    if (closer_than(p, q, 0.0)) return {on_p, on_p};
     return {on_p, q.center - direction * q.radius};
   }
+
+ private:
+  static constexpr double lost = 0x1p-900;   // of a sum of squares to underflow, at most, and nothing to larger sums
+  static constexpr double large = 0x1p1000;  // no sum of squares up to here has overflowed
 };
 
 static_assert(HasClosestPoints<Sphere> && HasAxisInvariance<Sphere>);

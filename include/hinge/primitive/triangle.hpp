@@ -25,6 +25,8 @@ struct Triangle {
 
   Triangle placed(const Pose& pose) const noexcept { return {pose * a, pose * b, pose * c}; }
   Aabb bounds() const noexcept { return Aabb(a).extend(b).extend(c); }
+  /// Bounds hide a NaN in b or c.
+  bool is_valid() const noexcept { return is_finite(a) && is_finite(b) && is_finite(c); }
 
   /// 0 exactly when the triangles share a point. The distance, its root, is right to 28 half ulps of the largest
   /// coordinate difference plus 16 of itself; beyond 2^512 and below 2^-537 its square leaves the range of doubles and
@@ -40,6 +42,14 @@ struct Triangle {
       if (pair.certain(nearest)) return std::max(nearest.squared, smallest);
     }
     return detail::ExactTriangles(x, y).nearest().squared;
+  }
+
+  /// As squared_distance says, but right whatever the size. Positive where they are apart.
+  friend double distance(const Triangle& p, const Triangle& q) noexcept {
+    constexpr double smallest = 0x1p-900, largest = 0x1p1000;  // between them squares have all their digits
+    const double squared = squared_distance(p, q);
+    if ((squared >= smallest && squared <= largest) || squared == 0.0) return std::sqrt(squared);
+    return std::max(detail::ExactTriangles(p.corners(), q.corners()).nearest().distance, 0x1p-1074);
   }
 
   /// d < m, or they share a point: the answer for the real numbers that the coordinates and m are. m >= 0.

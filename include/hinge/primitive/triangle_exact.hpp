@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "hinge/core/vec3.hpp"
@@ -41,8 +42,9 @@ class ExactTriangles {
   }
 
   struct Nearest {
-    double squared = 0.0;  ///< within 4 half ulps; 0 only when they meet; infinite above the largest double
-    Vec3 p, q;             ///< on x and on y, up to rounding of their coordinates; the same point when they meet
+    double squared = 0.0;   ///< within 4 half ulps; 0 only when they meet; infinite above the largest double
+    double distance = 0.0;  ///< its root, right also where the square is no normal double
+    Vec3 p, q;              ///< on x and on y, up to rounding of their coordinates; the same point when they meet
   };
 
   Nearest nearest() const noexcept {
@@ -62,6 +64,9 @@ class ExactTriangles {
       best.q = best.p;
     else
       best.squared = std::max(least.value(2 * unit_), smallest);
+    // The exponent made even before the root halves it.
+    const int odd = least.exponent & 1;
+    best.distance = std::ldexp(std::sqrt(std::ldexp(least.mantissa, odd)), (least.exponent - odd) / 2 + unit_);
     return best;
   }
 

@@ -2,8 +2,6 @@
 // offer: the leaf kernel. The only place where a pair of primitives is judged, for every engine and every mode.
 #pragma once
 
-#include <cmath>
-
 #include "hinge/core/id.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/policy/primitive.hpp"
@@ -16,13 +14,13 @@ namespace hinge {
 template <Collector C, Primitive P, class Admitted>
 void offer(C& collector, PrimitiveId i, PrimitiveId j, const P& p, const P& q, double m, Admitted&& admitted) {
   if constexpr (C::ranks) {
-    const Hit hit{i, j, std::sqrt(squared_distance(p, q)), m};
+    const Hit hit{i, j, distance(p, q), m};
     if (hit.gap() <= collector.cutoff() && admitted()) collector.add(hit);
   } else {
     const double near = m + collector.cutoff();
     if (closer_than(p, q, near) && admitted())
       // Nothing is closer than 0: solids that count at a threshold of 0 meet.
-      collector.add(Hit{i, j, near > 0.0 ? std::sqrt(squared_distance(p, q)) : 0.0, m});
+      collector.add(Hit{i, j, near > 0.0 ? distance(p, q) : 0.0, m});
   }
 }
 
