@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "hinge/bounds/round.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/core/vec3.hpp"
 
 namespace hinge {
@@ -76,7 +77,8 @@ inline double separation(const Aabb& a, const Aabb& b) noexcept {
     largest = std::max(largest, gap);
     if (gap > 0.0) squared += gap * gap;
   }
-  return largest > 0.0 ? std::max(largest, std::sqrt(squared) * down) : largest;
+  // Squares beyond the range of doubles say nothing.
+  return largest > 0.0 && is_finite(squared) ? std::max(largest, std::sqrt(squared) * down) : largest;
 }
 
 /// Do the closed boxes share a point? Without branches: in a sweep the answer cannot be foretold.

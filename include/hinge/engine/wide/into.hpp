@@ -3,9 +3,11 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "hinge/bounds/float_box.hpp"
+#include "hinge/engine/wide/float_turn.hpp"
 #include "hinge/engine/wide/wide_side.hpp"
 #include "hinge/primitive/batch.hpp"
 
@@ -29,6 +31,12 @@ struct Into {
       const auto i = static_cast<Eigen::Index>(k);
       shift[k] = static_cast<float>((from.state().origin()[i] - to.state().origin()[i]) * to.layout().scale);
     }
+  }
+  /// Can floats hold both models in one unit?
+  bool holds() const noexcept {
+    bool all = scale >= 0x1p-60F && scale <= 0x1p60F;
+    for (const float s : shift) all = all && std::abs(s) <= largest_sane_coordinate;
+    return all;
   }
   [[gnu::always_inline]] typename Batch<P>::One operator()(const float* at) const noexcept {
     return {at, scale, shift};

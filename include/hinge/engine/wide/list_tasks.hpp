@@ -30,14 +30,17 @@ std::uint32_t slot(std::uint32_t position) noexcept {
   return position / floats * static_cast<std::uint32_t>(simd::width) + position % floats;
 }
 
-/// `margin`: what is not farther than a threshold plus this must be listed; extra clearances come on top.
+/// `margin`: what is not farther than a threshold plus this must be listed; extra clearances come on top. `relieve` is
+/// called between blocks of a large unit, whose tasks may be as many as its pairs; it answers false to stop.
 template <Primitive P>
 class TaskLister {
  public:
   Tasks tasks;
 
   /// Adds the tasks between a unit and the ones before it, and inside it.
-  void within(WideSide<P>& side, std::size_t u, Placement<P>& placement, float margin, QueryCounts& counts) {
+  template <class Relieve>
+  void within(WideSide<P>& side, std::size_t u, Placement<P>& placement, float margin, QueryCounts& counts,
+              const Relieve& relieve) {
     const Unit& unit = side.layout().units[u];
     const std::uint32_t first = unit.first_block;
     const simd::Bits lanes = side.near().self_lanes(first);
@@ -69,14 +72,18 @@ class TaskLister {
           theirs_.assign(1, side.layout().units[w].first_block);
         else
           side.descend(w, side.state().tree_box(u, b, placement).grown(more), placement, counts, theirs_);
-        if (!theirs_.empty()) add_found(side, Facing(side, b, placement, more), placement);
+        if (theirs_.empty()) continue;
+        add_found(side, Facing(side, b, placement, more), placement);
+        if (!relieve()) return;
       }
     }
   }
 
   /// Adds the tasks of a unit against another model, into whose unit and origin `into` brings coordinates.
+  template <class Relieve>
   void across(WideSide<P>& mine, std::size_t u, Placement<P>& placement, WideSide<P>& theirs,
-              Placement<P>& other_placement, const Into<P>& into, float margin, bool moved_only, QueryCounts& counts) {
+              Placement<P>& other_placement, const Into<P>& into, float margin, bool moved_only, QueryCounts& counts,
+              const Relieve& relieve) {
     const Unit& unit = mine.layout().units[u];
     const float extra = mine.extra(unit.first_block) * into.scale;
     const FloatBox box = into(mine.state().units().get(u)).grown(margin + extra + theirs.largest_extra());
@@ -102,6 +109,7 @@ class TaskLister {
           const simd::Bits lanes = Batch<P>::inside(at, BoxLanes(near)) & mine.layout().blocks[b].real;
           tasks.add(lanes, position<P>(b), position<P>(a), theirs.layout().blocks[a].real);
         }
+        if (!relieve()) return;
       }
     }
   }

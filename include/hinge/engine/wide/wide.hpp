@@ -17,6 +17,7 @@
 #include "hinge/engine/engine.hpp"
 #include "hinge/engine/wide/list_tasks.hpp"
 #include "hinge/engine/wide/run_tasks.hpp"
+#include "hinge/engine/wide/tree/tree_judge.hpp"
 #include "hinge/engine/wide/tree/tree_side.hpp"
 #include "hinge/engine/wide/wide_side.hpp"
 #include "hinge/model/placement.hpp"
@@ -34,6 +35,8 @@ class Wide {
  public:
   Wide(std::shared_ptr<const SelectedModel<P>> model, F filter, D matrix)
       : placement_(model), filter_(std::move(filter)), matrix_(std::move(matrix)) {
+    if constexpr (HasNoBody<P>)
+      all_idle_ = std::ranges::all_of(zero_thresholds(matrix_, model->size()), [](auto zero) { return zero != 0; });
     if constexpr (KeepsTrees<P>)
       trees_.emplace(std::make_shared<const TreeParts<P>>(*model, filter_, matrix_));
     else
@@ -53,6 +56,7 @@ class Wide {
       trees_->self_query(placement_, self_judge(collector, rules), collector, options, counts);
       return add(options.counts, counts);
     }
+    if (never_collides(collector, options)) return;
     WideSide<P>& side = present_side();
     side.begin(placement_, options.moved_only, options.clearance);
     const auto decide = [&](PrimitiveId i, PrimitiveId j, const P& p, const P& q) __attribute__((always_inline)) {
@@ -89,7 +93,10 @@ class Wide {
         cutoff = collector.cutoff();
         thresholds_.set(side.table(), margin(side, cutoff));
       }
-      lister_.within(side, u, placement_, thresholds_.margin(), counts);
+      lister_.within(side, u, placement_, thresholds_.margin(), counts, [&] {
+        if (lister_.tasks.size() >= longest_list) run_listed();
+        return !collector.done();
+      });
       // Soon at first: a hit at the root saves placing the rest. Then in longer runs, which cost less.
       if (lister_.tasks.size() < patience) continue;
       patience = std::min(2 * patience, longest_run);
@@ -122,16 +129,16 @@ class Wide {
     };
     if (by_trees() && other.by_trees() && trees_->fits(*other.trees_)) {
       trees_->query(placement_, *other.trees_, other.placement_,
-                    judge(
-                        decide, [&](PrimitiveId i, PrimitiveId j) { return rules.threshold(i, j); },
-                        [&](PrimitiveId i, PrimitiveId j) { return rules.admits(i, j); },
-                        [&](LinkId a, LinkId b) {
-                          if constexpr (AdmitsLinks<G>) return across.admits(a, b);
-                          return true;
-                        }),
+                    TreeJudge{decide, [&](PrimitiveId i, PrimitiveId j) { return rules.threshold(i, j); },
+                              [&](PrimitiveId i, PrimitiveId j) { return rules.admits(i, j); },
+                              [&](LinkId a, LinkId b) {
+                                if constexpr (AdmitsLinks<G>) return across.admits(a, b);
+                                return true;
+                              }},
                     collector, options, counts);
       return add(options.counts, counts);
     }
+    if (never_collides(collector, options) && other.never_collides(collector, options)) return;
     WideSide<P>&mine = present_side(), &theirs = other.present_side();
     mine.begin(placement_, false, options.clearance);
     theirs.begin(other.placement_, false, options.other_clearance);
@@ -139,9 +146,8 @@ class Wide {
       mine.state().refresh(u, placement_);
     for (std::size_t u = theirs.state().first_unit(); u < theirs.layout().units.size(); ++u)
       theirs.state().refresh(u, other.placement_);
-    const double ratio = theirs.layout().scale / mine.layout().scale;
-    if (!(ratio >= 0x1p-60 && ratio <= 0x1p60)) {
-      // No float holds both models.
+    const Into<P> into(mine, theirs);
+    if (!into.holds()) {
       for (std::size_t k = 0; k < placement_.model().size() && !collector.done(); ++k)
         for (std::size_t l = 0; l < other.placement_.model().size() && !collector.done(); ++l) {
           const auto i = id<PrimitiveId>(k), j = id<PrimitiveId>(l);
@@ -150,49 +156,47 @@ class Wide {
       return add(options.counts, counts);
     }
     visits_ = 0;
-    const Into<P> into(mine, theirs);
     const ThresholdTable table = mine.parts().classes.table(theirs.parts().classes, theirs.layout().scale);
     const auto between = [&] { return margin(mine, theirs, table, into, collector.cutoff()); };
     thresholds_.set(table, between());
     for (std::size_t u = 0; u < mine.layout().units.size() && !collector.done(); ++u) {
+      const auto run_listed = [&] {
+        run(mine, theirs, other.placement_, table, into, between, decide, collector, counts);
+      };
       lister_.across(mine, u, placement_, theirs, other.placement_, into, thresholds_.margin(), options.moved_only,
-                     counts);
-      run(mine, theirs, other.placement_, table, into, between, decide, collector, counts);
+                     counts, [&] {
+                       if (lister_.tasks.size() >= longest_list) run_listed();
+                       return !collector.done();
+                     });
+      run_listed();
     }
     add(options.counts, counts);
   }
 
  private:
-  template <class Decide, class Threshold, class Admits, class AdmitsPairs>
-  struct Judge {
-    Decide decide;
-    Threshold threshold;
-    Admits admits;
-    AdmitsPairs admits_links;
-  };
-  /// What TreeSide asks.
-  template <class... Answers>
-  static Judge<Answers...> judge(Answers... answers) {
-    return {answers...};
-  }
-
   template <Collector C>
   static auto self_judge(C& collector, const SelfRules<P, F, D>& rules) {
     const auto in_order = [](PrimitiveId i, PrimitiveId j, const auto& say) { return j < i ? say(j, i) : say(i, j); };
-    return judge(
-        [&](PrimitiveId i, PrimitiveId j, const P& p, const P& q) {
-          const bool turned = j < i;
-          const PrimitiveId first = turned ? j : i, second = turned ? i : j;
-          offer(collector, first, second, turned ? q : p, turned ? p : q, rules.threshold(first, second),
-                [&] { return rules.admits(first, second); });
-        },
-        [&rules, in_order](PrimitiveId i, PrimitiveId j) {
-          return in_order(i, j, [&](auto k, auto l) { return rules.threshold(k, l); });
-        },
-        [&rules, in_order](PrimitiveId i, PrimitiveId j) {
-          return in_order(i, j, [&](auto k, auto l) { return rules.admits(k, l); });
-        },
-        [](LinkId, LinkId) { return true; });
+    return TreeJudge{[&](PrimitiveId i, PrimitiveId j, const P& p, const P& q) {
+                       const bool turned = j < i;
+                       const PrimitiveId first = turned ? j : i, second = turned ? i : j;
+                       offer(collector, first, second, turned ? q : p, turned ? p : q, rules.threshold(first, second),
+                             [&] { return rules.admits(first, second); });
+                     },
+                     [&rules, in_order](PrimitiveId i, PrimitiveId j) {
+                       return in_order(i, j, [&](auto k, auto l) { return rules.threshold(k, l); });
+                     },
+                     [&rules, in_order](PrimitiveId i, PrimitiveId j) {
+                       return in_order(i, j, [&](auto k, auto l) { return rules.admits(k, l); });
+                     },
+                     [](LinkId, LinkId) { return true; }};
+  }
+
+  /// Are collisions asked for of primitives that have no body and no threshold above 0?
+  template <Collector C>
+  bool never_collides(const C& collector, const QueryOptions& options) const noexcept {
+    return all_idle_ && !C::ranks && collector.cutoff() == 0.0 && options.clearance.empty() &&
+           options.other_clearance.empty();
   }
 
   /// Are the trees up to the present coordinates? They cannot hold groups that deform.
@@ -276,10 +280,13 @@ class Wide {
   static constexpr std::size_t placed_alone = 4;
   /// Tasks listed before they are run.
   static constexpr std::size_t longest_run = 16 * simd::width;
+  /// Tasks that a large unit lists at a time: as many as second-level caches hold, whatever the unit's size.
+  static constexpr std::size_t longest_list = 16 * longest_run;
 
   Placement<P> placement_;
   F filter_;
   D matrix_;
+  bool all_idle_ = false;             // no primitive has a body or a threshold above 0
   std::optional<TreeSide<P>> trees_;  // one of these two, as the primitive is
   std::optional<WideSide<P>> by_groups_;
   std::optional<WideSide<P>> by_index_;  // made when coordinates from elsewhere first come

@@ -9,6 +9,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -165,6 +166,12 @@ void TreeParts<P>::build(const SelectedModel<P>& model, const D& matrix, const s
   const auto above = [](double x) { return float_above(x + std::abs(x) * 0x1p-50); };
   std::vector<BuildItem> items;
   std::vector<float> reach;
+  // A reach above 0 stays so: without it no gap would be below 0.
+  const auto scaled_reach = [&](PrimitiveId i) {
+    constexpr double smallest = std::numeric_limits<float>::denorm_min();
+    const double length = matrix.reach(i);
+    return length > 0.0 ? std::max(length * scale, smallest) : 0.0;
+  };
   TreeBuilder builder;
   for (std::size_t first = 0; first < order.size();) {
     std::size_t last = first;
@@ -176,7 +183,7 @@ void TreeParts<P>::build(const SelectedModel<P>& model, const D& matrix, const s
     Aabb whole;
     for (; last < order.size() && key(order[last]) == key(order[first]); ++last) {
       const std::uint32_t i = order[last];
-      const double r = matrix.reach(id<PrimitiveId>(i)) * scale;
+      const double r = scaled_reach(id<PrimitiveId>(i));
       BuildItem item{{}, {}, i};
       for (int k = 0; k < 3; ++k) {
         const auto axis = static_cast<std::size_t>(k);
@@ -206,7 +213,7 @@ void TreeParts<P>::build(const SelectedModel<P>& model, const D& matrix, const s
       const std::uint32_t i = store.slots[slot];
       Leaf<P>::set(leaves.data() + slot / simd::width * Leaf<P>::floats, slot % simd::width, model.primitives()[i], o,
                    scale);
-      reach.push_back(above(matrix.reach(id<PrimitiveId>(i)) * scale));
+      reach.push_back(above(scaled_reach(id<PrimitiveId>(i))));
     }
     parts.push_back(part);
     first = last;
