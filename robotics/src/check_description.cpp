@@ -67,11 +67,18 @@ Found check_tree(const RobotDescription& robot, const Index& links) {
                           "; expected one root");
     }
   }
-  // One root and one parent for every other link: who does not come from the root is on a cycle or below one.
+  // One root and one parent for every other link: who does not come from the root is on a cycle or below one. No link
+  // is climbed past twice: chains may be long.
+  std::vector<bool> from_root(robot.links.size(), false);
   for (std::size_t l = 0; l < robot.links.size(); ++l) {
     std::size_t here = l, steps = 0;
-    while (above[here] != nullptr && steps++ < robot.links.size()) here = links.at(above[here]->parent);
-    if (above[here] != nullptr) return at(robot.links[here], ": its joints lead in a circle, expected a tree");
+    while (!from_root[here] && above[here] != nullptr && steps++ < robot.links.size())
+      here = links.at(above[here]->parent);
+    if (!from_root[here] && above[here] != nullptr)
+      return at(robot.links[here], ": its joints lead in a circle, expected a tree");
+    const std::size_t known = here;
+    for (here = l; here != known; here = links.at(above[here]->parent)) from_root[here] = true;
+    from_root[known] = true;
   }
   return {};
 }

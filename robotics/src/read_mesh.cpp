@@ -13,6 +13,8 @@
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
 
+#include "check_dae.hpp"
+#include "check_ply.hpp"
 #include "check_stl.hpp"
 #include "cut_polygon.hpp"
 #include "hinge/core/error.hpp"
@@ -99,6 +101,8 @@ TriangleMesh read_mesh(const std::filesystem::path& path) {
     throw LoadError(name + ": a mesh of format '" + extension + "', expected .stl, .obj, .dae or .ply");
   const std::string bytes = read_file(path);
   const std::size_t announced = extension == ".stl" ? check_stl(bytes, name) : 0;
+  if (extension == ".ply") check_ply(bytes, name);
+  if (extension == ".dae" && !bytes.empty()) check_dae(path);
   if (bytes.empty() || (extension == ".stl" && announced == 0)) throw LoadError(name + ": has no triangles");
 
   Assimp::Importer importer;

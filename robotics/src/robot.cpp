@@ -65,6 +65,9 @@ void Robot::build(const Tessellation& tessellation) {
   for (const JointDescription& joint : description_.joints) roots.erase(joint.child);
   const LinkDescription& root = *roots.begin()->second;
 
+  // As many as one shape may take: a file of a few lines must not fill the memory.
+  constexpr std::size_t most_tessellated = 1'000'000;
+  std::size_t tessellated = 0;
   ModelBuilder<Triangle> builder;
   link_names_ = {""};
   triangle_counts_ = {0};
@@ -76,6 +79,11 @@ void Robot::build(const Tessellation& tessellation) {
     triangle_counts_.push_back(0);
     for (const PlacedShape& placed : link.geometry) {
       const Surface surface = tessellate(placed.shape, tessellation);
+      if (!std::holds_alternative<MeshShape>(placed.shape)) tessellated += surface.triangles.size();
+      if (tessellated > most_tessellated)
+        throw ModelError("link '" + link.name + "': with it the shapes take more than " +
+                         std::to_string(most_tessellated) +
+                         " triangles; allow a larger error of tessellation, or give meshes");
       for (const Triangle& triangle : surface.triangles) {
         degenerate_count_ += surface.radius == 0.0 && has_no_area(triangle) ? 1U : 0U;
         builder.add_primitive(added, placed.origin == Pose{} ? triangle : triangle.placed(placed.origin));

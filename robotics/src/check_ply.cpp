@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The header is lines of text that end with "end_header", in binary files too.
+#include "check_ply.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <string_view>
+#include <system_error>
+
+#include "hinge/core/error.hpp"
+
+namespace hinge::robotics {
+
+namespace {
+
+std::string_view next_word(std::string_view& line) {
+  constexpr std::string_view blanks = " \t\r";
+  line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+  const std::string_view word = line.substr(0, line.find_first_of(blanks));
+  line.remove_prefix(word.size());
+  return word;
+}
+
+}  // namespace
+
+void check_ply(const std::string& bytes, const std::string& path) {
+  constexpr std::array<std::string_view, 5> known{"format", "comment", "obj_info", "element", "property"};
+  std::size_t number = 0;
+  std::string_view rest = bytes;
+  while (!rest.empty()) {
+    const std::size_t end = rest.find('\n');
+    std::string_view line = rest.substr(0, end);
+    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+    const std::string where = path + ":" + std::to_string(++number) + ": ";
+    const std::string_view word = next_word(line);
+    if (number == 1) {
+      if (word != "ply") throw LoadError(where + "expected the word ply");
+      continue;
+    }
+    if (word == "end_header") return;
+    if (std::find(known.begin(), known.end(), word) == known.end())
+      throw LoadError(where + "is no line of a PLY header, and there was no end_header");
+    if (word != "element") continue;
+    const std::string_view name = next_word(line), text = next_word(line);
+    std::size_t count = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+    if (error != std::errc{} || stop != text.data() + text.size() || count > bytes.size())
+      throw LoadError(where + "element " + std::string(name) + " has count '" + std::string(text) +
+                      "', expected a whole number that " + std::to_string(bytes.size()) + " bytes have room for");
+  }
+  throw LoadError(path + ": PLY header without end_header, the file may be cut short");
+}
+
+}  // namespace hinge::robotics
