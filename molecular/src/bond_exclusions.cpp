@@ -2,6 +2,7 @@
 // Breadth-first search over the bond graph, a few bonds deep from every atom.
 #include "hinge/molecular/bond_exclusions.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "hinge/core/error.hpp"
@@ -61,8 +62,11 @@ BondExclusions::BondExclusions(const Structure& structure, int min_bonds,
   const auto neighbours = bonded_neighbours(structure);
   std::vector<std::vector<PrimitiveId>> further(structure.atoms.size());
   for (const auto& [i, j] : exempt) {
-    further.at(index(i)).push_back(j);
-    further.at(index(j)).push_back(i);
+    if (i == j || std::max(index(i), index(j)) >= further.size())
+      throw ModelError("exempt pair " + std::to_string(index(i)) + ", " + std::to_string(index(j)) +
+                       ": expected two different atoms below " + std::to_string(further.size()));
+    further[index(i)].push_back(j);
+    further[index(j)].push_back(i);
   }
   Data data;
   data.start.assign(1, 0);
