@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// ask: what every kind of case shares: refusals as answers, one question in several modes, lists as vectors.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "hinge/core/id.hpp"
+#include "hinge/core/pose.hpp"
+#include "hinge/engine/brute/brute.hpp"
+#include "hinge/engine/lazy/lazy.hpp"
+#include "hinge/engine/wide/wide.hpp"
+#include "hinge/policy/collector.hpp"
+#include "robustness/case.hpp"
+
+namespace hinge::robustness {
+
+/// What `ask` answers, or that the library refused.
+template <class Ask>
+Answer asked(std::string way, const Ask& ask) {
+  Answer answer;
+  try {
+    answer = ask();
+  } catch (const Error& refusal) {
+    answer.refused = true;
+    answer.message = refusal.what();
+  }
+  answer.way = std::move(way);
+  return answer;
+}
+
+inline void contradict(Answer& answer, const std::string& what) {
+  answer.contradiction += (answer.contradiction.empty() ? "" : "; ") + what;
+}
+
+/// Yes/no and the list of hits are two questions with one answer. `offset`: added to the second primitive's number.
+inline void take_hits(Answer& answer, bool any, const std::vector<Hit>& hits, std::size_t offset = 0) {
+  answer.hit = any;
+  answer.pair_count = hits.size();
+  for (const Hit& hit : hits) {
+    answer.pairs.push_back(static_cast<std::uint32_t>(index(hit.first)));
+    answer.pairs.push_back(static_cast<std::uint32_t>(index(hit.second) + offset));
+  }
+  if (any == hits.empty()) contradict(answer, "yes/no and the list of hits differ");
+}
+
+/// Of closed solids whose threshold is 0: the distance is 0 exactly when they meet.
+inline void take_closest(Answer& answer, const std::optional<Hit>& closest) {
+  if (closest) answer.distance = closest->distance;
+  if (answer.hit != (answer.distance == 0.0)) contradict(answer, "distance 0 and yes/no differ");
+}
+
+inline Vec3 vector_of(const std::vector<double>& values, const std::string& what) {
+  if (values.size() != 3) throw ModelError(what + ": " + std::to_string(values.size()) + " numbers, expected three");
+  return {values[0], values[1], values[2]};
+}
+
+/// run.operator()<EngineOf>() for the engine of this name.
+template <class Run>
+auto on(EngineName engine, const Run& run) {
+  if (engine == EngineName::brute) return run.template operator()<Brute>();
+  if (engine == EngineName::lazy) return run.template operator()<Lazy>();
+  return run.template operator()<Wide>();
+}
+
+}  // namespace hinge::robustness
