@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The table of extremes, many atoms where boxes tell little: at one point, in one diameter, on a line, with exponential
+// spacing. Depth, stack and work stay bounded; the answer equals brute force, sampled.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/random_mechanism.hpp"
+#include "extremes/stack_used.hpp"
+#include "extremes/three_engines.hpp"
+
+namespace hinge {
+namespace {
+
+using test::AnyEngine;
+using test::one_type;
+using test::own_groups;
+using test::Random;
+
+std::size_t crowd() { return test::exhaustive() ? 1000000 : 100000; }
+
+std::vector<Vec3> at_one_point(std::size_t n) { return std::vector<Vec3>(n, Vec3(1, 2, 3)); }
+std::vector<Vec3> in_one_diameter(std::size_t n) {
+  Random random(1);
+  std::vector<Vec3> points;
+  for (std::size_t k = 0; k < n; ++k) points.push_back(random.vector(1.5));
+  return points;
+}
+std::vector<Vec3> on_a_line(std::size_t n) {
+  std::vector<Vec3> points;
+  for (std::size_t k = 0; k < n; ++k) points.emplace_back(0.1 * static_cast<double>(k), 0, 0);
+  return points;
+}
+std::vector<Vec3> exponentially_spaced(std::size_t n) {
+  std::vector<Vec3> points;
+  for (std::size_t k = 0; k < n; ++k)
+    points.emplace_back(std::exp2(1000.0 * static_cast<double>(k) / static_cast<double>(n) - 500.0), 0, 0);
+  return points;
+}
+
+/// What stays bounded: the depth of trees over the atoms' boxes, split to the last.
+void expect_bounded_depth(const std::vector<Vec3>& points) {
+  std::vector<Aabb> boxes;
+  for (const Vec3& x : points) boxes.push_back(Aabb(x).inflated(0.5));
+  LazyTree tree;
+  tree.reset(boxes);
+  std::uint32_t depth = 0;
+  for (std::uint32_t k = 0; k < tree.node_count(); ++k) {
+    depth = std::max(depth, tree.node(k).depth);
+    if (!tree.node(k).is_leaf()) tree.split(k);
+  }
+  EXPECT_LE(depth, 3 * std::bit_width(points.size() - 1) + 9);
+}
+
+struct Answer {
+  bool collides = false;
+  std::vector<Hit> hits;
+  QueryCounts counts;
+};
+
+/// Builds the model and an engine and asks, on a stack that is measured.
+template <class Ask>
+Answer ask(const std::vector<Vec3>& points, double m, const std::string& name, const Ask& ask_engine) {
+  Answer answer;
+  const auto start = std::chrono::steady_clock::now();
+  const std::size_t used = test::stack_used([&] {
+    auto engines = test::atoms_on_three_engines(own_groups(points), one_type(points.size(), m));
+    QueryOptions options;
+    options.counts = &answer.counts;
+    for (AnyEngine<Point>& engine : engines)
+      if (engine.name == name) ask_engine(engine, options, answer);
+  });
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+  std::cout << name << ", " << points.size() << " atoms: " << time.count() << " s, " << used << " bytes of stack, "
+            << answer.counts.boxes_tested << " box tests, " << answer.counts.pairs_tested << " pair tests\n";
+  if (!test::stack_is_padded) {
+    EXPECT_LT(used, test::stack_limit);
+  }
+  return answer;
+}
+Answer ask_yes_or_no(const std::vector<Vec3>& points, double m, const std::string& name) {
+  return ask(points, m, name, [](AnyEngine<Point>& engine, const QueryOptions& options, Answer& answer) {
+    answer.collides = engine.collides(options);
+  });
+}
+Answer ask_all(const std::vector<Vec3>& points, double m, const std::string& name) {
+  return ask(points, m, name, [](AnyEngine<Point>& engine, const QueryOptions& options, Answer& answer) {
+    answer.hits = engine.within(0.0, options);
+  });
+}
+
+/// The hits of every so many-th atom are those that brute force finds for it.
+void expect_sampled(const std::vector<Hit>& hits, const std::vector<Vec3>& points, double m) {
+  const std::size_t samples = 50;
+  for (std::size_t s = 0; s < samples; ++s) {
+    const std::size_t i = s * points.size() / samples;
+    std::size_t expected = 0;
+    for (std::size_t j = 0; j < points.size(); ++j)
+      if (j != i && closer_than(Point{points[i]}, Point{points[j]}, m)) ++expected;
+    const auto found = std::count_if(hits.begin(), hits.end(),
+                                     [i](const Hit& hit) { return index(hit.first) == i || index(hit.second) == i; });
+    ASSERT_EQ(static_cast<std::size_t>(found), expected) << "atom " << i;
+  }
+}
+
+/// Eight times the atoms make at most ten times the work: n log n from 12500 to 100000 is a factor of 9.8.
+void expect_n_log_n(const QueryCounts& eighth, const QueryCounts& whole) {
+  EXPECT_LE(whole.boxes_tested, 10 * eighth.boxes_tested);
+  EXPECT_LE(whole.nodes_split, 10 * eighth.nodes_split);
+  EXPECT_LE(whole.pairs_tested, 10 * eighth.pairs_tested);
+}
+
+TEST(Crowds, AtOnePointHit) {
+  expect_bounded_depth(at_one_point(crowd()));
+  for (const char* engine : {"lazy", "wide"}) {
+    const Answer answer = ask_yes_or_no(at_one_point(crowd()), 3.0, engine);
+    EXPECT_TRUE(answer.collides);
+    EXPECT_LT(answer.counts.pairs_tested, 1000U);
+  }
+}
+
+TEST(Crowds, AtOnePointWithThresholdsOfZeroAreFreeAndCostNothing) {
+  if constexpr (HasNoBody<Point>) {
+    const Answer answer = ask_yes_or_no(at_one_point(crowd()), 0.0, "lazy");
+    EXPECT_FALSE(answer.collides);
+    EXPECT_EQ(answer.counts.pairs_tested + answer.counts.boxes_tested, 0U);
+  }
+  EXPECT_FALSE(ask_yes_or_no(at_one_point(2000), 0.0, "wide").collides);
+}
+
+TEST(Crowds, InOneDiameterEqualBruteForce) {
+  const std::vector<Vec3> points = in_one_diameter(crowd());
+  expect_bounded_depth(points);
+  for (const char* engine : {"lazy", "wide"}) EXPECT_TRUE(ask_yes_or_no(points, 3.0, engine).collides);
+  const double m = 0.02;
+  const Answer lazy = ask_all(points, m, "lazy");
+  expect_sampled(lazy.hits, points, m);
+  expect_n_log_n(ask_all(in_one_diameter(crowd() / 8), 2 * m, "lazy").counts, lazy.counts);
+  // Blocks of engine/wide follow the chain, here one that jumps about: each is as large as the whole.
+  const std::vector<Vec3> fewer = in_one_diameter(10000);
+  EXPECT_EQ(ask_all(fewer, m, "wide").hits, ask_all(fewer, m, "lazy").hits);
+}
+
+TEST(Crowds, OnALineEqualBruteForce) {
+  const std::vector<Vec3> points = on_a_line(crowd());
+  expect_bounded_depth(points);
+  const double m = 0.15;
+  for (const char* engine : {"lazy", "wide"}) {
+    const Answer answer = ask_all(points, m, engine);
+    EXPECT_EQ(answer.hits.size(), points.size() - 1);
+    expect_sampled(answer.hits, points, m);
+    if (engine == std::string("lazy")) expect_n_log_n(ask_all(on_a_line(crowd() / 8), m, engine).counts, answer.counts);
+  }
+}
+
+TEST(Crowds, ExponentiallySpacedEqualBruteForce) {
+  const std::vector<Vec3> points = exponentially_spaced(crowd());
+  expect_bounded_depth(points);
+  const double m = std::exp2(-495.0);
+  const Answer lazy = ask_all(points, m, "lazy");
+  EXPECT_GT(lazy.hits.size(), 1000U);
+  expect_sampled(lazy.hits, points, m);
+  // In float nearly all of them are one point: what engine/wide cannot tell apart it decides pair by pair.
+  const std::vector<Vec3> fewer = exponentially_spaced(4000);
+  EXPECT_EQ(ask_all(fewer, m, "wide").hits, ask_all(fewer, m, "lazy").hits);
+}
+
+/// Joints on one line leave every atom on it where it is, in the frame of every link.
+TEST(Crowds, OnTheAxesOfALongChainStayConstantInBoundedMemory) {
+  for (const bool star : {false, true}) {
+    ModelBuilder<Point> builder;
+    LinkId parent = world;
+    const std::size_t n = star ? crowd() : 3000;
+    for (std::size_t k = 0; k < n; ++k) {
+      const double z = static_cast<double>(k);
+      const LinkId link = builder.add_link(parent, Revolute{}, {Point{Vec3(0, 0, z)}});
+      if (!star) parent = link;
+    }
+    builder.add_link(parent, Revolute{Vec3::UnitX(), Vec3::Zero(), {}, {}},
+                     {Point{Vec3(1, 0, 0)}, Point{Vec3(0, 1, 0)}});
+    const Model<Point> built = builder.finish();
+    const SelectedModel<Point> model(built, DofSelection::all(built.tree()));
+    Random random(5);
+    const auto last = id<PrimitiveId>(n);
+    for (int k = 0; k < 100; ++k) {
+      const auto i = id<PrimitiveId>(random.below(n)), j = id<PrimitiveId>(random.below(n));
+      EXPECT_TRUE(model.constant(i, j));
+      EXPECT_TRUE(model.constant(last, i));  // lies on the x axis, so in a frame that all of them are fixed in
+      EXPECT_EQ(model.constant(i, id<PrimitiveId>(n + 1)), index(i) == 0);  // where the axes meet
+    }
+  }
+}
+
+/// The same where axes branch off and meet, against what happens at random configurations.
+TEST(Crowds, OnManyAxesAreConstantExactlyWhenTheyNeverMoveApart) {
+  std::size_t constant = 0, walked = 0;
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    Random random(seed);
+    const std::vector<Revolute> axes = {{Vec3::UnitZ(), Vec3::Zero(), {}, {}},
+                                        {Vec3::UnitX(), Vec3::Zero(), {}, {}},
+                                        {Vec3::UnitZ(), Vec3::UnitX(), {}, {}}};
+    const std::vector<Vec3> places = {{0, 0, 0}, {0, 0, 2}, {1, 0, 0}, {1, 0, 3}, {0.3, 0.7, 0.2}};
+    ModelBuilder<Point> builder;
+    std::vector<LinkId> links{world};
+    for (int k = 0; k < 200; ++k) {
+      const LinkId parent = random.one_in(3) ? links[random.below(links.size())] : links.back();
+      const Joint joint = random.one_in(40) ? axes[1 + random.below(2)] : axes[0];
+      links.push_back(builder.add_link(parent, joint, {Point{places[random.below(places.size())]}}));
+    }
+    const Model<Point> built = builder.finish();
+    const auto model = std::make_shared<const SelectedModel<Point>>(built, DofSelection::all(built.tree()));
+    Placement<Point> placement(model);
+    const std::size_t n = built.size();
+    std::vector<double> least(n * n, 1e9), most(n * n, 0.0);
+    for (int trial = 0; trial < 4; ++trial) {
+      std::vector<double> q;
+      for (std::size_t k = 0; k < n; ++k) q.push_back(random.uniform(-3.0, 3.0));
+      placement.update(q);
+      for (std::size_t g = 0; g < model->groups()->size(); ++g) placement.place(id<GroupId>(g));
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < n; ++j) {
+          const double d = norm(Vec3(placement.placed()[i].position - placement.placed()[j].position));
+          least[i * n + j] = std::min(least[i * n + j], d);
+          most[i * n + j] = std::max(most[i * n + j], d);
+        }
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = 0; j < n; ++j) {
+        const bool expected = most[i * n + j] - least[i * n + j] < 1e-9;
+        ASSERT_EQ(model->constant(id<PrimitiveId>(i), id<PrimitiveId>(j)), expected) << i << " " << j << " " << seed;
+        constant += expected ? 1U : 0U;
+      }
+      // Those whose groups are not listed although they are on their own joint's axis.
+      const Joint& own = built.tree().joint(built.links()[i]);
+      const bool on_own = built.primitives()[i].fixed_on_axis(own.point, own.axis);
+      walked += on_own && model->also_fixed_in(id<PrimitiveId>(i)).empty() ? 1U : 0U;
+    }
+  }
+  EXPECT_GT(walked, 100U);
+  EXPECT_GT(constant, 1000U);
+}
+
+}  // namespace
+}  // namespace hinge
