@@ -1,0 +1,82 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Compiles every_answer.cpp with two compilers, with and without optimisation and contraction, for three instruction
+# sets, and compares what comes out. Verdicts and pairs have to be the same in every build, poses and distances in every
+# build without contraction, which the exported target switches off. Takes a folder to build in; CPU time: half an hour.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+out=${1:?a folder to build in}
+jobs=${HINGE_JOBS:-$(nproc)}
+mkdir -p "$out"
+eigen=$(pkg-config --variable=includedir eigen3 2>/dev/null || echo /usr/include)/eigen3
+[ -d "$eigen" ] || eigen=/usr/include/eigen3
+common="-std=c++20 -DNDEBUG -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -Iinclude -Itests -isystem $eigen"
+export out common
+
+levels="x86-64 x86-64-v3 x86-64-v4"
+[ "$(uname -m)" = x86_64 ] || levels=native
+lowest=${levels%% *}
+
+builds() {
+  local compiler level optimised contraction
+  for compiler in g++ clang++; do
+    command -v "$compiler" >/dev/null || continue
+    for optimised in -O3 -O0; do
+      for level in $levels; do
+        for contraction in off fast; do
+          # Nothing is contracted without optimisation, or where there is no fused multiply-add.
+          [ "$contraction" = fast ] && { [ "$optimised" = -O0 ] || [ "$level" = x86-64 ]; } && continue
+          echo "$compiler $optimised $contraction $level"
+        done
+      done
+    done
+  done
+}
+
+build_and_run() {
+  local compiler=$1 optimised=$2 contraction=$3 level=$4
+  local name=$compiler$optimised-$contraction-$level
+  local start=$SECONDS status=0
+  # shellcheck disable=SC2086 # flags are several words
+  if ! $compiler $common $optimised -march="$level" -ffp-contract="$contraction" -c tests/isa/every_answer.cpp \
+    -o "$out/$name.o" || ! g++ "$out/main.o" "$out/$name.o" -ltbb -o "$out/$name"; then
+    echo "$name does not compile" >&2
+    return 1
+  fi
+  rm "$out/$name.o"
+  local compiled=$((SECONDS - start))
+  "$out/$name" >"$out/$name.txt" 2>"$out/$name.err" || status=$?
+  echo "$status $compiled $((SECONDS - start - compiled))" >"$out/$name.status"
+}
+export -f build_and_run
+
+# shellcheck disable=SC2086
+g++ $common -O1 -march="$lowest" -c tests/isa/main.cpp -o "$out/main.o"
+builds | xargs -L 1 -P "$jobs" bash -c 'build_and_run "$@"' build
+
+hashes() { grep -E "^[^|]*\|($1)\|" "$2" || true; }
+differing() { diff <(hashes "$1" "$2") <(hashes "$1" "$3") | grep -c '^>' || true; }
+
+reference='' failures=0
+printf '%-8s %-5s %-11s %-10s %-9s %-19s %s\n' compiler opt contraction level verdicts 'poses and distances' seconds
+while read -r compiler optimised contraction level; do
+  name=$compiler$optimised-$contraction-$level
+  read -r status compiled ran <"$out/$name.status"
+  if [ "$status" -eq 77 ]; then
+    printf '%-8s %-5s %-11s %-10s not run: this CPU has not these instructions\n' "$compiler" "$optimised" \
+      "$contraction" "$level"
+    continue
+  fi
+  [ -n "$reference" ] || reference=$out/$name.txt
+  verdicts=$(differing verdicts "$reference" "$out/$name.txt")
+  numbers=$(differing 'poses|distances' "$reference" "$out/$name.txt")
+  lines=$(hashes 'poses|distances' "$reference" | wc -l)
+  [ "$verdicts" -eq 0 ] && [ "$status" -eq 0 ] || failures=$((failures + 1))
+  [ "$contraction" = fast ] || [ "$numbers" -eq 0 ] || failures=$((failures + 1))
+  printf '%-8s %-5s %-11s %-10s %-9s %-19s %d + %d\n' "$compiler" "$optimised" "$contraction" "$level" \
+    "$([ "$verdicts" -eq 0 ] && echo equal || echo "$verdicts DIFFER")" \
+    "$([ "$numbers" -eq 0 ] && echo equal || echo "$numbers of $lines differ")" "$compiled" "$ran"
+  [ "$status" -eq 0 ] || cat "$out/$name.txt" "$out/$name.err"
+done < <(builds)
+echo "$(hashes verdicts "$reference" | wc -l) hashes of verdicts and pairs, $failures builds differ"
+[ "$failures" -eq 0 ]
