@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bytes: a fuzzer's input, read from the front as numbers and choices; what lies beyond its end reads as 0.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace fuzz {
+
+/// Of our own, so that a stored find means the same to every compiler.
+class Bytes {
+ public:
+  Bytes(const std::uint8_t* data, std::size_t size) : rest_(data, size) {}
+
+  bool empty() const noexcept { return rest_.empty(); }
+  std::uint8_t byte() noexcept {
+    if (rest_.empty()) return 0;
+    const std::uint8_t first = rest_.front();
+    rest_ = rest_.subspan(1);
+    return first;
+  }
+  bool bit() noexcept { return (byte() & 1U) != 0; }
+  /// 0 ... n - 1; n: 1 ... 256.
+  std::size_t below(std::size_t n) noexcept { return byte() % n; }
+  /// True once in n.
+  bool one_in(std::size_t n) noexcept { return below(n) == n - 1; }
+  std::int16_t int16() noexcept {
+    const unsigned low = byte();
+    return static_cast<std::int16_t>(low | static_cast<unsigned>(byte()) << 8U);
+  }
+  std::uint64_t word() noexcept {
+    std::uint64_t bits = 0;
+    for (unsigned k = 0; k < 8; ++k) bits |= std::uint64_t{byte()} << 8 * k;
+    return bits;
+  }
+  /// Any bit pattern: NaN, infinities and denormals among them.
+  double any_double() noexcept { return std::bit_cast<double>(word()); }
+  /// All that is left.
+  std::string_view text() noexcept {
+    const auto all = rest_;
+    rest_ = {};
+    return {reinterpret_cast<const char*>(all.data()), all.size()};
+  }
+
+ private:
+  std::span<const std::uint8_t> rest_;
+};
+
+}  // namespace fuzz

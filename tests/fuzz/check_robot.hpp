@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A robot that was read must answer: on two engines alike, at its reference and between its limits.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "fuzz/require.hpp"
+#include "hinge/robotics/link_margins.hpp"
+#include "hinge/robotics/robot.hpp"
+#include "hinge/robotics/robot_checker.hpp"
+#include "hinge/robotics/tested_pairs.hpp"
+
+namespace fuzz {
+
+/// The checker may refuse values: those whose poses leave the range of doubles.
+inline void check_robot(const std::shared_ptr<const hinge::robotics::Robot>& robot,
+                        const hinge::robotics::LinkPairs& disabled, const std::vector<double>& q) {
+  using hinge::robotics::LinkMargins;
+  using hinge::robotics::Mode;
+  using hinge::robotics::RobotChecker;
+  const auto tested = hinge::robotics::tested_pairs(*robot, disabled);
+  RobotChecker wide(robot, tested, LinkMargins(*robot, 0.01));
+  // Quadratic, and slow under sanitizers: more triangles would be waited for.
+  constexpr std::size_t most = 120;
+  if (robot->model().size() > most) {
+    accepts([&] { wide.check(q, {Mode::Kind::all, 0.0}); });
+    return;
+  }
+  RobotChecker brute(robot, tested, LinkMargins(*robot, 0.01), {"brute"});
+  accepts([&] {
+    for (const Mode& mode : {Mode{Mode::Kind::all, 0.0}, Mode{Mode::Kind::within, 0.5}, Mode{Mode::Kind::any, 0.0},
+                             Mode{Mode::Kind::closest, 0.0}}) {
+      const auto fast = wide.check(q, mode), slow = brute.check(q, mode);
+      require(fast.collides == slow.collides, "wide and brute differ in a yes or no");
+      require(fast.pairs.size() == slow.pairs.size(), "wide and brute differ in their pairs");
+      for (std::size_t k = 0; k < fast.pairs.size(); ++k)
+        require(fast.pairs[k].link1 == slow.pairs[k].link1 && fast.pairs[k].link2 == slow.pairs[k].link2,
+                "wide and brute differ in their pairs");
+      require(fast.closest.has_value() == slow.closest.has_value(), "wide and brute differ in the closest pair");
+    }
+    wide.contained();
+  });
+}
+
+}  // namespace fuzz

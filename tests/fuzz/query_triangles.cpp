@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Target: every query on every engine over triangles, against each other and exact arithmetic.
+#include <cstddef>
+#include <cstdint>
+
+#include "fuzz/check_queries.hpp"
+#include "hinge/primitive/triangle.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return fuzz::check_queries<hinge::Triangle>(data, size);
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Target: the words that select torsions, on a protein of two chains with helices and strands.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "fuzz/bytes.hpp"
+#include "fuzz/require.hpp"
+#include "hinge/molecular/ideal_protein.hpp"
+#include "hinge/molecular/molecule.hpp"
+#include "hinge/molecular/selection.hpp"
+
+namespace {
+
+using hinge::molecular::Molecule;
+using hinge::molecular::Structure;
+
+/// Residues 1 ... 12 of chain A, 60, 60A and -3 of chain B, and the last of a chain without a name.
+Molecule make_molecule() {
+  Structure s = hinge::molecular::build_ideal_protein("AKRMFPWSTCVLGHED", "HHHHHCCEEEECCHHC");
+  s.chains.assign({{"A", 0, 12}, {"B", 12, 15}, {"", 15, 16}});
+  for (std::uint32_t c = 0; c < 3; ++c)
+    for (std::uint32_t r = s.chains[c].first_residue; r < s.chains[c].last_residue; ++r) s.residues[r].chain = c;
+  s.residues[12].sequence_number = 60;
+  s.residues[13].sequence_number = 60;
+  s.residues[13].insertion_code = 'A';
+  s.residues[14].sequence_number = -3;
+  return Molecule(std::move(s));
+}
+
+using Positions = std::vector<std::size_t>;
+
+std::optional<Positions> select(const Molecule& molecule, std::string_view words, bool omega) {
+  std::optional<Positions> chosen;
+  fuzz::accepts([&] { chosen = hinge::molecular::select_torsions(molecule, words, omega); });
+  if (!chosen) return chosen;
+  fuzz::require(std::is_sorted(chosen->begin(), chosen->end()) &&
+                    std::adjacent_find(chosen->begin(), chosen->end()) == chosen->end(),
+                "positions not sorted or not unique");
+  fuzz::require(chosen->empty() || chosen->back() < molecule.torsions().size(), "a torsion that is not there");
+  return chosen;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const Molecule molecule = make_molecule();
+  const std::string_view words = fuzz::Bytes(data, size).text();
+  const auto without = select(molecule, words, false), with = select(molecule, words, true);
+  fuzz::require(without.has_value() == with.has_value(), "omega decides what is a word");
+  if (!with) return 0;
+  fuzz::require(std::includes(with->begin(), with->end(), without->begin(), without->end()),
+                "omega takes torsions away");
+  // The words' union counts, in whatever order.
+  const std::size_t comma = words.find(',');
+  if (comma == std::string_view::npos) return 0;
+  const auto head = select(molecule, words.substr(0, comma), true),
+             tail = select(molecule, words.substr(comma + 1), true);
+  fuzz::require(head && tail, "a list is accepted whose parts are not");
+  Positions both;
+  std::set_union(head->begin(), head->end(), tail->begin(), tail->end(), std::back_inserter(both));
+  fuzz::require(both == *with, "a list selects something else than its parts");
+  return 0;
+}
