@@ -41,7 +41,7 @@ struct Triangle {
       const auto nearest = pair.nearest();
       if (pair.certain(nearest)) return std::max(nearest.squared, smallest);
     }
-    return detail::ExactTriangles(x, y).nearest().squared;
+    return detail::nearest_in_integers(x, y).squared;
   }
 
   /// As squared_distance says, but right whatever the size. Positive where they are apart.
@@ -49,7 +49,7 @@ struct Triangle {
     constexpr double smallest = 0x1p-900, largest = 0x1p1000;  // between them squares have all their digits
     const double squared = squared_distance(p, q);
     if ((squared >= smallest && squared <= largest) || squared == 0.0) return std::sqrt(squared);
-    return std::max(detail::ExactTriangles(p.corners(), q.corners()).nearest().distance, 0x1p-1074);
+    return std::max(detail::nearest_in_integers(p.corners(), q.corners()).distance, 0x1p-1074);
   }
 
   /// d < m, or they share a point: the answer for the real numbers that the coordinates and m are. m >= 0.
@@ -67,7 +67,7 @@ struct Triangle {
       if (nearest.distance + pair.rounding(nearest.distance) < m) return true;
       if (nearest.gap - pair.rounding(nearest.gap) >= m) return false;
     }
-    return detail::ExactTriangles(x, y, m).closer_than_m();
+    return detail::closer_in_integers(x, y, m);
   }
 
   /// As far apart as the distance says, up to an ulp or two of the coordinates; of triangles that meet, one point
@@ -80,7 +80,7 @@ struct Triangle {
       const bool disjoint = nearest.gap > pair.rounding(nearest.gap);
       if (disjoint && pair.certain(nearest)) return {pair.placed(nearest.p), pair.placed(nearest.q)};
     }
-    const auto nearest = detail::ExactTriangles(x, y).nearest();
+    const auto nearest = detail::nearest_in_integers(x, y);
     return {nearest.p, nearest.q};
   }
 

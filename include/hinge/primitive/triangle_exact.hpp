@@ -180,4 +180,15 @@ class ExactTriangles {
   Integer m_;
 };
 
+// Out of line: whole numbers take some 40 KiB of stack, which nobody else should have on theirs, or twice.
+
+[[gnu::cold, gnu::noinline]] inline ExactTriangles::Nearest nearest_in_integers(const Corners& x,
+                                                                                const Corners& y) noexcept {
+  return ExactTriangles(x, y).nearest();
+}
+
+[[gnu::cold, gnu::noinline]] inline bool closer_in_integers(const Corners& x, const Corners& y, double m) noexcept {
+  return ExactTriangles(x, y, m).closer_than_m();
+}
+
 }  // namespace hinge::detail
