@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// PlainPoint: Point decided by one comparison in double, with the same kernels; what exact decisions are timed against.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include "hinge/bounds/aabb.hpp"
+#include "hinge/core/pose.hpp"
+#include "hinge/core/vec3.hpp"
+#include "hinge/primitive/batch.hpp"
+#include "hinge/primitive/point.hpp"
+
+namespace hinge::bench {
+
+struct PlainPoint {
+  Point point;
+  static constexpr bool has_no_body = HasNoBody<Point>;  ///< what engines may pass over is the same
+
+  PlainPoint placed(const Pose& pose) const noexcept { return {point.placed(pose)}; }
+  Aabb bounds() const noexcept { return point.bounds(); }
+  bool fixed_on_axis(const Vec3& axis_point, const Vec3& axis) const noexcept {
+    return point.fixed_on_axis(axis_point, axis);
+  }
+
+  friend double squared_distance(const PlainPoint& p, const PlainPoint& q) noexcept {
+    return squared_norm(Vec3(p.point.position - q.point.position));
+  }
+  friend bool closer_than(const PlainPoint& p, const PlainPoint& q, double m) noexcept {
+    return squared_distance(p, q) < m * m;
+  }
+  friend std::pair<Vec3, Vec3> closest_points(const PlainPoint& p, const PlainPoint& q) noexcept {
+    return {p.point.position, q.point.position};
+  }
+};
+
+}  // namespace hinge::bench
+
+namespace hinge {
+
+/// That of Point, which is all a PlainPoint consists of.
+template <>
+struct Batch<bench::PlainPoint> {
+  using Same = Batch<Point>;
+  using Grown = Same::Grown;
+  using One = Same::One;
+  static constexpr std::size_t floats = Same::floats;
+  static_assert(sizeof(bench::PlainPoint) == sizeof(Point));
+
+  static void set(float* at, std::size_t lane, const bench::PlainPoint& p, const Vec3& origin, double scale) noexcept {
+    Same::set(at, lane, p.point, origin, scale);
+  }
+  [[gnu::always_inline]] static FloatBox place(float* at, const bench::PlainPoint* local, const std::uint32_t* group,
+                                               std::span<const Frame> frames, const Vec3& origin,
+                                               double scale) noexcept {
+    return Same::place(at, reinterpret_cast<const Point*>(local), group, frames, origin, scale);
+  }
+  [[gnu::always_inline]] static FloatBox hull(const float* at) noexcept { return Same::hull(at); }
+  [[gnu::always_inline]] static simd::Bits inside(const float* at, const BoxLanes& box) noexcept {
+    return Same::inside(at, box);
+  }
+  [[gnu::always_inline]] static FloatBox turn(const float* local, const std::array<float, 9>& rotation,
+                                              const std::array<float, 3>& translation, float* to) noexcept {
+    return Same::turn(local, rotation, translation, to);
+  }
+};
+
+static_assert(HasClosestPoints<bench::PlainPoint> && TurnsBatch<bench::PlainPoint>);
+
+}  // namespace hinge
