@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "engine/random_mechanism.hpp"
 #include "hinge/engine/brute/brute.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/policy/pair_filter.hpp"
@@ -81,6 +82,45 @@ TEST(WideExtremes, HoldForTwoModelsOfVeryDifferentSize) {
     EXPECT_EQ(a.within(b, 0.5), c.within(d, 0.5));
     EXPECT_EQ(a.closest(b).value().gap(), c.closest(d).value().gap());
     EXPECT_EQ(b.closest(a).value().gap(), d.closest(c).value().gap());
+  }
+}
+
+TEST(WideExtremes, HoldForCoordinatesFarBeyondTheSizeOfTheModel) {
+  test::Random random(11);
+  const std::vector<double> places = {0.0, 1.0, 1e15, 1e16, 0x1p127, 0x1p128, 0x1p129, 0x1p200, 0x1p881, 0x1p990};
+  const auto draw = [&] { return places[random.below(places.size())] * (random.below(2) == 0 ? 1.0 : -1.0); };
+  const Model<Point> groups = two_groups(1.0), own = sliders(std::vector<Vec3>(40, Vec3::Zero()));
+  const Model<Point> small = sliders({{0, 0, 0}, {0.25, 0, 0}, {0, 0.5, 0}});
+  for (int round = 0; round < 300; ++round) {
+    SCOPED_TRACE(round);
+    const std::vector<Vec3> far = {Vec3(draw(), 0, 0), Vec3(draw(), draw(), 0), Vec3(0, draw(), draw())};
+    const double clearance = random.below(2) == 0 ? 0.0 : std::abs(draw());
+    const Model<Point>& model = round % 2 == 0 ? groups : own;
+    PointsOn<Wide> wide(model, AdmitAll{}, UniformClearance(clearance)),
+        other(small, AdmitAll{}, UniformClearance(clearance));
+    PointsOn<Brute> brute(model, AdmitAll{}, UniformClearance(clearance)),
+        other_brute(small, AdmitAll{}, UniformClearance(clearance));
+    std::vector<Point> others(small.size());
+    for (Point& point : others) point.position = far[random.below(far.size())];
+    other.update_placed(others);
+    other_brute.update_placed(others);
+    std::vector<Pose> poses(wide.model().groups()->size());
+    for (Pose& pose : poses) pose.translation = far[random.below(far.size())];
+    poses.front() = Pose{};
+    std::vector<Point> points(model.size());
+    for (Point& point : points) point.position = far[random.below(far.size())];
+    for (int state = 0; state < 2; ++state) {
+      for (const double margin : {0x1p-1074, 1.0, 0x1p130, 0x1p995}) {
+        if (state == 0)
+          wide.update_poses(poses), brute.update_poses(poses);
+        else
+          wide.update_placed(points), brute.update_placed(points);
+        expect_equal(wide, brute, margin);
+        EXPECT_EQ(wide.within(other, margin), brute.within(other_brute, margin));
+        EXPECT_EQ(other.within(wide, margin), other_brute.within(brute, margin));
+        EXPECT_EQ(wide.closest(other).value().gap(), brute.closest(other_brute).value().gap());
+      }
+    }
   }
 }
 

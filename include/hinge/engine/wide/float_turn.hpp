@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 
 #include "hinge/bounds/float_box.hpp"
 #include "hinge/core/vec3.hpp"
@@ -24,6 +25,15 @@ inline constexpr float largest_sane_coordinate = 1e15F;
   if (!(box.extent() <= largest_sane_coordinate)) [[unlikely]]
     return FloatBox::everything();
   return box;
+}
+
+/// The same for a box and the coordinates in it, which are pulled in: that brings no two farther apart. Infinite ones
+/// would be no numbers once they are grown by what is infinite too, and look apart.
+[[gnu::always_inline]] inline FloatBox sane(const FloatBox& box, std::span<float> coordinates) noexcept {
+  const FloatBox kept = sane(box);
+  if (kept.extent() > largest_sane_coordinate) [[unlikely]]
+    for (float& x : coordinates) x = std::clamp(x, -largest_sane_coordinate, largest_sane_coordinate);
+  return kept;
 }
 
 /// x -> (R x + t - origin) * scale. Middles are computed in double and rounded once; around them everything is float.

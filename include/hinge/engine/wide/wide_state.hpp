@@ -232,7 +232,7 @@ class WideState {
       box = Batch<P>::place(at, parts_->mixed.data() + first, parts_->mixed_group.data() + first,
                             placement.frames_through(layout.groups_of(layout.blocks[b]).back()), origin_, layout.scale);
     }
-    block_box_[b] = sane(box).grown(parts_->rigid.reach[b]);
+    block_box_[b] = sane(box, {at, Batch<P>::floats}).grown(parts_->rigid.reach[b]);
     block_at_[b] = update_;
   }
 
@@ -252,7 +252,7 @@ class WideState {
                       origin_, layout.scale);
       box = Batch<P>::hull(at);
     }
-    block_box_[b] = sane(box).grown(parts_->rigid.reach[b]);
+    block_box_[b] = sane(box, {at, Batch<P>::floats}).grown(parts_->rigid.reach[b]);
   }
 
   [[gnu::noinline]] void place_exact(std::uint32_t b, Placement<P>& placement) noexcept {
