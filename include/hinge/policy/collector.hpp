@@ -35,6 +35,12 @@ concept Collector = requires(C& collector, const C& constant, const Hit& hit) {
   { C::ranks } -> std::convertible_to<bool>;
 };
 
+/// Are collisions asked for, with no margin?
+template <Collector C>
+bool asks_collisions(const C& collector) noexcept {
+  return !C::ranks && collector.cutoff() == 0.0;
+}
+
 /// Optional refinement: done at the first hit, which may be any.
 template <class C>
 concept StopsAtFirst = Collector<C> && requires {

@@ -23,6 +23,8 @@ struct QueryOptions {
   /// The same for the groups of the other model, in queries between two.
   std::span<const double> other_clearance{};
   QueryCounts* counts = nullptr;
+
+  bool adds_clearance() const noexcept { return !clearance.empty() || !other_clearance.empty(); }
 };
 
 }  // namespace hinge

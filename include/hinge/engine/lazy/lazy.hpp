@@ -147,8 +147,7 @@ class Lazy {
   /// Does the query ask for collisions alone, so that primitives whose thresholds are all 0 take no part?
   template <Collector C>
   bool without_margin(const C& collector, const QueryOptions& options) const noexcept {
-    return !C::ranks && !idle_.empty() && collector.cutoff() == 0.0 && options.clearance.empty() &&
-           options.other_clearance.empty();
+    return !idle_.empty() && asks_collisions(collector) && !options.adds_clearance();
   }
 
   double extra_of(std::size_t body, std::span<const double> clearance) const noexcept {

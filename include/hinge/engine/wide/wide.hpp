@@ -76,10 +76,9 @@ class Wide {
     const BlockLayout& layout = side.layout();
     lister_.tasks.clear();
     visits_ = 0;
+    const auto present_margin = [&] { return margin(side, collector.cutoff()); };
     const auto run_listed = [&] {
-      run(
-          side, side, placement_, side.table(), Exactly<P>{}, [&] { return margin(side, collector.cutoff()); }, decide,
-          collector, counts);
+      run(side, side, placement_, side.table(), Exactly<P>{}, present_margin, decide, collector, counts);
     };
     std::size_t patience = 1;
     float extent = -1.0F;
@@ -91,12 +90,9 @@ class Wide {
       if (side.state().extent() != extent || collector.cutoff() != cutoff) {
         extent = side.state().extent();
         cutoff = collector.cutoff();
-        thresholds_.set(side.table(), margin(side, cutoff));
+        thresholds_.set(side.table(), present_margin());
       }
-      lister_.within(side, u, placement_, thresholds_.margin(), counts, [&] {
-        if (lister_.tasks.size() >= longest_list) run_listed();
-        return !collector.done();
-      });
+      lister_.within(side, u, placement_, thresholds_.margin(), counts, relief(run_listed, collector));
       // Soon at first: a hit at the root saves placing the rest. Then in longer runs, which cost less.
       if (lister_.tasks.size() < patience) continue;
       patience = std::min(2 * patience, longest_run);
@@ -164,16 +160,22 @@ class Wide {
         run(mine, theirs, other.placement_, table, into, between, decide, collector, counts);
       };
       lister_.across(mine, u, placement_, theirs, other.placement_, into, thresholds_.margin(), options.moved_only,
-                     counts, [&] {
-                       if (lister_.tasks.size() >= longest_list) run_listed();
-                       return !collector.done();
-                     });
+                     counts, relief(run_listed, collector));
       run_listed();
     }
     add(options.counts, counts);
   }
 
  private:
+  /// What listers call on the way.
+  template <class Run, Collector C>
+  auto relief(const Run& run_listed, const C& collector) {
+    return [&] {
+      if (lister_.tasks.size() >= longest_list) run_listed();
+      return !collector.done();
+    };
+  }
+
   template <Collector C>
   static auto self_judge(C& collector, const SelfRules<P, F, D>& rules) {
     const auto in_order = [](PrimitiveId i, PrimitiveId j, const auto& say) { return j < i ? say(j, i) : say(i, j); };
@@ -195,8 +197,7 @@ class Wide {
   /// Are collisions asked for of primitives that have no body and no threshold above 0?
   template <Collector C>
   bool never_collides(const C& collector, const QueryOptions& options) const noexcept {
-    return all_idle_ && !C::ranks && collector.cutoff() == 0.0 && options.clearance.empty() &&
-           options.other_clearance.empty();
+    return all_idle_ && asks_collisions(collector) && !options.adds_clearance();
   }
 
   /// Are the trees up to the present coordinates? They cannot hold groups that deform.
