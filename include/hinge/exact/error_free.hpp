@@ -17,6 +17,11 @@ static_assert(FLT_EVAL_METHOD == 0, "every operation has to round to double");
 /// Half an ulp of 1: the largest relative error of one rounding to nearest.
 inline constexpr double half_ulp = 0x1p-53;
 
+/// What a sum of three squares may lose to underflow, at most; nothing to sums above it.
+inline constexpr double lost_squares = 0x1p-900;
+/// No sum of squares up to here has overflowed on the way.
+inline constexpr double largest_square = 0x1p1000;
+
 /// value + rest, exactly; value is that sum rounded to nearest.
 struct Exactly {
   double value = 0.0;

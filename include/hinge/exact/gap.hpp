@@ -44,14 +44,9 @@ inline Scaled squared_gap(const Integer& numerator, const Integer& denominator, 
   const Integer excess = numerator - reach * reach * denominator;
   if (excess.sign() <= 0) return {};
   const Scaled below = denominator.scaled();
-  Scaled length = numerator.scaled() / below;
-  if (reach.sign() == 0) return length;
-  if (length.exponent % 2 != 0) {
-    length.mantissa *= 2.0;
-    --length.exponent;
-  }
-  length.mantissa = std::sqrt(length.mantissa);
-  length.exponent /= 2;
+  const Scaled squared = numerator.scaled() / below;
+  if (reach.sign() == 0) return squared;
+  const Scaled length = sqrt(squared);
   const Scaled other = reach.scaled();  // below the length
   Scaled sum = length;
   sum.mantissa += std::ldexp(other.mantissa, std::max(other.exponent - length.exponent, -2000));

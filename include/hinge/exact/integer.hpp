@@ -30,6 +30,11 @@ struct Scaled {
     s.exponent += a.exponent - b.exponent;
     return s;
   }
+  /// For numbers >= 0, rounded once.
+  friend Scaled sqrt(const Scaled& a) noexcept {
+    const int odd = a.exponent & 1;  // made even, the exponent can be halved
+    return {std::sqrt(std::ldexp(a.mantissa, odd)), (a.exponent - odd) / 2};
+  }
   /// For numbers >= 0.
   friend bool operator<(const Scaled& a, const Scaled& b) noexcept {
     if (a.mantissa == 0.0 || b.mantissa == 0.0 || a.exponent == b.exponent) return a.mantissa < b.mantissa;
@@ -131,6 +136,10 @@ class Integer {
     return a.negative_ ? order > 0 : order < 0;
   }
   friend bool operator<=(const Integer& a, const Integer& b) noexcept { return !(b < a); }
+  /// part / of for of != 0, rounded.
+  friend double ratio(const Integer& part, const Integer& of) noexcept {
+    return part.sign() == 0 ? 0.0 : (part.scaled() / of.scaled()).value();
+  }
 
  private:
   __extension__ using Wide = unsigned __int128;

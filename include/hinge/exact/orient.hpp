@@ -30,7 +30,7 @@ inline int common_unit(std::span<const Vec3> points, int unit = no_unit) noexcep
 }
 
 /// a - b in units of 2^unit.
-inline WholePoint whole_difference(const Vec3& a, const Vec3& b, int unit) noexcept {
+[[gnu::noinline]] inline WholePoint whole_difference(const Vec3& a, const Vec3& b, int unit) noexcept {
   return {Integer::of(a[0], unit) - Integer::of(b[0], unit), Integer::of(a[1], unit) - Integer::of(b[1], unit),
           Integer::of(a[2], unit) - Integer::of(b[2], unit)};
 }
@@ -39,12 +39,18 @@ inline WholePoint operator-(const WholePoint& a, const WholePoint& b) noexcept {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-inline Integer dot(const WholePoint& a, const WholePoint& b) noexcept {
+[[gnu::noinline]] inline Integer dot(const WholePoint& a, const WholePoint& b) noexcept {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-inline WholePoint cross(const WholePoint& a, const WholePoint& b) noexcept {
+[[gnu::noinline]] inline WholePoint cross(const WholePoint& a, const WholePoint& b) noexcept {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// (a x b) . c. Out of line, like what follows: whole numbers take 1.6 KiB each, and a caller has no use for those in
+/// between.
+[[gnu::noinline]] inline Integer triple(const WholePoint& a, const WholePoint& b, const WholePoint& c) noexcept {
+  return dot(cross(a, b), c);
 }
 
 /// The last rung: whole numbers. Measured faster than expansions (0.24 against 0.33 us) and without their limits on

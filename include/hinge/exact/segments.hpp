@@ -19,11 +19,9 @@ namespace hinge::exact {
 class WholeSegments {
  public:
   WholeSegments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Reach& reach) noexcept
-      : counts_touching_(reach.counts_touching()) {
-    const std::array<Vec3, 4> points{a, b, c, d};
-    unit_ = reach.unit(common_unit(points));
+      : ends_{{{a, b}, {c, d}}}, counts_touching_(reach.counts_touching()) {
+    unit_ = reach.unit(common_unit(ends_[0], common_unit(ends_[1])));
     if (unit_ == no_unit) unit_ = 0;
-    for (std::size_t k = 0; k < 4; ++k) ends_[k / 2][k % 2] = whole_difference(points[k], a, unit_);
     reach_ = reach.whole(unit_);
   }
 
@@ -63,60 +61,65 @@ class WholeSegments {
   }
 
  private:
-  static double share(const Integer& part, const Integer& of) noexcept {
-    return part.sign() == 0 ? 0.0 : (part.scaled() / of.scaled()).value();
-  }
+  WholePoint between(const Vec3& from, const Vec3& to) const noexcept { return whole_difference(to, from, unit_); }
 
   /// f(numerator, denominator, places) for every place; places(Nearest&) writes the shares. f ends it with true.
   template <class Visitor>
   void visit(const Visitor& f) const noexcept {
-    const Integer one = Integer::of(1.0, 0);
-    for (std::size_t k = 0; k < 2; ++k)
-      for (std::size_t l = 0; l < 2; ++l) {
-        const WholePoint w = ends_[1][l] - ends_[0][k];
-        const auto places = [&](Nearest& n) noexcept {
-          n.s = static_cast<double>(k);
-          n.t = static_cast<double>(l);
-        };
-        if (f(dot(w, w), one, places)) return;
-      }
+    if (two_ends(f)) return;
     for (std::size_t side = 0; side < 2; ++side)
       for (std::size_t k = 0; k < 2; ++k)
         if (inside_of_other(f, side, k)) return;
     insides(f);
   }
 
+  template <class Visitor>
+  [[gnu::noinline]] bool two_ends(const Visitor& f) const noexcept {
+    const Integer one = Integer::of(1.0, 0);
+    for (std::size_t k = 0; k < 2; ++k)
+      for (std::size_t l = 0; l < 2; ++l) {
+        const WholePoint w = between(ends_[0][k], ends_[1][l]);
+        const auto places = [&](Nearest& n) noexcept {
+          n.s = static_cast<double>(k);
+          n.t = static_cast<double>(l);
+        };
+        if (f(dot(w, w), one, places)) return true;
+      }
+    return false;
+  }
+
   /// End k of a segment and the inside of the other: |w x u|^2 / u^2.
   template <class Visitor>
-  bool inside_of_other(const Visitor& f, std::size_t side, std::size_t k) const noexcept {
+  [[gnu::noinline]] bool inside_of_other(const Visitor& f, std::size_t side, std::size_t k) const noexcept {
     const auto& other = ends_[1 - side];
-    const WholePoint u = other[1] - other[0], w = ends_[side][k] - other[0];
+    const WholePoint u = between(other[0], other[1]), w = between(other[0], ends_[side][k]);
     const Integer along = dot(w, u), square = dot(u, u);
     if (along.sign() <= 0 || square <= along) return false;
     const WholePoint across = cross(w, u);
     return f(dot(across, across), square, [&](Nearest& n) noexcept {
       (side == 0 ? n.s : n.t) = static_cast<double>(k);
-      (side == 0 ? n.t : n.s) = share(along, square);
+      (side == 0 ? n.t : n.s) = ratio(along, square);
     });
   }
 
   /// (w . n)^2 / n^2, n the common normal, where its feet are inside both.
   template <class Visitor>
-  void insides(const Visitor& f) const noexcept {
-    const WholePoint u = ends_[0][1] - ends_[0][0], v = ends_[1][1] - ends_[1][0], w = ends_[1][0] - ends_[0][0];
+  [[gnu::noinline]] void insides(const Visitor& f) const noexcept {
+    const WholePoint u = between(ends_[0][0], ends_[0][1]), v = between(ends_[1][0], ends_[1][1]);
+    const WholePoint w = between(ends_[0][0], ends_[1][0]);
     const WholePoint normal = cross(u, v);
     const Integer square = dot(normal, normal);
     if (square.sign() == 0) return;
-    const Integer s = dot(cross(w, v), normal), t = dot(cross(w, u), normal);
+    const Integer s = triple(w, v, normal), t = triple(w, u, normal);
     if (s.sign() < 0 || t.sign() < 0 || square < s || square < t) return;
     const Integer height = dot(w, normal);
     f(height * height, square, [&](Nearest& n) noexcept {
-      n.s = share(s, square);
-      n.t = share(t, square);
+      n.s = ratio(s, square);
+      n.t = ratio(t, square);
     });
   }
 
-  std::array<std::array<WholePoint, 2>, 2> ends_;  // from a, in units of 2^unit_
+  std::array<std::array<Vec3, 2>, 2> ends_;  // by segment
   int unit_ = 0;
   Integer reach_;
   bool counts_touching_ = false;

@@ -17,9 +17,9 @@
 
 namespace hinge {
 
-/// What engines hold of sixteen placed primitives; a view on `floats` numbers. The one for any primitive keeps their
-/// boxes, so that a squared distance is bounded by the squared gap of boxes. A specialisation for a primitive that has
-/// a better kernel offers the same members and, where the primitive keeps its shape under a rotation of its
+/// What engines hold of sixteen placed primitives; a view on `floats` coordinates. The one for any primitive keeps
+/// their boxes, so that a squared distance is bounded by the squared gap of boxes. A specialisation for a primitive
+/// that has a better kernel offers the same members and, where the primitive keeps its shape under a rotation of its
 /// coordinates, `turn`.
 template <Primitive P>
 struct Batch {
@@ -128,7 +128,7 @@ struct Batch<Point> {
   [[gnu::always_inline]] static FloatBox place(float* at, const Point* local, const std::uint32_t* group,
                                                std::span<const Frame> frames, const Vec3& origin,
                                                double scale) noexcept {
-    using Float4 = simd::Lanes<float, 4>;
+    using simd::Float4;
     const simd::Double4 o = simd::Double4::of(origin[0], origin[1], origin[2], 0.0), s(scale);
     Float4 lower(std::numeric_limits<float>::infinity()), upper(-std::numeric_limits<float>::infinity());
     for (std::size_t k = 0; k < simd::width; ++k) {

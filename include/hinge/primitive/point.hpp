@@ -27,17 +27,16 @@ struct Point {
   /// lost digits.
   friend double squared_distance(const Point& p, const Point& q) noexcept {
     const double squared = squared_norm(Vec3(p.position - q.position));
-    if (squared >= lost) [[likely]]
+    if (squared >= exact::lost_squares) [[likely]]
       return squared;
     return exact::squared_gap_of_balls(p.position, q.position, {});
   }
 
   /// Right to 4 half ulps, whatever the size; 0 exactly when the points coincide.
   friend double distance(const Point& p, const Point& q) noexcept {
-    constexpr double smallest = 0x1p-900, largest = 0x1p1000;  // between them squares have all their digits
     const Vec3 d = p.position - q.position;
     const double squared = squared_norm(d);
-    if (squared >= smallest && squared <= largest) [[likely]]
+    if (squared >= exact::lost_squares && squared <= exact::largest_square) [[likely]]
       return std::sqrt(squared);
     int exponent = 0;
     std::frexp(std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])}), &exponent);
@@ -54,8 +53,8 @@ struct Point {
     // is infinite is below nothing.
     constexpr double band = 1.0 + 8 * exact::half_ulp;
     const double square = m * m, squared = squared_norm(Vec3(p.position - q.position));
-    if (square * band + lost < squared) return false;
-    if (squared * band + lost < square) return true;
+    if (square * band + exact::lost_squares < squared) return false;
+    if (squared * band + exact::lost_squares < square) return true;
     return exact::points_closer_than(p.position, q.position, m);
   }
 
@@ -70,9 +69,6 @@ struct Point {
     const double off = 16 * 0x1p-53 * size;
     return squared_norm(cross(Vec3(position - axis_point), axis)) <= off * off;
   }
-
- private:
-  static constexpr double lost = 0x1p-900;  // of a sum of squares to underflow, at most, and nothing to larger sums
 };
 
 static_assert(HasClosestPoints<Point> && HasAxisInvariance<Point>);

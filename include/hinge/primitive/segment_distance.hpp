@@ -77,11 +77,10 @@ class SegmentPair {
 
 /// Nearest points of the lines, brought onto the segments one after the other (Lumelsky 1985).
 inline SegmentPair::Nearest SegmentPair::nearest() const noexcept {
-  constexpr double smallest_square = 0x1p-900;  // of a direction's length: below, it has lost its digits
   // Triple products keep their digits where uu vv - uv^2 cancels.
   const Vec3 w = y_.end[0] - x_.end[0], normal = cross(x_.way, y_.way);
   const double square = squared_norm(normal);
-  const double start = square > smallest_square ? clamped(dot(cross(w, y_.way), normal) / square) : 0.0;
+  const double start = square > exact::lost_squares ? clamped(dot(cross(w, y_.way), normal) / square) : 0.0;
   const double t = y_.foot(Vec3(x_.end[0] + x_.way * start));
   const double s = x_.foot(Vec3(y_.end[0] + y_.way * t));
 
@@ -99,7 +98,7 @@ inline SegmentPair::Nearest SegmentPair::nearest() const noexcept {
   else if (inside_y)
     direction -= y_.way * (dot(direction, y_.way) * y_.inverse);
   const double length = squared_norm(direction);
-  n.gap = length > smallest_square ? gap_times_norm(direction) / std::sqrt(length) : 0.0;
+  n.gap = length > exact::lost_squares ? gap_times_norm(direction) / std::sqrt(length) : 0.0;
   return n;
 }
 

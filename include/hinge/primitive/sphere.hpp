@@ -46,7 +46,7 @@ struct Sphere {
     // Half ulps: of the larger, 4 for the root of squares, 1 for the sum, 1 for the difference.
     constexpr double band = 16 * exact::half_ulp;
     const double touch = p.radius + q.radius, squared = squared_norm(Vec3(p.center - q.center));
-    if (squared >= lost && squared <= large) [[likely]] {
+    if (squared >= exact::lost_squares && squared <= exact::largest_square) [[likely]] {
       const double apart = std::sqrt(squared), gap = apart - touch;
       if (gap > band * apart) return gap * gap;
       if (gap < -band * touch) return 0.0;
@@ -61,8 +61,8 @@ struct Sphere {
     constexpr double band = 1.0 + 16 * exact::half_ulp;
     const double near = p.radius + q.radius + m, square = near * near;
     const double squared = squared_norm(Vec3(p.center - q.center));
-    if (square * band + lost < squared) return false;
-    if (squared * band + lost < square) return true;
+    if (square * band + exact::lost_squares < squared) return false;
+    if (squared * band + exact::lost_squares < square) return true;
     return exact::balls_closer_than(p.center, q.center, {p.radius, q.radius, m});
   }
 
@@ -79,10 +79,6 @@ struct Sphere {
     if (closer_than(p, q, 0.0)) return {on_p, on_p};
     return {on_p, q.center - direction * q.radius};
   }
-
- private:
-  static constexpr double lost = 0x1p-900;   // of a sum of squares to underflow, at most, and nothing to larger sums
-  static constexpr double large = 0x1p1000;  // no sum of squares up to here has overflowed
 };
 
 static_assert(HasClosestPoints<Sphere> && HasAxisInvariance<Sphere>);

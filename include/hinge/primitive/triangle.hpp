@@ -10,6 +10,7 @@
 #include "hinge/core/finite.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/core/vec3.hpp"
+#include "hinge/exact/error_free.hpp"
 #include "hinge/policy/primitive.hpp"
 #include "hinge/primitive/triangle_corners.hpp"
 #include "hinge/primitive/triangle_distance.hpp"
@@ -46,9 +47,9 @@ struct Triangle {
 
   /// As squared_distance says, but right whatever the size. Positive where they are apart.
   friend double distance(const Triangle& p, const Triangle& q) noexcept {
-    constexpr double smallest = 0x1p-900, largest = 0x1p1000;  // between them squares have all their digits
     const double squared = squared_distance(p, q);
-    if ((squared >= smallest && squared <= largest) || squared == 0.0) return std::sqrt(squared);
+    if ((squared >= exact::lost_squares && squared <= exact::largest_square) || squared == 0.0)
+      return std::sqrt(squared);
     return std::max(detail::nearest_in_integers(p.corners(), q.corners()).distance, 0x1p-1074);
   }
 

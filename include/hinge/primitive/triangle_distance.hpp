@@ -104,11 +104,9 @@ class TrianglePair {
     return std::max(y_low - x_high, x_low - y_high);
   }
 
-  static constexpr double smallest_square = 0x1p-900;  // of a direction's length: below, it has lost its digits
-
   bool apart_along(const Vec3& n, double m) const noexcept {
     const double square = squared_norm(n), gap = gap_times_norm(n);
-    if (!(gap > 0.0) || !(square > smallest_square)) return false;
+    if (!(gap > 0.0) || !(square > exact::lost_squares)) return false;
     const double d = gap / std::sqrt(square);
     return d - rounding(d) >= m;
   }
@@ -134,7 +132,7 @@ class TrianglePair {
   static double to_face(const Side& t, const Vec3& p) noexcept {
     const Vec3 w = p - t.corner[0];
     const double s = dot(w, t.to_first), r = dot(w, t.to_second), height = dot(w, t.normal);
-    const bool inside = s >= 0.0 && r >= 0.0 && s + r <= t.normal_square && t.normal_square > smallest_square;
+    const bool inside = s >= 0.0 && r >= 0.0 && s + r <= t.normal_square && t.normal_square > exact::lost_squares;
     return inside ? height * height / t.normal_square : std::numeric_limits<double>::infinity();
   }
 
@@ -197,7 +195,7 @@ inline TrianglePair::Nearest TrianglePair::nearest() const noexcept {
   n.squared = squared_norm(Vec3(n.p - n.q));
   n.distance = std::sqrt(n.squared);
   const double square = squared_norm(direction);
-  n.gap = square > smallest_square ? gap_times_norm(direction) / std::sqrt(square) : 0.0;
+  n.gap = square > exact::lost_squares ? gap_times_norm(direction) / std::sqrt(square) : 0.0;
   return n;
 }
 

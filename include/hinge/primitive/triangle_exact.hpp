@@ -8,9 +8,11 @@
 #include <cstddef>
 
 #include "hinge/core/vec3.hpp"
+#include "hinge/exact/gap.hpp"
 #include "hinge/exact/integer.hpp"
 #include "hinge/exact/orient.hpp"
 #include "hinge/primitive/triangle_corners.hpp"
+#include "hinge/primitive/triangle_intersection.hpp"
 
 namespace hinge::detail {
 
@@ -24,9 +26,6 @@ class ExactTriangles {
   ExactTriangles(const Corners& x, const Corners& y, double m = 0.0) noexcept : corners_{x, y} {
     unit_ = exact::common_unit(x, exact::common_unit(y, exact::unit_exponent(m, exact::no_unit)));
     if (unit_ == exact::no_unit) unit_ = 0;
-    for (std::size_t side = 0; side < 2; ++side)
-      for (std::size_t k = 0; k < 3; ++k)
-        points_[side][k] = exact::whole_difference(corners_[side][k], corners_[0][0], unit_);
     m_ = Integer::of(m, unit_);
   }
 
@@ -48,7 +47,6 @@ class ExactTriangles {
   };
 
   Nearest nearest() const noexcept {
-    constexpr double smallest = 0x1p-1074;
     exact::Scaled least;
     Nearest best;
     bool first = true;
@@ -60,13 +58,9 @@ class ExactTriangles {
       places(best);
       return numerator.sign() == 0;
     });
-    if (least.mantissa == 0.0)
-      best.q = best.p;
-    else
-      best.squared = std::max(least.value(2 * unit_), smallest);
-    // The exponent made even before the root halves it.
-    const int odd = least.exponent & 1;
-    best.distance = std::ldexp(std::sqrt(std::ldexp(least.mantissa, odd)), (least.exponent - odd) / 2 + unit_);
+    if (least.mantissa == 0.0) best.q = best.p;
+    best.squared = exact::to_double(least, unit_);
+    best.distance = sqrt(least).value(unit_);
     return best;
   }
 
@@ -74,9 +68,7 @@ class ExactTriangles {
   using Integer = exact::Integer;
   using Whole = exact::WholePoint;
 
-  static double share(const Integer& part, const Integer& of) noexcept {
-    return part.sign() == 0 ? 0.0 : (part.scaled() / of.scaled()).value();
-  }
+  Whole between(const Vec3& from, const Vec3& to) const noexcept { return exact::whole_difference(to, from, unit_); }
 
   /// f(numerator, denominator, places) for every place; places(Nearest&) writes the two points. f ends it with true.
   template <class Visitor>
@@ -89,11 +81,11 @@ class ExactTriangles {
   }
 
   template <class Visitor>
-  bool corner_pairs(const Visitor& f) const noexcept {
+  [[gnu::noinline]] bool corner_pairs(const Visitor& f) const noexcept {
     const Integer one = Integer::of(1.0, 0);
     for (std::size_t k = 0; k < 3; ++k)
       for (std::size_t l = 0; l < 3; ++l) {
-        const Whole w = points_[1][l] - points_[0][k];
+        const Whole w = between(corners_[0][k], corners_[1][l]);
         if (f(dot(w, w), one, [&](Nearest& n) noexcept { n.p = corners_[0][k], n.q = corners_[1][l]; })) return true;
       }
     return false;
@@ -107,16 +99,16 @@ class ExactTriangles {
 
   /// Corner k of a triangle and the insides of the other's edges: |w x u|^2 / u^2.
   template <class Visitor>
-  bool edges_of_other(const Visitor& f, std::size_t side, std::size_t k) const noexcept {
-    const std::size_t other = 1 - side;
+  [[gnu::noinline]] bool edges_of_other(const Visitor& f, std::size_t side, std::size_t k) const noexcept {
+    const Corners& other = corners_[1 - side];
     for (std::size_t l = 0; l < 3; ++l) {
-      const std::size_t next = (l + 1) % 3;
-      const Whole u = points_[other][next] - points_[other][l], w = points_[side][k] - points_[other][l];
+      const Vec3 &from = other[l], &to = other[(l + 1) % 3];
+      const Whole u = between(from, to), w = between(from, corners_[side][k]);
       const Integer along = dot(w, u), square = dot(u, u);
       if (along.sign() <= 0 || square <= along) continue;
       const Whole across = cross(w, u);
       const auto places = [&](Nearest& n) noexcept {
-        put(n, side, corners_[side][k], on_edge(corners_[other][l], corners_[other][next], share(along, square)));
+        put(n, side, corners_[side][k], on_edge(from, to, ratio(along, square)));
       };
       if (f(dot(across, across), square, places)) return true;
     }
@@ -125,62 +117,58 @@ class ExactTriangles {
 
   /// Corner k and the other's face: (w . n)^2 / n^2 where the foot, at (s, t) n^2 along the edges, is inside.
   template <class Visitor>
-  bool face_of_other(const Visitor& f, std::size_t side, std::size_t k) const noexcept {
-    const std::size_t other = 1 - side;
-    const auto& [a, b, c] = points_[other];
-    const Whole u = b - a, v = c - a, w = points_[side][k] - a, normal = cross(u, v);
-    const Integer square = dot(normal, normal), s = dot(cross(w, v), normal), t = dot(cross(u, w), normal);
+  [[gnu::noinline]] bool face_of_other(const Visitor& f, std::size_t side, std::size_t k) const noexcept {
+    const Corners& other = corners_[1 - side];
+    const Whole u = between(other[0], other[1]), v = between(other[0], other[2]);
+    const Whole w = between(other[0], corners_[side][k]), normal = cross(u, v);
+    const Integer square = dot(normal, normal), s = triple(w, v, normal), t = triple(u, w, normal);
     if (square.sign() == 0 || s.sign() < 0 || t.sign() < 0 || square < s + t) return false;
     const Integer height = dot(w, normal);
     return f(height * height, square, [&](Nearest& n) noexcept {
-      put(n, side, corners_[side][k], on_face(corners_[other], share(s, square), share(t, square)));
+      put(n, side, corners_[side][k], on_face(other, ratio(s, square), ratio(t, square)));
     });
   }
 
   /// The edge that starts at corner k, through the other's face.
   template <class Visitor>
-  bool through_other(const Visitor& f, std::size_t side, std::size_t k) const noexcept {
-    const auto& [a, b, c] = points_[1 - side];
-    const Whole &p = points_[side][k], &q = points_[side][(k + 1) % 3], normal = cross(b - a, c - a);
-    const Integer from = dot(p - a, normal), to = dot(q - a, normal);
-    if (from.sign() * to.sign() >= 0) return false;
-    const Whole along = q - p, pa = a - p, pb = b - p, pc = c - p;
-    if (!same_side(dot(cross(pa, pb), along).sign(), dot(cross(pb, pc), along).sign(),
-                   dot(cross(pc, pa), along).sign()))
-      return false;
-    return f(Integer(), Integer::of(1.0, 0), [&](Nearest& n) noexcept {
-      n.p = n.q = on_edge(corners_[side][k], corners_[side][(k + 1) % 3], share(from, from - to));
-    });
+  [[gnu::noinline]] bool through_other(const Visitor& f, std::size_t side, std::size_t k) const noexcept {
+    const auto& [a, b, c] = corners_[1 - side];
+    const Vec3 &p = corners_[side][k], &q = corners_[side][(k + 1) % 3];
+    if (exact::orient3d(p, b, c, a) * exact::orient3d(q, b, c, a) >= 0) return false;
+    if (!pierces(p, q, corners_[1 - side])) return false;
+    const Whole normal = cross(between(a, b), between(a, c));
+    const Integer from = dot(between(a, p), normal), to = dot(between(a, q), normal);
+    return f(Integer(), Integer::of(1.0, 0),
+             [&](Nearest& n) noexcept { n.p = n.q = on_edge(p, q, ratio(from, from - to)); });
   }
 
   /// The insides of two edges: (w . n)^2 / n^2, n their common normal, where its feet s and t are inside both.
   template <class Visitor>
-  void edge_pairs(const Visitor& f) const noexcept {
+  [[gnu::noinline]] void edge_pairs(const Visitor& f) const noexcept {
     for (std::size_t k = 0; k < 3; ++k)
       for (std::size_t l = 0; l < 3; ++l) {
-        const std::size_t k1 = (k + 1) % 3, l1 = (l + 1) % 3;
-        const Whole u = points_[0][k1] - points_[0][k], v = points_[1][l1] - points_[1][l];
-        const Whole w = points_[1][l] - points_[0][k], normal = cross(u, v);
+        const Vec3 &a = corners_[0][k], &b = corners_[0][(k + 1) % 3];
+        const Vec3 &c = corners_[1][l], &d = corners_[1][(l + 1) % 3];
+        const Whole u = between(a, b), v = between(c, d), w = between(a, c), normal = cross(u, v);
         const Integer square = dot(normal, normal);
         if (square.sign() == 0) continue;
-        const Integer s = dot(cross(w, v), normal), t = dot(cross(w, u), normal);
+        const Integer s = triple(w, v, normal), t = triple(w, u, normal);
         if (s.sign() < 0 || t.sign() < 0 || square < s || square < t) continue;
         const Integer height = dot(w, normal);
         const auto places = [&](Nearest& n) noexcept {
-          n.p = on_edge(corners_[0][k], corners_[0][k1], share(s, square));
-          n.q = on_edge(corners_[1][l], corners_[1][l1], share(t, square));
+          n.p = on_edge(a, b, ratio(s, square));
+          n.q = on_edge(c, d, ratio(t, square));
         };
         if (f(height * height, square, places)) return;
       }
   }
 
   std::array<Corners, 2> corners_;
-  std::array<std::array<Whole, 3>, 2> points_;  // from the first corner, in units of 2^unit_
   int unit_ = 0;
   Integer m_;
 };
 
-// Out of line: whole numbers take some 40 KiB of stack, which nobody else should have on theirs, or twice.
+// Out of line: frames of whole numbers are large, and a caller that seldom gets here should not have them in its own.
 
 [[gnu::cold, gnu::noinline]] inline ExactTriangles::Nearest nearest_in_integers(const Corners& x,
                                                                                 const Corners& y) noexcept {
