@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "extremes/refusal.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/robotics/robot_checker.hpp"
 #include "hinge/robotics/tessellate.hpp"
@@ -27,16 +28,6 @@ constexpr std::uint64_t seed = 90210;
 using Key = std::tuple<std::optional<BodyId>, LinkId, BodyId>;
 
 const double nan = std::numeric_limits<double>::quiet_NaN();
-
-template <class Call>
-std::string refusal(const Call& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
 
 std::shared_ptr<const TriangleMesh> cube(double size) {
   return std::make_shared<const TriangleMesh>(TriangleMesh{tessellate(BoxShape{Vec3::Constant(size)}).triangles});
@@ -270,20 +261,22 @@ TEST(Environment, NeverGivesABodyIdTwice) {
   EXPECT_NE(third, second);
   EXPECT_EQ(environment.bodies(), (std::vector<BodyId>{first, third}));
   EXPECT_EQ(environment.triangle_count(third), 12U);
-  EXPECT_EQ(refusal([&] { environment.remove(second); }), "body 1 was removed");
-  EXPECT_EQ(refusal([&] { environment.set_pose(BodyId{7}, Pose{}); }), "body 7: the environment never had it");
-  EXPECT_EQ(refusal([&] { static_cast<void>(environment.pose(second)); }), "body 1 was removed");
-  EXPECT_EQ(refusal([&] { environment.detach(second); }), "body 1 was removed");
+  EXPECT_EQ(hinge::test::refusal<Error>([&] { environment.remove(second); }), "body 1 was removed");
+  EXPECT_EQ(hinge::test::refusal<Error>([&] { environment.set_pose(BodyId{7}, Pose{}); }),
+            "body 7: the environment never had it");
+  EXPECT_EQ(hinge::test::refusal<Error>([&] { static_cast<void>(environment.pose(second)); }), "body 1 was removed");
+  EXPECT_EQ(hinge::test::refusal<Error>([&] { environment.detach(second); }), "body 1 was removed");
 }
 
 TEST(Environment, RefusesMeshesAndPosesNamingTheBody) {
   Environment environment;
   TriangleMesh mesh = *cube(1.0);
   const auto add = [&](const TriangleMesh& bad, const Pose& pose) {
-    return refusal([&] { environment.add(std::make_shared<const TriangleMesh>(bad), pose, "table"); });
+    return hinge::test::refusal<Error>(
+        [&] { environment.add(std::make_shared<const TriangleMesh>(bad), pose, "table"); });
   };
   EXPECT_EQ(add({}, Pose{}), "body 0 'table': mesh: has no triangles");
-  EXPECT_EQ(refusal([&] { environment.add(nullptr); }), "body 0: mesh: has no triangles");
+  EXPECT_EQ(hinge::test::refusal<Error>([&] { environment.add(nullptr); }), "body 0: mesh: has no triangles");
   Pose bent;
   bent.rotation(0, 0) = 1.1;
   EXPECT_EQ(add(mesh, bent), "body 0 'table': its pose is not a rigid placement (finite, R R^T = 1, det 1)");
@@ -291,7 +284,7 @@ TEST(Environment, RefusesMeshesAndPosesNamingTheBody) {
   EXPECT_EQ(add(mesh, Pose{}), "body 0 'table': mesh: triangle 3 has a vertex that is not finite");
   EXPECT_EQ(environment.size(), 0U);
   const BodyId body = environment.add(cube(1.0), at(3), "table");
-  EXPECT_EQ(refusal([&] { environment.set_pose(body, bent); }),
+  EXPECT_EQ(hinge::test::refusal<Error>([&] { environment.set_pose(body, bent); }),
             "body 0 'table': its pose is not a rigid placement (finite, R R^T = 1, det 1)");
   EXPECT_THROW(environment.set_pose(body, at(nan)), ConfigurationError);
   EXPECT_EQ(environment.pose(body), at(3));
@@ -301,17 +294,17 @@ TEST(Environment, RefusesLinksThatAreNone) {
   const auto robot = slider();
   Environment environment;
   const BodyId body = environment.add(cube(1.0), at(3), "tool");
-  EXPECT_EQ(refusal([&] { environment.attach(body, robot, id<LinkId>(4), Pose{}); }),
+  EXPECT_EQ(hinge::test::refusal<Error>([&] { environment.attach(body, robot, id<LinkId>(4), Pose{}); }),
             "body 0 'tool': attached to link 4, but robot 'slider' has links 1 to 3");
-  EXPECT_NE(refusal([&] { environment.attach(body, robot, world, Pose{}); }), "");
-  EXPECT_EQ(
-      refusal([&] { environment.attach(body, robot, id<LinkId>(2), Pose{}, std::vector<LinkId>{id<LinkId>(9)}); }),
-      "body 0 'tool': may touch link 9, but robot 'slider' has links 1 to 3");
-  EXPECT_NE(refusal([&] { environment.attach(body, nullptr, id<LinkId>(1), Pose{}); }), "");
+  EXPECT_NE(hinge::test::refusal<Error>([&] { environment.attach(body, robot, world, Pose{}); }), "");
+  EXPECT_EQ(hinge::test::refusal<Error>(
+                [&] { environment.attach(body, robot, id<LinkId>(2), Pose{}, std::vector<LinkId>{id<LinkId>(9)}); }),
+            "body 0 'tool': may touch link 9, but robot 'slider' has links 1 to 3");
+  EXPECT_NE(hinge::test::refusal<Error>([&] { environment.attach(body, nullptr, id<LinkId>(1), Pose{}); }), "");
   EXPECT_THROW(environment.attach(body, robot, id<LinkId>(2), at(nan)), ConfigurationError);
   EXPECT_FALSE(environment.attached_to(body).has_value());
   environment.attach(body, robot, *robot->find_link("hand"), Pose{});
-  EXPECT_EQ(refusal([&] { environment.set_pose(body, Pose{}); }),
+  EXPECT_EQ(hinge::test::refusal<Error>([&] { environment.set_pose(body, Pose{}); }),
             "body 0 'tool' hangs on link 'hand' of robot 'slider': expected it to be detached first");
 }
 
@@ -321,7 +314,7 @@ TEST(Environment, RefusesClearancesEnginesAndMargins) {
   EXPECT_THROW(Environment(0.0, "fast"), ModelError);
   Environment lazy(0.0, "lazy");
   RobotChecker checker = checker_of(slider());
-  EXPECT_EQ(refusal([&] { checker.collides(lazy); }),
+  EXPECT_EQ(hinge::test::refusal<Error>([&] { checker.collides(lazy); }),
             "the environment was made for engine 'lazy', the robot uses 'wide'");
   Environment environment;
   EXPECT_THROW(checker.within(environment, nan), ConfigurationError);

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "extremes/refusal.hpp"
 #include "hinge/core/error.hpp"
 #include "robotics/random_robot.hpp"
 #include "robotics/robots.hpp"
@@ -23,16 +24,6 @@ constexpr std::uint64_t seed = 7781;
 using Pairs = std::set<std::pair<LinkId, LinkId>>;
 
 const double nan = std::numeric_limits<double>::quiet_NaN();
-
-template <class Call>
-std::string refusal(const Call& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
 
 Pairs pairs_of(const std::vector<LinkContact>& contacts) {
   Pairs pairs;
@@ -293,19 +284,19 @@ TEST(RobotChecker, KeepsItsStateWhenAConfigurationIsRefused) {
     RobotChecker checker = slider_checker(slider());
     if (is_free) checker.set_base(Pose{Mat3::Identity(), Vec3(0, 0, 1)});
     checker.update(std::vector<double>{0.0, 3.0});
-    EXPECT_EQ(refusal([&] { checker.update(std::vector<double>{0.0}); }),
+    EXPECT_EQ(hinge::test::refusal<Error>([&] { checker.update(std::vector<double>{0.0}); }),
               "configuration has 1 values, expected 2, one for each independent joint");
-    EXPECT_EQ(refusal([&] {
+    EXPECT_EQ(hinge::test::refusal<Error>([&] {
                 checker.update(std::vector<double>{0.0, nan});
               }),
               "joint 'slide' is nan, expected a finite number");
-    EXPECT_TRUE(refusal([&] {
+    EXPECT_TRUE(hinge::test::refusal<Error>([&] {
                   checker.update(std::vector<double>{0.0, 1e301});
                 }).starts_with("joint 'slide' comes to"));
     EXPECT_THROW(checker.update(std::vector<double>{0.0, nan}), ConfigurationError);
     Pose bad = checker.base();
     bad.rotation *= 1.01;
-    EXPECT_EQ(refusal([&] { checker.set_base(bad); }),
+    EXPECT_EQ(hinge::test::refusal<Error>([&] { checker.set_base(bad); }),
               "base of robot 'slider': not a rigid placement (finite, R R^T = 1, det 1)");
     EXPECT_THROW(checker.set_base(Pose{Mat3::Identity(), Vec3(nan, 0, 0)}), ConfigurationError);
     EXPECT_EQ(checker.closest()->distance, 2.0);
@@ -316,22 +307,22 @@ TEST(RobotChecker, KeepsItsStateWhenAConfigurationIsRefused) {
 TEST(RobotChecker, RefusesWhatDoesNotBelongTogether) {
   const auto robot = random_robot(0), other = random_robot(1, 5);
   const auto make = [&](const LinkPairs& pairs, const LinkMargins& margins, const std::string& engine) {
-    return refusal([&] { const RobotChecker checker(robot, pairs, margins, {engine}); });
+    return hinge::test::refusal<Error>([&] { const RobotChecker checker(robot, pairs, margins, {engine}); });
   };
   EXPECT_EQ(make(tested_pairs(*robot), LinkMargins(*robot), "wide"), "");
   EXPECT_EQ(make(tested_pairs(*robot), LinkMargins(*robot), "fast"), "engine 'fast': expected wide, lazy or brute");
   EXPECT_NE(make(tested_pairs(*other), LinkMargins(*robot), "wide"), "");
   EXPECT_NE(make(tested_pairs(*robot), LinkMargins(*other), "wide"), "");
-  EXPECT_EQ(refusal([&] { RobotChecker(nullptr, LinkPairs(3), LinkMargins(*robot)); }),
+  EXPECT_EQ(hinge::test::refusal<Error>([&] { RobotChecker(nullptr, LinkPairs(3), LinkMargins(*robot)); }),
             "robot checker: expected a robot, got none");
 
   RobotChecker checker(robot, tested_pairs(*robot), LinkMargins(*robot));
-  EXPECT_NE(refusal([&] { checker.within(-0.1); }), "");
-  EXPECT_NE(refusal([&] { checker.within(nan); }), "");
-  EXPECT_NE(refusal([&] { checker.link_pose(id<LinkId>(8)); }), "");
-  EXPECT_NE(refusal([&] { checker.collides(checker); }), "");
+  EXPECT_NE(hinge::test::refusal<Error>([&] { checker.within(-0.1); }), "");
+  EXPECT_NE(hinge::test::refusal<Error>([&] { checker.within(nan); }), "");
+  EXPECT_NE(hinge::test::refusal<Error>([&] { checker.link_pose(id<LinkId>(8)); }), "");
+  EXPECT_NE(hinge::test::refusal<Error>([&] { checker.collides(checker); }), "");
   RobotChecker brute(other, tested_pairs(*other), LinkMargins(*other), {"brute"});
-  EXPECT_EQ(refusal([&] { checker.collides(brute); }),
+  EXPECT_EQ(hinge::test::refusal<Error>([&] { checker.collides(brute); }),
             "a query between two models: expected both to use the same engine");
 }
 
