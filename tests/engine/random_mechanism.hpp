@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "hinge/core/id.hpp"
@@ -44,6 +45,8 @@ class Random {
 /// A list of excluded pairs, the general filter.
 class ExcludedPairs {
  public:
+  /// By primitive, each pair in both lists.
+  explicit ExcludedPairs(std::vector<std::vector<PrimitiveId>> lists) : excluded_(std::move(lists)) { sort(); }
   ExcludedPairs(std::size_t n, Random& random, std::size_t one_in) : excluded_(n) {
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < i; ++j)
@@ -51,7 +54,7 @@ class ExcludedPairs {
           excluded_[i].push_back(id<PrimitiveId>(j));
           excluded_[j].push_back(id<PrimitiveId>(i));
         }
-    for (auto& list : excluded_) std::sort(list.begin(), list.end());
+    sort();
   }
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept {
     return !std::binary_search(excluded_[index(i)].begin(), excluded_[index(i)].end(), j);
@@ -60,6 +63,12 @@ class ExcludedPairs {
   std::size_t size() const noexcept { return excluded_.size(); }
 
  private:
+  void sort() {
+    for (auto& list : excluded_) {
+      std::sort(list.begin(), list.end());
+      list.erase(std::unique(list.begin(), list.end()), list.end());
+    }
+  }
   std::vector<std::vector<PrimitiveId>> excluded_;
 };
 

@@ -13,14 +13,11 @@
 #include "engine/random_mechanism.hpp"
 #include "robustness/case.hpp"
 #include "robustness/exact_atoms.hpp"
+#include "robustness/family.hpp"
 
 namespace hinge::test {
 
-struct AtomFamily {
-  const char* name;
-  robustness::Atoms (*make)(Random&);
-  bool refuse = false;
-};
+using AtomFamily = Family<robustness::Atoms>;
 
 /// Each point a group of its own, all of one type.
 inline robustness::Atoms atoms_at(const std::vector<Vec3>& points, double threshold) {

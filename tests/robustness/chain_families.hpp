@@ -12,17 +12,14 @@
 
 #include "engine/random_mechanism.hpp"
 #include "robustness/case.hpp"
+#include "robustness/family.hpp"
 
 namespace hinge::test {
 
 using robustness::Chain;
 using robustness::ChainLink;
 
-struct ChainFamily {
-  const char* name;
-  Chain (*make)(Random&);
-  bool refuse = false;
-};
+using ChainFamily = Family<Chain>;
 
 inline std::vector<double> three(double x, double y, double z) { return {x, y, z}; }
 

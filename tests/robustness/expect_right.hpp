@@ -6,12 +6,15 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <iostream>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "engine/random_mechanism.hpp"
 #include "robustness/case.hpp"
 #include "robustness/judge.hpp"
 #include "robustness/run.hpp"
@@ -55,6 +58,26 @@ inline testing::AssertionResult expect_right(const Case& one) {
       (result = testing::AssertionFailure() << result.message()) << name << ", " << fault << '\n';
   if (!result) result << text(one) << '\n';
   return result;
+}
+
+/// Draws the cases of a family and expects all engines to be right; make(random, case) fills in what is there and what
+/// is true. Ends with the first failure; prints `also()` behind the counts.
+template <class Make, class Also>
+void expect_family(std::uint64_t seed, const std::string& name, const char* kind, const Make& make, const Also& also) {
+  test::Random random(seed);
+  std::size_t hits = 0;
+  for (std::size_t k = 0; k < case_count() && !testing::Test::HasFailure(); ++k) {
+    SCOPED_TRACE("seed " + std::to_string(seed) + ", case " + std::to_string(k));
+    Case one{name, kind, name, {}, to_refuse()};
+    make(random, one);
+    hits += one.truth->hit ? 1 : 0;
+    EXPECT_TRUE(expect_right(one));
+  }
+  std::cout << case_count() << " cases, seed " << seed << ", " << hits << " collide" << also() << '\n';
+}
+template <class Make>
+void expect_family(std::uint64_t seed, const std::string& name, const char* kind, const Make& make) {
+  expect_family(seed, name, kind, make, [] { return ""; });
 }
 
 }  // namespace hinge::robustness

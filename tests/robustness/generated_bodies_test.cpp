@@ -93,51 +93,47 @@ double largest_error(std::span<const Triangle> placed, const std::vector<Triangl
   return static_cast<double>(sqrt(worst));
 }
 
+/// Of the coordinates the library places; checked against 50 digits on the way. Sets `worst`: of the bound.
+Truth truth_of(const MeshPair& pair, double& worst) {
+  ModelBuilder<Triangle> builder;
+  const auto a = triangles_in(pair.a), b = triangles_in(pair.b);
+  const Pose at_a = pose_of(pair.place_a, "a"), at_b = pose_of(pair.place_b, "b");
+  builder.add_link(world, Prismatic{}, a);
+  builder.add_link(world, Prismatic{}, b);
+  auto both = triangles_of<Brute>(builder);
+  both.update_poses(std::array{Pose{}, at_a, at_b});
+  const auto placed_a = both.placed().first(a.size()), placed_b = both.placed().subspan(a.size());
+  for (const double share : {largest_error(placed_a, a, WidePose::of(at_a)) / placed_rounding(pair.a, pair.place_a),
+                             largest_error(placed_b, b, WidePose::of(at_b)) / placed_rounding(pair.b, pair.place_b)})
+    worst = std::max(worst, share);  // of an empty mesh: not a number, which max() passes over
+  test::ExactMeshes exact = test::exact_meshes(placed_a, placed_b);
+  for (std::size_t p = 1; p < exact.pairs.size(); p += 2) exact.pairs[p] += static_cast<std::uint32_t>(a.size());
+  Truth truth;
+  truth.of_placed = true;
+  truth.hit = !exact.pairs.empty();
+  truth.pair_count = exact.pairs.size() / 2;
+  truth.pairs = std::move(exact.pairs);
+  truth.distance = exact.distance;
+  return truth;
+}
+
 class MeshFamilies : public testing::TestWithParam<MeshFamily> {};
 
 TEST_P(MeshFamilies, EqualExactAnswers) {
-  constexpr std::uint64_t seed = 33;
-  Random random(seed);
-  std::size_t hits = 0;
   double worst = 0.0;
-  for (std::size_t k = 0; k < case_count(); ++k) {
-    Case one{GetParam().name, "mesh_pair", GetParam().name, GetParam().make(random), to_refuse()};
-    const auto& pair = std::get<MeshPair>(one.input);
-    if (!GetParam().refuse) {
-      ModelBuilder<Triangle> builder;
-      const auto a = triangles_in(pair.a), b = triangles_in(pair.b);
-      const Pose at_a = pose_of(pair.place_a, "a"), at_b = pose_of(pair.place_b, "b");
-      builder.add_link(world, Prismatic{}, a);
-      builder.add_link(world, Prismatic{}, b);
-      auto both = triangles_of<Brute>(builder);
-      both.update_poses(std::array{Pose{}, at_a, at_b});
-      const auto placed_a = both.placed().first(a.size()), placed_b = both.placed().subspan(a.size());
-      for (const double share :
-           {largest_error(placed_a, a, WidePose::of(at_a)) / placed_rounding(pair.a, pair.place_a),
-            largest_error(placed_b, b, WidePose::of(at_b)) / placed_rounding(pair.b, pair.place_b)})
-        worst = std::max(worst, share);  // of an empty mesh: not a number, which max() passes over
-      test::ExactMeshes exact = test::exact_meshes(placed_a, placed_b);
-      for (std::size_t p = 1; p < exact.pairs.size(); p += 2) exact.pairs[p] += static_cast<std::uint32_t>(a.size());
-      Truth truth;
-      truth.of_placed = true;
-      truth.hit = !exact.pairs.empty();
-      truth.pair_count = exact.pairs.size() / 2;
-      truth.pairs = std::move(exact.pairs);
-      truth.distance = exact.distance;
-      hits += truth.hit ? 1 : 0;
-      one.truth = truth;
-    }
-    ASSERT_LE(worst, 1.0) << "vertices misplaced; seed " << seed << ", case " << k;
-    ASSERT_TRUE(expect_right(one)) << "seed " << seed << ", case " << k;
-  }
-  std::cout << case_count() << " cases, seed " << seed << ", " << hits << " meet; vertices misplaced by up to " << worst
-            << " of the bound\n";
+  const auto make = [&](Random& random, Case& one) {
+    one.input = GetParam().make(random);
+    if (!GetParam().refuse) one.truth = truth_of(std::get<MeshPair>(one.input), worst);
+    EXPECT_LE(worst, 1.0) << "vertices misplaced";
+  };
+  expect_family(33, GetParam().name, "mesh_pair", make,
+                [&] { return "; vertices misplaced by up to " + std::to_string(worst) + " of the bound"; });
 }
 
 INSTANTIATE_TEST_SUITE_P(Generated, MeshFamilies, testing::ValuesIn(test::mesh_families()),
                          [](const auto& family) { return std::string(family.param.name); });
 
-/// Of the coordinates the library places; checked against 50 digits on the way. Sets `worst`: of the bound.
+/// The same of a chain's links.
 Truth truth_of(const Chain& chain, double& worst) {
   auto links = hierarchy_of<Brute>(chain);
   const auto placed = links.placed();
@@ -176,20 +172,15 @@ Truth truth_of(const Chain& chain, double& worst) {
 class ChainFamilies : public testing::TestWithParam<ChainFamily> {};
 
 TEST_P(ChainFamilies, EqualExactAnswers) {
-  constexpr std::uint64_t seed = 34;
-  Random random(seed);
-  std::size_t hits = 0;
   double worst = 0.0;
-  for (std::size_t k = 0; k < case_count(); ++k) {
-    Case one{GetParam().name, "chain", GetParam().name, GetParam().make(random), to_refuse()};
+  const auto make = [&](Random& random, Case& one) {
+    one.input = GetParam().make(random);
     if (!GetParam().refuse) one.truth = truth_of(std::get<Chain>(one.input), worst);
-    hits += one.truth->hit ? 1 : 0;
     // An eighth: more than was ever seen, though less than the bound may be.
-    ASSERT_LE(worst, 0.125) << "links misplaced; seed " << seed << ", case " << k;
-    ASSERT_TRUE(expect_right(one)) << "seed " << seed << ", case " << k;
-  }
-  std::cout << case_count() << " cases, seed " << seed << ", " << hits << " collide; links misplaced by up to " << worst
-            << " of the bound\n";
+    EXPECT_LE(worst, 0.125) << "links misplaced";
+  };
+  expect_family(34, GetParam().name, "chain", make,
+                [&] { return "; links misplaced by up to " + std::to_string(worst) + " of the bound"; });
 }
 
 INSTANTIATE_TEST_SUITE_P(Generated, ChainFamilies, testing::ValuesIn(test::chain_families()),

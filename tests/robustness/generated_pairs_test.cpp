@@ -29,16 +29,10 @@ using test::TriangleFamily;
 class AtomFamilies : public testing::TestWithParam<AtomFamily> {};
 
 TEST_P(AtomFamilies, EqualExactAnswers) {
-  constexpr std::uint64_t seed = 31;
-  Random random(seed);
-  std::size_t hits = 0;
-  for (std::size_t k = 0; k < case_count(); ++k) {
-    Case one{GetParam().name, "atoms", GetParam().name, GetParam().make(random), {}};
-    one.truth = GetParam().refuse ? to_refuse() : test::exact_truth(std::get<Atoms>(one.input));
-    hits += one.truth->hit ? 1 : 0;
-    ASSERT_TRUE(expect_right(one)) << "seed " << seed << ", case " << k;
-  }
-  std::cout << case_count() << " cases, seed " << seed << ", " << hits << " collide\n";
+  expect_family(31, GetParam().name, "atoms", [&](Random& random, Case& one) {
+    one.input = GetParam().make(random);
+    if (!GetParam().refuse) one.truth = test::exact_truth(std::get<Atoms>(one.input));
+  });
 }
 
 INSTANTIATE_TEST_SUITE_P(Generated, AtomFamilies, testing::ValuesIn(test::atom_families()),
@@ -53,22 +47,17 @@ std::vector<double> nine(const Triangle& t) {
 class TriangleFamilies : public testing::TestWithParam<TriangleFamily> {};
 
 TEST_P(TriangleFamilies, EqualExactAnswers) {
-  constexpr std::uint64_t seed = 32;
-  Random random(seed);
-  std::size_t hits = 0;
-  for (std::size_t k = 0; k < case_count(); ++k) {
+  expect_family(32, GetParam().name, "tri_tri", [&](Random& random, Case& one) {
     const auto [p, q] = GetParam().make(random);
-    Case one{GetParam().name, "tri_tri", GetParam().name, TrianglePair{nine(p), nine(q)}, Truth{}};
+    one.input = TrianglePair{nine(p), nine(q)};
+    one.truth = Truth{};
     const OracleDistance oracle(p, q);
     for (const Triangle& t : {p, q})
       for (const Vec3& corner : {t.a, t.b, t.c}) one.truth->refuse |= !is_length(corner);
     one.truth->hit = oracle.meet();
     one.truth->pair_count = oracle.meet() ? 1 : 0;
     one.truth->distance = test::bracket_of(oracle.distance());
-    hits += one.truth->hit ? 1 : 0;
-    ASSERT_TRUE(expect_right(one)) << "seed " << seed << ", case " << k;
-  }
-  std::cout << case_count() << " cases, seed " << seed << ", " << hits << " meet\n";
+  });
 }
 
 INSTANTIATE_TEST_SUITE_P(Generated, TriangleFamilies, testing::ValuesIn(test::triangle_families()),

@@ -12,17 +12,14 @@
 
 #include "engine/random_mechanism.hpp"
 #include "robustness/case.hpp"
+#include "robustness/family.hpp"
 
 namespace hinge::test {
 
 using robustness::Mesh;
 using robustness::MeshPair;
 
-struct MeshFamily {
-  const char* name;
-  MeshPair (*make)(Random&);
-  bool refuse = false;
-};
+using MeshFamily = Family<MeshPair>;
 
 inline std::vector<double> placement(const Pose& pose) {
   std::vector<double> m;

@@ -3,51 +3,38 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "engine/random_mechanism.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/primitive/point.hpp"
 #include "robustness/ask.hpp"
 
 namespace hinge::robustness {
 
-/// The excluded pairs of a case, listed by atom. ModelError: an atom with itself, or one there is none of.
-class ExcludedAtoms {
- public:
-  ExcludedAtoms(std::size_t atoms, const std::vector<std::int64_t>& pairs) : excluded_(atoms) {
-    if (pairs.size() % 2 != 0) throw ModelError("excluded pairs: an odd number of atoms");
-    for (std::size_t k = 0; k + 1 < pairs.size(); k += 2) {
-      const std::string who =
-          "excluded pair (" + std::to_string(pairs[k]) + ", " + std::to_string(pairs[k + 1]) + "): ";
-      for (const std::int64_t atom : {pairs[k], pairs[k + 1]})
-        if (atom < 0 || atom >= static_cast<std::int64_t>(atoms))
-          throw ModelError(who + "expected atoms below " + std::to_string(atoms));
-      if (pairs[k] == pairs[k + 1]) throw ModelError(who + "an atom with itself");
-      const auto i = static_cast<std::size_t>(pairs[k]), j = static_cast<std::size_t>(pairs[k + 1]);
-      excluded_[i].push_back(id<PrimitiveId>(j));
-      excluded_[j].push_back(id<PrimitiveId>(i));
-    }
-    for (auto& list : excluded_) {
-      std::sort(list.begin(), list.end());
-      list.erase(std::unique(list.begin(), list.end()), list.end());
-    }
+/// The excluded pairs of a case. ModelError: an atom with itself, or one there is none of.
+inline test::ExcludedPairs exclusions_of(const Atoms& atoms) {
+  const std::vector<std::int64_t>& pairs = atoms.excluded;
+  std::vector<std::vector<PrimitiveId>> excluded(atoms.type.size());
+  if (pairs.size() % 2 != 0) throw ModelError("excluded pairs: an odd number of atoms");
+  for (std::size_t k = 0; k + 1 < pairs.size(); k += 2) {
+    const std::string who = "excluded pair (" + std::to_string(pairs[k]) + ", " + std::to_string(pairs[k + 1]) + "): ";
+    for (const std::int64_t atom : {pairs[k], pairs[k + 1]})
+      if (atom < 0 || atom >= static_cast<std::int64_t>(excluded.size()))
+        throw ModelError(who + "expected atoms below " + std::to_string(excluded.size()));
+    if (pairs[k] == pairs[k + 1]) throw ModelError(who + "an atom with itself");
+    const auto i = static_cast<std::size_t>(pairs[k]), j = static_cast<std::size_t>(pairs[k + 1]);
+    excluded[i].push_back(id<PrimitiveId>(j));
+    excluded[j].push_back(id<PrimitiveId>(i));
   }
-  bool admits(PrimitiveId i, PrimitiveId j) const noexcept {
-    return !std::binary_search(excluded_[index(i)].begin(), excluded_[index(i)].end(), j);
-  }
-  std::span<const PrimitiveId> excluded(PrimitiveId i) const noexcept { return excluded_[index(i)]; }
-  std::size_t size() const noexcept { return excluded_.size(); }
-
- private:
-  std::vector<std::vector<PrimitiveId>> excluded_;
-};
-
-static_assert(ListsExclusions<ExcludedAtoms>);
+  return test::ExcludedPairs(std::move(excluded));
+}
 
 /// The smallest distance whatever the thresholds. As these are >= 0, d - M above the best d rules a pair out.
 class Shortest {
@@ -105,8 +92,9 @@ template <template <class, class, class> class EngineOf>
 Answer run_atoms(const Atoms& atoms) {
   return asked("a link per group", [&] {
     check_lengths(atoms);
-    const ExcludedAtoms filter(atoms.type.size(), atoms.excluded);
-    Hierarchy<Point, ExcludedAtoms, TypedThresholds, EngineOf> points(model_of(atoms), filter, thresholds_of(atoms));
+    const test::ExcludedPairs filter = exclusions_of(atoms);
+    Hierarchy<Point, test::ExcludedPairs, TypedThresholds, EngineOf> points(model_of(atoms), filter,
+                                                                            thresholds_of(atoms));
     Answer answer;
     take_hits(answer, points.self_collides(), points.self_collisions());
     Shortest shortest;
