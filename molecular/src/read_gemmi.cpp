@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
+#include <limits>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include <gemmi/cif.hpp>
@@ -61,17 +64,72 @@ RawModel convert(const gemmi::Model& model, int number) {
   return raw;
 }
 
+/// gemmi's whole numbers wrap around where they leave the range of int; categories it reads any from.
+void check_whole_numbers(const gemmi::cif::Document& document) {
+  constexpr std::string_view categories[] = {
+      "_atom_site.",        "_struct_conf.",     "_struct_conn.",          "_struct_sheet_range.",
+      "_struct_ref_seq.",   "_entity_poly_seq.", "_pdbx_refine_tls_group", "_pdbx_struct_assembly",
+      "_pdbx_sifts_xref_db"};
+  const auto check = [&](const std::string& tag, const std::string& value) {
+    const std::size_t sign = !value.empty() && (value[0] == '-' || value[0] == '+') ? 1 : 0;
+    std::size_t end = sign;
+    while (end < value.size() && value[end] >= '0' && value[end] <= '9') ++end;
+    // What starts with ten digits and goes on with a letter is a sequence number with its insertion code.
+    const bool counts = end == value.size() || (value[end] != '.' && end + 1 == value.size());
+    if (end - sign > std::numeric_limits<int>::digits10 && counts)
+      throw std::runtime_error(tag + " is " + value + ", expected a whole number of at most " +
+                               std::to_string(std::numeric_limits<int>::digits10) + " digits");
+  };
+  for (const gemmi::cif::Block& block : document.blocks)
+    for (const gemmi::cif::Item& item : block.items) {
+      const bool is_loop = item.type == gemmi::cif::ItemType::Loop, is_pair = item.type == gemmi::cif::ItemType::Pair;
+      if ((!is_loop && !is_pair) || (is_loop && item.loop.tags.empty())) continue;
+      const std::string& first = is_loop ? item.loop.tags.front() : item.pair[0];
+      if (std::ranges::none_of(categories, [&](std::string_view c) { return first.starts_with(c); })) continue;
+      if (is_pair) check(item.pair[0], item.pair[1]);
+      for (std::size_t k = 0; is_loop && k < item.loop.values.size(); ++k)
+        check(item.loop.tags[k % item.loop.tags.size()], item.loop.values[k]);
+    }
+}
+
+/// gemmi looks at four letters, of either case.
+bool is_record(std::string_view line, std::string_view name) {
+  return line.size() >= name.size() &&
+         std::equal(name.begin(), name.end(), line.begin(), [](char a, char b) { return a == (b & ~0x20); });
+}
+
+/// The lengths behind LINK and SSBOND records, which nobody asks for: gemmi would read the start of "nan" or "inf"
+/// beyond the end of the record.
+std::string without_bond_lengths(const std::string& text) {
+  constexpr std::size_t length_column = 73;
+  std::string kept;
+  kept.reserve(text.size());
+  for (std::size_t first = 0; first < text.size();) {
+    const std::size_t end = std::min(text.find('\n', first), text.size());
+    const std::string_view line = std::string_view(text).substr(first, end - first);
+    kept += is_record(line, "LINK") || is_record(line, "SSBO") ? line.substr(0, length_column) : line;
+    if (end < text.size()) kept += '\n';
+    first = end + 1;
+  }
+  return kept;
+}
+
 gemmi::Structure parse(const std::string& bytes, const std::string& path, bool cif, std::vector<std::string>& notes) {
-  if (cif) return gemmi::make_structure(gemmi::cif::read_memory(bytes.data(), bytes.size(), path.c_str()));
+  if (cif) {
+    gemmi::cif::Document document = gemmi::cif::read_memory(bytes.data(), bytes.size(), path.c_str());
+    check_whole_numbers(document);
+    return gemmi::make_structure(std::move(document));
+  }
+  const std::string text = without_bond_lengths(bytes);
   try {
-    return gemmi::read_pdb_from_memory(bytes.data(), bytes.size(), path);
+    return gemmi::read_pdb_from_memory(text.data(), text.size(), path);
   } catch (const std::exception& first) {
     // Files from before 1996 carry the entry's name and a line number in columns 73-80, where element and charge are
     // now.
     gemmi::PdbReadOptions options;
     options.max_line_length = 72;
     try {
-      gemmi::Structure st = gemmi::read_pdb_from_memory(bytes.data(), bytes.size(), path, options);
+      gemmi::Structure st = gemmi::read_pdb_from_memory(text.data(), text.size(), path, options);
       notes.emplace_back("old PDB format: columns 73-80 ignored, elements taken from atom names");
       return st;
     } catch (const std::exception&) {

@@ -84,6 +84,28 @@ TEST(ReadStructure, RefusesEmptyMissingAndCutShortFiles) {
   EXPECT_NE(refusal("data_x\nloop_\n_atom_site.id\n_atom_site.type_symbol\n1 C 2\n", {}, ".cif"), "");
 }
 
+TEST(ReadStructure, RefusesWholeNumbersThatNoIntHolds) {
+  const auto text = [](const std::string& number) {
+    std::string cif = "data_x\nloop_\n";
+    for (const char* tag :
+         {"group_PDB", "id", "type_symbol", "label_atom_id", "label_alt_id", "label_comp_id", "label_asym_id",
+          "label_entity_id", "label_seq_id", "pdbx_PDB_ins_code", "Cartn_x", "Cartn_y", "Cartn_z", "occupancy",
+          "B_iso_or_equiv", "auth_seq_id", "auth_asym_id", "pdbx_PDB_model_num"})
+      cif.append("_atom_site.").append(tag).append("\n");
+    return cif + "ATOM 1 N N . ALA A 1 46 ? 0 0 0 1.00 6.53 " + number + " A 1\n";
+  };
+  EXPECT_EQ(refusal(text("-99999999"), {}, ".cif"), "");
+  EXPECT_EQ(refusal(text("9999999999946"), {}, ".cif"),
+            ": _atom_site.auth_seq_id is 9999999999946, expected a whole number of at most 9 digits");
+}
+
+TEST(ReadStructure, ReadsABondRecordThatEndsInTheMiddleOfANumber) {
+  // (The parser looks beyond the end of "n" for the rest of "nan"; with address sanitizer this is an error.)
+  std::string link = "LINK         CA  ALA A   1                 CB  ALA A   1     1555   1555   n";
+  for (const char* name : {"LINK  ", "link  ", "SSBOND"})
+    EXPECT_EQ(refusal(link.replace(0, 6, name) + "\n" + alanine()), "");
+}
+
 TEST(ReadStructure, RefusesModelsThatDiffer) {
   const std::string two = "MODEL        1\n" + alanine() + "ENDMDL\nMODEL        2\n" +
                           alanine().substr(0, alanine().size() - 79) + "ENDMDL\n";
