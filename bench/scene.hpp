@@ -18,6 +18,7 @@
 
 #include "hinge/engine/lazy/lazy.hpp"
 #include "hinge/engine/wide/wide.hpp"
+#include "hinge/ensemble/state_batch.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/molecule.hpp"
@@ -171,6 +172,9 @@ class Scene {
 
   template <template <class, class, class> class EngineOf>
   Molecular<EngineOf> make() const {
+    return {protein_.molecule->model(), selection_, protein_.filter, protein_.thresholds};
+  }
+  StateBatch<Point, molecular::BondExclusions, TypedThresholds> make_batch() const {
     return {protein_.molecule->model(), selection_, protein_.filter, protein_.thresholds};
   }
   std::size_t size() const { return protein_.molecule->model().size(); }
