@@ -43,8 +43,8 @@ Exit run_check(const Options& options) {
     if (mode.kind == Mode::Kind::within)
       table += fmt::format(", {} pairs closer than their threshold + {}", verdict.pairs.size(), mode.margin);
     table += "\n";
-    for (const hinge::Hit& hit : verdict.pairs) table += hit_line(s, hit) + "\n";
-    if (verdict.closest) table += hit_line(s, *verdict.closest) + "  (closest)\n";
+    for (const Contact& pair : verdict.pairs) table += pair_line(s, pair) + "\n";
+    if (verdict.closest) table += pair_line(s, *verdict.closest) + "  (closest)\n";
   };
   hinge::Ensemble(job.checker, options.threads).run(s.models.size(), judge, report);
   if (options.output == Output::json) fmt::print("{}\n", json.dump(1));

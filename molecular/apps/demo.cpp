@@ -140,7 +140,8 @@ Exit run_demo(const Options& options) {
           // A conformation near the native one is a picture a person can read.
           if (m != 1 || n != 1 || verdict.pairs.size() <= worst.pairs.size()) continue;
           wide.check(sample_configuration(sampling, k, wide.dof_count()), mode);
-          worst = {verdict.pairs, wide.positions()};
+          worst = {{}, wide.positions()};
+          for (const Contact& pair : verdict.pairs) worst.pairs.push_back(pair.hit);
         }
         fmt::print(" {:>14.0f}", rate);
         std::fflush(stdout);

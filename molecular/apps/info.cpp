@@ -80,7 +80,8 @@ void print_table(const Options& options, const Job& job) {
   for (const auto& [name, count] : names) fmt::print(" {} {}", name, count);
   fmt::print("\nexcluded pairs: {}; secondary structure elements: {}\n", job.checker.exclusions().excluded_pairs(),
              s.secondary_structure.size());
-  for (const hinge::Hit& hit : job.checker.reference_collisions()) fmt::print("{}  (reference)\n", hit_line(s, hit));
+  for (const hinge::Hit& hit : job.checker.reference_collisions())
+    fmt::print("{}  (reference)\n", pair_line(s, {hit, true}));
 }
 
 }  // namespace

@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <cmath>
 #include <memory>
 #include <string_view>
 #include <utility>
 
 #include "hinge/core/error.hpp"
-#include "hinge/core/vec3.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/selection.hpp"
+#include "hinge/primitive/grid_point.hpp"
+#include "hinge/primitive/point.hpp"
 #include "options.hpp"
 
 namespace biocd {
@@ -48,14 +48,15 @@ void explain(const Options& options, const Job& job) {
   const Thresholds& t = checker.thresholds();
   const auto a = hinge::id<hinge::PrimitiveId>(i), b = hinge::id<hinge::PrimitiveId>(j);
   const std::size_t type_i = t.matrix.type(a), type_j = t.matrix.type(b);
-  const double distance = std::sqrt(hinge::squared_norm(s.models.front()[i] - s.models.front()[j]));
+  const hinge::Point p{s.models.front()[i]}, q{s.models.front()[j]};
   const double threshold = t.between(type_i, type_j);
+  const bool closer = hinge::closer_as_written(p, q, threshold);
 
   fmt::print("pair {} {} - {} {}\n", i, label(s, i), j, label(s, j));
   fmt::print("  types        {} - {} ({} v{}, rho {}, hydrogen-bond rule {})\n", t.type_names[type_i],
              t.type_names[type_j], t.set->name, t.set->version, t.rho, t.hydrogen_bonds ? "on" : "off");
   fmt::print("  threshold    {:.4f} angstrom\n", threshold);
-  fmt::print("  distance     {:.4f} angstrom in the first model\n", distance);
+  fmt::print("  distance     {:.4f} angstrom in the first model\n", distance(p, q));
   const int bonds = bond_distance(s, i, j, checker.min_bonds() - 1);
   if (bonds >= 0)
     fmt::print("  dropped      {} bonds apart, pairs count from {} on\n", bonds, checker.min_bonds());
@@ -67,8 +68,7 @@ void explain(const Options& options, const Job& job) {
         "leave it out\n");
   else
     fmt::print("  kept         at least {} bonds apart, distance changes under this selection\n", checker.min_bonds());
-  fmt::print("  verdict      {}\n",
-             distance < threshold ? "closer than the threshold" : "not closer than the threshold");
+  fmt::print("  verdict      {}\n", closer ? "closer than the threshold" : "not closer than the threshold");
 }
 
 }  // namespace biocd

@@ -15,6 +15,7 @@ namespace biocd {
 namespace {
 
 using hinge::molecular::Checker;
+using hinge::molecular::Contact;
 using hinge::molecular::Mode;
 using hinge::molecular::Structure;
 using hinge::molecular::Verdict;
@@ -51,19 +52,21 @@ Json model_json(const Options& options, const Job& job) {
               {"reference_collisions", checker.reference_collisions().size()}};
 }
 
-Json hit_json(const Structure& structure, const hinge::Hit& hit) {
+Json pair_json(const Structure& structure, const Contact& pair) {
+  const hinge::Hit& hit = pair.hit;
   return Json{{"i", atom(hit.first)},
               {"j", atom(hit.second)},
               {"label_i", label(structure, atom(hit.first))},
               {"label_j", label(structure, atom(hit.second))},
               {"distance", hit.distance},
-              {"threshold", hit.threshold}};
+              {"threshold", hit.threshold},
+              {"collides", pair.collides}};
 }
 
 Json constant_contacts_json(const Job& job) {
   Json list = Json::array();
   for (const hinge::Hit& hit : job.checker.constant_contacts())
-    list.push_back(hit_json(job.molecule->structure(), hit));
+    list.push_back(pair_json(job.molecule->structure(), {hit, true}));
   return list;
 }
 
@@ -71,33 +74,34 @@ Json verdict_json(const Structure& structure, std::uint64_t index, const Verdict
   Json json{{"index", index}, {"collides", verdict.collides}};
   if (mode.kind == Mode::Kind::all || mode.kind == Mode::Kind::within) {
     Json pairs = Json::array();
-    for (const hinge::Hit& hit : verdict.pairs) pairs.push_back(hit_json(structure, hit));
+    for (const Contact& pair : verdict.pairs) pairs.push_back(pair_json(structure, pair));
     json["pairs"] = std::move(pairs);
   }
   if (mode.kind == Mode::Kind::closest)
-    json["closest"] = verdict.closest ? hit_json(structure, *verdict.closest) : Json();
+    json["closest"] = verdict.closest ? pair_json(structure, *verdict.closest) : Json();
   return json;
 }
 
-std::string csv_header() { return "index,collides,i,j,label_i,label_j,distance,threshold\n"; }
+std::string csv_header() { return "index,collides,i,j,label_i,label_j,distance,threshold,pair_collides\n"; }
 
 std::string csv_rows(const Structure& structure, std::uint64_t index, const Verdict& verdict) {
   std::string rows;
-  const auto add = [&](const hinge::Hit& hit) {
-    rows += fmt::format("{},{:d},{},{},{},{},{},{}\n", index, verdict.collides, atom(hit.first), atom(hit.second),
+  const auto add = [&](const Contact& pair) {
+    const hinge::Hit& hit = pair.hit;
+    rows += fmt::format("{},{:d},{},{},{},{},{},{},{:d}\n", index, verdict.collides, atom(hit.first), atom(hit.second),
                         csv_field(label(structure, atom(hit.first))), csv_field(label(structure, atom(hit.second))),
-                        hit.distance, hit.threshold);
+                        hit.distance, hit.threshold, pair.collides);
   };
-  for (const hinge::Hit& hit : verdict.pairs) add(hit);
+  for (const Contact& pair : verdict.pairs) add(pair);
   if (verdict.closest) add(*verdict.closest);
-  if (rows.empty()) rows = fmt::format("{},{:d},,,,,,\n", index, verdict.collides);
+  if (rows.empty()) rows = fmt::format("{},{:d},,,,,,,\n", index, verdict.collides);
   return rows;
 }
 
-std::string hit_line(const Structure& structure, const hinge::Hit& hit) {
+std::string pair_line(const Structure& structure, const Contact& pair) {
+  const hinge::Hit& hit = pair.hit;
   return fmt::format("  {:<18} {:<18} {:8.3f} {} {:.3f}", label(structure, atom(hit.first)),
-                     label(structure, atom(hit.second)), hit.distance, hit.distance < hit.threshold ? '<' : '>',
-                     hit.threshold);
+                     label(structure, atom(hit.second)), hit.distance, pair.collides ? "<" : ">=", hit.threshold);
 }
 
 std::string heading(const Options& options, const Job& job) {
@@ -114,13 +118,13 @@ std::string heading(const Options& options, const Job& job) {
       options.check.exempt_reference ? ", reference collisions exempt" : "");
   text += fmt::format("reference: {} colliding pairs; constant contacts under this selection: {}\n",
                       checker.reference_collisions().size(), checker.constant_contacts().size());
-  for (const hinge::Hit& hit : checker.constant_contacts()) text += hit_line(s, hit) + "  (constant)\n";
+  for (const hinge::Hit& hit : checker.constant_contacts()) text += pair_line(s, {hit, true}) + "  (constant)\n";
   return text;
 }
 
 void print_constant_contacts(const Job& job) {
   for (const hinge::Hit& hit : job.checker.constant_contacts())
-    std::fprintf(stderr, "constant contact: %s\n", hit_line(job.molecule->structure(), hit).c_str());
+    std::fprintf(stderr, "constant contact: %s\n", pair_line(job.molecule->structure(), {hit, true}).c_str());
 }
 
 void print_notes(const Job& job) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The parts that the outputs of info, check and sample share. The JSON keys are a contract:
-// docs/reference/biocd-json.md.
+// docs/reference/biocd.md.
 #pragma once
 
 #include <cstdint>
@@ -17,18 +17,19 @@ namespace biocd {
 using Json = nlohmann::ordered_json;
 
 Json model_json(const Options& options, const Job& job);
-Json hit_json(const hinge::molecular::Structure& structure, const hinge::Hit& hit);
+Json pair_json(const hinge::molecular::Structure& structure, const hinge::molecular::Contact& pair);
 Json constant_contacts_json(const Job& job);
 Json verdict_json(const hinge::molecular::Structure& structure, std::uint64_t index,
                   const hinge::molecular::Verdict& verdict, const hinge::molecular::Mode& mode);
 
-/// "index,collides,i,j,label_i,label_j,distance,threshold": a row per pair, or one without a pair.
+/// "index,collides,i,j,label_i,label_j,distance,threshold,pair_collides": a row per pair, or one without a pair.
 std::string csv_header();
 std::string csv_rows(const hinge::molecular::Structure& structure, std::uint64_t index,
                      const hinge::molecular::Verdict& verdict);
 
-/// "A:LYS77:NZ - A:GLU18:OE1   2.310 < 2.456".
-std::string hit_line(const hinge::molecular::Structure& structure, const hinge::Hit& hit);
+/// "A:LYS77:NZ  A:GLU18:OE1  2.310 < 2.456"; ">=" when the pair does not collide, whatever rounding made of its
+/// numbers.
+std::string pair_line(const hinge::molecular::Structure& structure, const hinge::molecular::Contact& pair);
 
 /// The rules of the check, the selection and its constant contacts, for people.
 std::string heading(const Options& options, const Job& job);

@@ -41,8 +41,8 @@ struct Summary {
     ++checked;
     colliding += verdict.collides ? 1 : 0;
     worst_residual = std::max(worst_residual, verdict.closure_residual);
-    for (const hinge::Hit& hit : verdict.pairs)
-      if (hit.distance < hit.threshold) ++offenders[{hit.first, hit.second}];
+    for (const Contact& pair : verdict.pairs)
+      if (pair.collides) ++offenders[{pair.hit.first, pair.hit.second}];
   }
 
   /// The pairs that collide most often, most frequent first.

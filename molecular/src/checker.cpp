@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "hinge/core/error.hpp"
+#include "hinge/primitive/grid_point.hpp"
 
 namespace hinge::molecular {
 
@@ -23,6 +24,79 @@ std::vector<std::pair<PrimitiveId, PrimitiveId>> pairs_of(const std::vector<Hit>
   return pairs;
 }
 
+/// The rule of a check: what coordinates and thresholds, as doubles, stand for.
+struct Rule {
+  bool as_written = false;  ///< decimals, where they are (closer_as_written); else the doubles themselves
+  double largest = 0.0;     ///< threshold, angstrom
+
+  /// No pair that is closer in decimals is farther as doubles by more than this (angstrom). Coordinates on the grid are
+  /// below 2^31 and off by 2^-23 at most, distances by 2^-21; thresholds stand for numbers 17 half ulps away at most,
+  /// and three sums are rounded on the way.
+  double hair(double margin) const noexcept { return as_written ? 0x1p-20 + 32 * 0x1p-53 * (largest + margin) : 0.0; }
+  bool closer(const Point& p, const Point& q, double m) const noexcept {
+    return as_written ? closer_as_written(p, q, m) : closer_than(p, q, m);
+  }
+};
+
+Rule as_written(const Thresholds& thresholds) {
+  Rule rule{true, 0.0};
+  for (const double m : thresholds.table) rule.largest = std::max(rule.largest, m);
+  return rule;
+}
+
+/// Pairs with d < M + margin, sorted.
+template <class H>
+std::vector<Contact> contacts(H& hierarchy, const Rule& rule, double margin) {
+  const std::vector<Hit> hits = hierarchy.self_within(margin + rule.hair(margin));
+  std::vector<Contact> found;
+  found.reserve(hits.size());
+  if (!rule.as_written && margin == 0.0) {  // the query has decided it
+    for (const Hit& hit : hits) found.push_back({hit, true});
+    return found;
+  }
+  const std::span<const Point> placed = hierarchy.placed();
+  for (const Hit& hit : hits) {
+    const Point &p = placed[index(hit.first)], &q = placed[index(hit.second)];
+    const bool collides = rule.closer(p, q, hit.threshold);
+    if (collides || rule.closer(p, q, hit.threshold + margin)) found.push_back({hit, collides});
+  }
+  return found;
+}
+
+/// The closest pair, one that collides where there is one: the doubles of several may agree.
+template <class H>
+std::optional<Contact> closest(H& hierarchy, const Rule& rule) {
+  const std::optional<Hit> hit = hierarchy.self_closest();
+  if (!hit) return std::nullopt;
+  const std::span<const Point> placed = hierarchy.placed();
+  if (rule.closer(placed[index(hit->first)], placed[index(hit->second)], hit->threshold)) return Contact{*hit, true};
+  const std::vector<Contact> colliding = contacts(hierarchy, rule, 0.0);
+  if (colliding.empty()) return Contact{*hit, false};
+  return *std::min_element(colliding.begin(), colliding.end(),
+                           [](const Contact& a, const Contact& b) { return a.hit.gap() < b.hit.gap(); });
+}
+
+template <class H>
+Verdict ask(H& hierarchy, const Rule& rule, const Mode& mode) {
+  Verdict verdict;
+  switch (mode.kind) {
+    case Mode::Kind::any:
+      verdict.collides = rule.as_written ? !contacts(hierarchy, rule, 0.0).empty() : hierarchy.self_collides();
+      break;
+    case Mode::Kind::all:
+    case Mode::Kind::within:
+      verdict.pairs = contacts(hierarchy, rule, mode.margin);
+      verdict.collides =
+          std::any_of(verdict.pairs.begin(), verdict.pairs.end(), [](const Contact& c) { return c.collides; });
+      break;
+    case Mode::Kind::closest:
+      verdict.closest = closest(hierarchy, rule);
+      verdict.collides = verdict.closest && verdict.closest->collides;
+      break;
+  }
+  return verdict;
+}
+
 }  // namespace
 
 Checker::Checker(std::shared_ptr<const Molecule> molecule, DofSelection selection, const CheckOptions& options)
@@ -33,7 +107,9 @@ Checker::Checker(std::shared_ptr<const Molecule> molecule, DofSelection selectio
 
   MolecularHierarchy<Wide> rigid(molecule_->model(), molecule_->select({}), *exclusions_, thresholds_->matrix);
   rigid.update_placed(as_points(molecule_->structure().models.front()));
-  reference_ = std::make_shared<const std::vector<Hit>>(rigid.self_collisions());
+  std::vector<Hit> reference;
+  for (const Contact& contact : contacts(rigid, as_written(*thresholds_), 0.0)) reference.push_back(contact.hit);
+  reference_ = std::make_shared<const std::vector<Hit>>(std::move(reference));
   if (options.exempt_reference)
     exclusions_ = std::make_shared<const BondExclusions>(molecule_->structure(), min_bonds_, pairs_of(*reference_));
 
@@ -82,7 +158,7 @@ Verdict Checker::check(std::span<const double> q, const Mode& mode) {
   return std::visit(
       [&](auto& hierarchy) {
         hierarchy.update(q);
-        Verdict verdict = ask(mode);
+        Verdict verdict = ask(hierarchy, Rule{}, mode);
         for (const Closure& closure : molecule_->model().tree().closures())
           verdict.closure_residual = std::max(
               verdict.closure_residual,
@@ -96,32 +172,7 @@ Verdict Checker::check_coordinates(std::span<const Vec3> positions, const Mode& 
   return std::visit(
       [&](auto& hierarchy) {
         hierarchy.update_placed(as_points(positions));
-        return ask(mode);
-      },
-      *hierarchy_);
-}
-
-Verdict Checker::ask(const Mode& mode) {
-  return std::visit(
-      [&](auto& hierarchy) {
-        Verdict verdict;
-        switch (mode.kind) {
-          case Mode::Kind::any: verdict.collides = hierarchy.self_collides(); break;
-          case Mode::Kind::all:
-            verdict.pairs = hierarchy.self_collisions();
-            verdict.collides = !verdict.pairs.empty();
-            break;
-          case Mode::Kind::within:
-            verdict.pairs = hierarchy.self_within(mode.margin);
-            // A margin may list pairs that do not collide; the verdict is the strict rule's.
-            verdict.collides = hierarchy.self_collides();
-            break;
-          case Mode::Kind::closest:
-            verdict.closest = hierarchy.self_closest();
-            verdict.collides = hierarchy.self_collides();
-            break;
-        }
-        return verdict;
+        return ask(hierarchy, as_written(*thresholds_), mode);
       },
       *hierarchy_);
 }

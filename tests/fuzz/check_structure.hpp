@@ -68,7 +68,7 @@ inline void check_answers(const std::shared_ptr<const hinge::molecular::Molecule
     require(fast.collides == slow.collides, "wide and brute differ in a yes or no");
     require(fast.pairs == slow.pairs, "wide and brute differ in their pairs");
     require(fast.closest.has_value() == slow.closest.has_value() &&
-                (!fast.closest || fast.closest->gap() == slow.closest->gap()),
+                (!fast.closest || fast.closest->hit.gap() == slow.closest->hit.gap()),
             "wide and brute differ in the closest pair");
   }
   require(wide.check_coordinates(read, {}).pairs == brute.check_coordinates(read, {}).pairs,

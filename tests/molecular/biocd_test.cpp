@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -11,6 +14,7 @@
 #include <string>
 
 #include "hinge/molecular/read_structure.hpp"
+#include "hinge/primitive/point.hpp"
 #include "molecular/run_biocd.hpp"
 #include "molecular/test_files.hpp"
 
@@ -90,11 +94,11 @@ TEST(Biocd, KeepsTheJsonContractOfCheckAndSample) {
         EXPECT_TRUE(c.contains("index"));
         collides = collides || c.at("collides").get<bool>();
         EXPECT_EQ(c.contains("closest"), std::string(mode) == "closest");
-        if (c.contains("closest") && c["collides"].get<bool>()) {
-          EXPECT_LT(c["closest"]["distance"], c["closest"]["threshold"]);
+        if (c.contains("closest")) {
+          EXPECT_EQ(c["closest"]["collides"], c["collides"]);
         }
         for (const Json& pair : c.value("pairs", Json::array()))
-          for (const char* key : {"i", "j", "label_i", "label_j", "distance", "threshold"})
+          for (const char* key : {"i", "j", "label_i", "label_j", "distance", "threshold", "collides"})
             EXPECT_TRUE(pair.contains(key)) << key;
       }
       EXPECT_TRUE(json.contains("constant_contacts"));
@@ -153,6 +157,66 @@ TEST(Biocd, InformsAboutOrRefusesEverySharedFile) {
     } else {
       EXPECT_EQ(outcome.status, 0) << outcome.out;
     }
+  }
+}
+
+/// Eighteen pairs of carbons, each (1.632, 2.176, 0.000) apart: 2.720 A in decimals, which is 0.8 * (1.70 + 1.70).
+std::string ties(bool cif) {
+  std::string text;
+  if (cif)
+    for (const char* tag :
+         {"group_PDB", "id", "type_symbol", "label_atom_id", "label_alt_id", "label_comp_id", "label_asym_id",
+          "auth_seq_id", "Cartn_x", "Cartn_y", "Cartn_z", "occupancy", "B_iso_or_equiv"})
+      text += std::string(text.empty() ? "data_x\nloop_\n" : "") + "_atom_site." + tag + "\n";
+  for (int n = 0; n < 36; ++n) {
+    const bool second = n % 2 == 1;
+    const int cell = n / 2;
+    const double x = 0.007 + 10.013 * (cell % 3) + (second ? 1.632 : 0.0),
+                 y = 0.003 + 10.037 * (cell / 3 % 3) + (second ? 2.176 : 0.0), z = 0.001 + 10.011 * (cell / 9);
+    std::array<char, 100> line{};
+    std::snprintf(line.data(), line.size(),
+                  cif ? "ATOM %d C CA . GLY A %d %.3f %.3f %.3f 1.00 0.00\n"
+                      : "ATOM  %5d  CA  GLY A%4d    %8.3f%8.3f%8.3f  1.00  0.00           C\n",
+                  n + 1, n + 1, x, y, z);
+    text += line.data();
+  }
+  return text + (cif ? "#\n" : "END\n");
+}
+
+TEST(Biocd, DecidesTiesOfAFileInDecimalsAndSaysTheSameEverywhere) {
+  for (const bool cif : {false, true}) {
+    SCOPED_TRACE(cif ? "mmCIF" : "PDB");
+    const test::TemporaryFile file(ties(cif), cif ? ".cif" : ".pdb");
+    const std::string path = file.path().string();
+    const auto atoms = read_structure(path).models.front();
+    std::size_t below = 0;
+    for (std::size_t k = 0; k < atoms.size(); k += 2)
+      below += closer_than(Point{atoms[k]}, Point{atoms[k + 1]}, 0.8 * (1.7 + 1.7)) ? 1 : 0;
+    ASSERT_GT(below, 0U) << "the doubles are not below their threshold either, so this tests nothing";
+
+    for (const char* mode : {"any", "all", "within:0.01", "closest"}) {
+      SCOPED_TRACE(mode);
+      const Outcome json = biocd("check " + path + " --json --mode " + mode + " 2>/dev/null");
+      EXPECT_EQ(json.status, 0);
+      const Json verdict = Json::parse(json.out).at("conformations").at(0);
+      EXPECT_FALSE(verdict["collides"].get<bool>());
+      for (const Json& pair : verdict.value("pairs", Json::array())) EXPECT_FALSE(pair["collides"].get<bool>());
+      const Outcome table = biocd("check " + path + " --mode " + mode + " 2>/dev/null");
+      EXPECT_EQ(table.status, 0);
+      EXPECT_EQ(table.out.find(" < 2.72"), std::string::npos) << table.out;
+      const Outcome csv = biocd("check " + path + " --csv --mode " + mode + " 2>/dev/null");
+      EXPECT_EQ(csv.status, 0);
+      EXPECT_EQ(csv.out.find(",1\n"), std::string::npos) << csv.out;
+    }
+    const Outcome within = biocd("check " + path + " --mode within:0.01 2>/dev/null");
+    EXPECT_NE(within.out.find("18 pairs closer"), std::string::npos) << within.out;
+    EXPECT_NE(within.out.find("2.720 >= 2.720"), std::string::npos) << within.out;
+    EXPECT_EQ(Json::parse(biocd("info " + path + " --json 2>/dev/null").out)["model"]["reference_collisions"], 0);
+    for (int k = 0; k < 36; k += 2)
+      EXPECT_NE(
+          biocd("check " + path + " --explain " + std::to_string(k) + "," + std::to_string(k + 1) + " 2>/dev/null")
+              .out.find("not closer than"),
+          std::string::npos);
   }
 }
 

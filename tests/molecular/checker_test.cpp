@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -215,6 +217,133 @@ TEST(Checker, ExemptsPairsOfTheReferenceOnRequest) {
   EXPECT_FALSE(lenient.check_coordinates(native, Mode::parse("any")).collides);
   EXPECT_EQ(strict.constant_contacts().size(), 1U) << "nothing is free, so the contact is constant";
   EXPECT_TRUE(lenient.constant_contacts().empty());
+}
+
+/// Differences, in thousandths, of carbons exactly 0.8 * (1.70 + 1.70) = 2.720 A apart, in no order of their own.
+std::vector<std::array<int, 3>> ties() {
+  constexpr int length = 2720;
+  std::vector<std::array<int, 3>> all;
+  for (int x = 1 - length; x < length; ++x)
+    for (int y = 1; y < length; ++y) {
+      const int rest = length * length - x * x - y * y;
+      if (rest < 0) break;
+      const int z = static_cast<int>(std::lround(std::sqrt(rest)));
+      if (z * z == rest) all.push_back({x, y, z});
+    }
+  return all;
+}
+
+/// A PDB file of one pair of carbons for each difference, each pair far from the others; the second of them nearer by
+/// `nearer` thousandths along y.
+std::string carbons(const std::vector<std::array<int, 3>>& differences, int nearer) {
+  std::string text;
+  const auto add = [&](std::size_t number, const std::array<int, 3>& at) {
+    std::array<char, 100> line{};
+    const auto x = [&](std::size_t k) { return at[k] / 1000.0; };
+    std::snprintf(line.data(), line.size(), "ATOM  %5zu  CA  GLY %c%4zu    %8.3f%8.3f%8.3f  1.00  0.00           C\n",
+                  number, static_cast<char>('A' + number / 2000), number % 2000, x(0), x(1), x(2));
+    text += line.data();
+  };
+  for (std::size_t k = 0; k < differences.size(); ++k) {
+    // Off the doubles that are decimals, and at changing distances from the origin.
+    const auto n = static_cast<int>(k);
+    std::array<int, 3> at{10007 * (n % 9) + 3 * n, 10009 * (n / 9 % 9) - n, 10037 * (n / 81) + 7 * n};
+    add(2 * k, at);
+    for (std::size_t c = 0; c < 3; ++c) at[c] += differences[k][c];
+    at[1] -= nearer;
+    add(2 * k + 1, at);
+  }
+  return text + "END\n";
+}
+
+TEST(DecimalTies, OfAFileAreFreeInEveryModeAndEngine) {
+  const auto differences = ties();
+  ASSERT_GE(differences.size(), 100U);
+  const test::TemporaryFile exact(carbons(differences, 0)), nearer(carbons(differences, 1));
+  const auto molecule = std::make_shared<const Molecule>(read_structure(exact.path()));
+  const auto& written = molecule->structure().models.front();
+  ASSERT_EQ(written.size(), 2 * differences.size());
+  std::size_t below = 0;
+  for (std::size_t k = 0; k < written.size(); k += 2)
+    below += closer_than(Point{written[k]}, Point{written[k + 1]}, 0.8 * (1.7 + 1.7)) ? 1 : 0;
+  std::printf("%zu ties, of which the stored doubles are below the stored threshold in %zu\n", differences.size(),
+              below);
+  ASSERT_GT(below, differences.size() / 4) << "doubles answer rightly, so this tests nothing";
+  const auto close = read_structure(nearer.path()).models.front();
+
+  for (const char* engine : {"wide", "lazy", "brute"}) {
+    SCOPED_TRACE(engine);
+    CheckOptions rules;
+    rules.engine = engine;
+    Checker checker(molecule, molecule->select({}), rules);
+    EXPECT_TRUE(checker.reference_collisions().empty());
+    EXPECT_TRUE(checker.constant_contacts().empty());
+    EXPECT_FALSE(checker.check_coordinates(written, Mode::parse("any")).collides);
+    const Verdict all = checker.check_coordinates(written, Mode::parse("all"));
+    EXPECT_FALSE(all.collides);
+    EXPECT_TRUE(all.pairs.empty());
+    // 2.72 + 0.03 is 2.75, and no pair but these is nearer than that.
+    const Verdict near = checker.check_coordinates(written, Mode::parse("within:0.03"));
+    EXPECT_FALSE(near.collides);
+    ASSERT_EQ(near.pairs.size(), differences.size());
+    for (const Contact& pair : near.pairs) EXPECT_FALSE(pair.collides);
+    EXPECT_TRUE(checker.check_coordinates(written, Mode::parse("within:0")).pairs.empty());
+    const Verdict closest = checker.check_coordinates(written, Mode::parse("closest"));
+    EXPECT_FALSE(closest.collides);
+    ASSERT_TRUE(closest.closest.has_value());
+    EXPECT_FALSE(closest.closest->collides);
+
+    for (const char* mode : {"any", "all", "within:0.03", "closest"}) {
+      const Verdict verdict = checker.check_coordinates(close, Mode::parse(mode));
+      EXPECT_TRUE(verdict.collides) << mode;
+      const bool lists = Mode::parse(mode).kind == Mode::Kind::all || Mode::parse(mode).kind == Mode::Kind::within;
+      EXPECT_EQ(verdict.pairs.size(), lists ? differences.size() : 0U) << mode;
+      for (const Contact& pair : verdict.pairs) EXPECT_TRUE(pair.collides) << mode;
+    }
+  }
+}
+
+/// With a margin the sum is what is written: 2.69 + 0.03.
+TEST(DecimalTies, AtAMarginAreNotListed) {
+  const test::TemporaryFile file(carbons(ties(), 0));
+  const auto molecule = std::make_shared<const Molecule>(read_structure(file.path()));
+  const auto& written = molecule->structure().models.front();
+  CheckOptions rules;
+  rules.thresholds.rho = 0.7;  // 2.38
+  Checker checker(molecule, molecule->select({}), rules);
+  EXPECT_TRUE(checker.check_coordinates(written, Mode::parse("within:0.34")).pairs.empty());
+  EXPECT_EQ(checker.check_coordinates(written, Mode::parse("within:0.340001")).pairs.size(), written.size() / 2);
+}
+
+/// What a conformation is told in one mode it is told in all, also where a pair's numbers round to the same double.
+TEST(Verdicts, AgreeBetweenModesAtTies) {
+  const auto differences = ties();
+  const test::TemporaryFile file(carbons(differences, 0));
+  const auto molecule = std::make_shared<const Molecule>(read_structure(file.path()));
+  Checker checker(molecule, molecule->select({}), {});
+  auto moved = molecule->structure().models.front();
+  for (Vec3& x : moved) x += Vec3(0.0001, 0.0001, 0.0001);  // off the grid: the doubles decide
+  std::size_t told_apart = 0;
+  for (std::size_t k = 0; k < moved.size(); k += 2) {
+    std::vector<Vec3> pair = moved;
+    for (std::size_t j = 0; j < pair.size(); ++j)
+      if (j / 2 != k / 2) pair[j] += Vec3(static_cast<double>(100 * j), 0, 0);
+    const bool any = checker.check_coordinates(pair, Mode::parse("any")).collides;
+    const Verdict all = checker.check_coordinates(pair, Mode::parse("all"));
+    const Verdict within = checker.check_coordinates(pair, Mode::parse("within:0.03"));
+    const Verdict closest = checker.check_coordinates(pair, Mode::parse("closest"));
+    EXPECT_EQ(all.collides, any);
+    EXPECT_EQ(within.collides, any);
+    EXPECT_EQ(closest.collides, any);
+    ASSERT_EQ(within.pairs.size(), 1U);
+    EXPECT_EQ(within.pairs[0].collides, any);
+    EXPECT_EQ(closest.closest->collides, any);
+    EXPECT_EQ(all.pairs.size(), any ? 1U : 0U);
+    const Hit& hit = within.pairs[0].hit;
+    told_apart += any != (hit.distance < hit.threshold) ? 1 : 0;
+  }
+  std::printf("rounded distances would have told %zu of %zu pairs otherwise\n", told_apart, differences.size());
+  EXPECT_GT(told_apart, 0U) << "the rounded numbers decide as well, so this tests nothing";
 }
 
 TEST(Mode, RefusesUnknownWords) {

@@ -36,13 +36,22 @@ struct CheckOptions {
   std::string engine = "wide";    ///< "wide", "lazy" (the paper's) or "brute"
 };
 
+/// A pair and whether it collides, which its rounded distance cannot say.
+struct Contact {
+  Hit hit;
+  bool collides = false;
+
+  friend bool operator==(const Contact&, const Contact&) = default;
+};
+
 /// The answer for one conformation. `pairs` holds what the mode lists (all: colliding; within: closer than the margin;
-/// any: none, it stops at the first), `closest` only in mode closest. Pairs of constant distance are not in it.
+/// any: none, it stops at the first), `closest` only in mode closest. Pairs of constant distance are not in it. It
+/// collides exactly when a pair does.
 struct Verdict {
   bool collides = false;
-  std::vector<Hit> pairs;
-  std::optional<Hit> closest;
-  double closure_residual = 0.0;  ///< worst over the molecule's closures, angstrom; 0 for coordinates given
+  std::vector<Contact> pairs;
+  std::optional<Contact> closest;  ///< a pair that collides, where one does
+  double closure_residual = 0.0;   ///< worst over the molecule's closures, angstrom; 0 for coordinates given
 };
 
 /// One per thread; copies share everything constant.
@@ -55,7 +64,7 @@ class Checker {
   const Thresholds& thresholds() const noexcept { return *thresholds_; }
   const BondExclusions& exclusions() const noexcept { return *exclusions_; }
   int min_bonds() const noexcept { return min_bonds_; }
-  /// Pairs that collide in the reference coordinates, all admitted pairs looked at, sorted.
+  /// Pairs that collide in the reference coordinates, as written, all admitted pairs looked at, sorted.
   std::span<const Hit> reference_collisions() const noexcept { return *reference_; }
   /// Those whose distance the selection cannot change (and which are not exempted).
   std::span<const Hit> constant_contacts() const noexcept { return *constant_; }
@@ -68,7 +77,8 @@ class Checker {
 
   /// The conformation at q: turns from the reference, rad, one per selected DOF.
   Verdict check(std::span<const double> q, const Mode& mode);
-  /// Coordinates from elsewhere, angstrom, one per atom: every admitted pair counts, whatever the selection.
+  /// Coordinates from elsewhere, angstrom, one per atom: every admitted pair counts, whatever the selection. Pairs of
+  /// atoms whose coordinates have three decimals, as files give them, are decided in decimals (closer_as_written).
   Verdict check_coordinates(std::span<const Vec3> positions, const Mode& mode);
   /// The coordinates of the last check, angstrom.
   std::vector<Vec3> positions();
@@ -76,7 +86,6 @@ class Checker {
  private:
   using AnyHierarchy = std::variant<MolecularHierarchy<Wide>, MolecularHierarchy<Lazy>, MolecularHierarchy<Brute>>;
   AnyHierarchy make(const std::string& engine, DofSelection selection) const;
-  Verdict ask(const Mode& mode);
 
   std::shared_ptr<const Molecule> molecule_;
   std::shared_ptr<const Thresholds> thresholds_;
