@@ -2,10 +2,14 @@
 #include "hinge/molecular/read_structure.hpp"
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -104,6 +108,35 @@ TEST(ReadStructure, ReadsABondRecordThatEndsInTheMiddleOfANumber) {
   std::string link = "LINK         CA  ALA A   1                 CB  ALA A   1     1555   1555   n";
   for (const char* name : {"LINK  ", "link  ", "SSBOND"})
     EXPECT_EQ(refusal(link.replace(0, 6, name) + "\n" + alanine()), "");
+}
+
+/// `text` gzipped `times` times over, one member behind the other, as gzip allows.
+std::string gzipped(const std::string& text, std::size_t times) {
+  const TemporaryFile file("", ".gz");
+  const gzFile out = gzopen(file.path().c_str(), "wb9");
+  gzwrite(out, text.data(), static_cast<unsigned>(text.size()));
+  gzclose(out);
+  std::ifstream in(file.path(), std::ios::binary);
+  const std::string member{std::istreambuf_iterator<char>(in), {}};
+  std::string all;
+  for (std::size_t k = 0; k < times; ++k) all += member;
+  return all;
+}
+
+TEST(ReadStructure, ReadsGzippedFilesAsTheirText) {
+  std::ifstream in(test::ubiquitin());
+  const TemporaryFile file(gzipped({std::istreambuf_iterator<char>(in), {}}, 1), ".pdb.gz");
+  EXPECT_EQ(read_structure(file.path()).models, read_structure(test::ubiquitin()).models);
+}
+
+TEST(ReadStructure, RefusesAFileThatUnpacksWithoutEndNearlyAtOnce) {
+  // 16 KiB of file for each 16 MiB of blanks behind the atoms: 256 MiB in all, refused before a third of it.
+  const std::string bomb = gzipped(alanine() + std::string(std::size_t{16} << 20, ' '), 16);
+  ASSERT_LT(bomb.size(), std::size_t{1} << 20);
+  const std::string said = refusal(bomb, {}, ".pdb.gz"), words = "unpack to more than ";
+  EXPECT_NE(said.find("expected at most 64 MiB + 200 times as many"), std::string::npos) << said;
+  ASSERT_NE(said.find(words), std::string::npos);
+  EXPECT_LT(std::stoul(said.substr(said.find(words) + words.size())), std::size_t{80} << 20);
 }
 
 TEST(ReadStructure, RefusesModelsThatDiffer) {
