@@ -27,10 +27,21 @@ bool is_aromatic(std::string_view residue, std::string_view atom) {
   return false;
 }
 
+AtomClass classify_oxygen(const Structure& s, const Neighbours& near, std::uint32_t i) {
+  for (const std::uint32_t j : near[i])
+    if (s.atoms[j].element == "H") return AtomClass::oxygen_hydroxyl;
+  const std::string_view residue = s.residues[s.atoms[i].residue].name, atom = s.atoms[i].name;
+  const bool hydroxyl =
+      (residue == "SER" && atom == "OG") || (residue == "THR" && atom == "OG1") || (residue == "TYR" && atom == "OH");
+  return hydroxyl ? AtomClass::oxygen_hydroxyl : AtomClass::oxygen;
+}
+
 AtomClass classify_carbon(const Structure& s, const Neighbours& near, std::uint32_t i) {
   if (is_aromatic(s.residues[s.atoms[i].residue].name, s.atoms[i].name)) return AtomClass::carbon_aromatic;
   for (const std::uint32_t j : near[i])
-    if (s.atoms[j].element == "O" && near[j].size() == 1 && near[i].size() <= 3) return AtomClass::carbon_carbonyl;
+    if (s.atoms[j].element == "O" && near[j].size() == 1 && near[i].size() <= 3 &&
+        classify_oxygen(s, near, j) == AtomClass::oxygen)
+      return AtomClass::carbon_carbonyl;
   return AtomClass::carbon;
 }
 
@@ -42,15 +53,6 @@ AtomClass classify_nitrogen(const Structure& s, const Neighbours& near, std::uin
   }
   // Without hydrogens in the file the protonation is unknown, and the hydrogen-bond rule has nothing to work on.
   return heavy == 2 && has_hydrogens ? AtomClass::nitrogen_acceptor : AtomClass::nitrogen;
-}
-
-AtomClass classify_oxygen(const Structure& s, const Neighbours& near, std::uint32_t i) {
-  for (const std::uint32_t j : near[i])
-    if (s.atoms[j].element == "H") return AtomClass::oxygen_hydroxyl;
-  const std::string_view residue = s.residues[s.atoms[i].residue].name, atom = s.atoms[i].name;
-  const bool hydroxyl =
-      (residue == "SER" && atom == "OG") || (residue == "THR" && atom == "OG1") || (residue == "TYR" && atom == "OH");
-  return hydroxyl ? AtomClass::oxygen_hydroxyl : AtomClass::oxygen;
 }
 
 AtomClass classify_hydrogen(const Structure& s, const Neighbours& near, std::uint32_t i) {

@@ -176,6 +176,23 @@ TEST(Thresholds, AreRhoTimesTheSumOfRadii) {
   EXPECT_FALSE(t.hydrogen_bonds);
 }
 
+TEST(Thresholds, TakeNoHydroxylForACarbonylWhereHydrogensAreMissing) {
+  const auto structure = read_structure(test::ubiquitin());
+  const auto classes = classify_atoms(structure);
+  std::size_t hydroxyls = 0;
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    const std::string& residue = structure.residues[structure.atoms[i].residue].name;
+    const std::string& atom = structure.atoms[i].name;
+    if (atom == "C") {
+      EXPECT_EQ(classes[i], AtomClass::carbon_carbonyl);
+    }
+    if (atom != "CB" || (residue != "SER" && residue != "THR")) continue;
+    ++hydroxyls;
+    EXPECT_EQ(classes[i], AtomClass::carbon) << label(structure, static_cast<std::uint32_t>(i));
+  }
+  EXPECT_GT(hydroxyls, 0U);
+}
+
 TEST(Thresholds, RefuseWhatIsOutOfRange) {
   const auto structure = read_structure(test::ubiquitin());
   ThresholdOptions options;
