@@ -15,8 +15,10 @@
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
+#include "hinge/exact/gap.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/query/link_pair_hits.hpp"
+#include "hinge/query/pair_rules.hpp"
 #include "hinge/query/query_options.hpp"
 #include "hinge/robotics/any_hierarchy.hpp"
 #include "hinge/robotics/contact.hpp"
@@ -58,11 +60,10 @@ inline std::vector<double> filling(const AnyHierarchy& mine, double clearance, d
   return for_all_groups(mine, missing_clearance(clearance, other_clearance));
 }
 
-/// The numbers of a hit.
+/// The numbers of a hit, of which `sum` is the threshold.
 template <class H>
-Closeness measure(H& mine, const LinkMargins& margins, H& theirs, const LinkMargins& other_margins, const Hit& hit) {
-  return closeness(triangle_at(mine, hit.first), triangle_at(theirs, hit.second), margins.radius(hit.first),
-                   other_margins.radius(hit.second), hit.threshold);
+Closeness measure(H& mine, H& theirs, const Hit& hit, const exact::Reach& sum) {
+  return closeness(triangle_at(mine, hit.first), triangle_at(theirs, hit.second), sum);
 }
 
 /// The closest pair between two models and its numbers; a hit whenever there is one, if need be one that rounding had
@@ -71,12 +72,17 @@ template <class H, class G>
 std::optional<std::pair<Hit, Closeness>> closest_between(H& mine, const LinkMargins& margins, H& theirs,
                                                          const LinkMargins& other_margins, const G& across,
                                                          const QueryOptions& options) {
+  const auto measured = [&](const Hit& hit) {
+    const double more = clearance_of(options.clearance, mine.model().group_of(hit.first)) +
+                        clearance_of(options.other_clearance, theirs.model().group_of(hit.second));
+    return measure(mine, theirs, hit, margins.sum(hit.first, other_margins, hit.second) + more);
+  };
   std::optional<Hit> hit = mine.closest(theirs, across, options);
   if (!hit) return {};
-  Closeness found = measure(mine, margins, theirs, other_margins, *hit);
+  Closeness found = measured(*hit);
   if (!found.collides && mine.collides(theirs, across, options)) {
     hit = mine.collisions(theirs, across, options).front();
-    found = measure(mine, margins, theirs, other_margins, *hit);
+    found = measured(*hit);
   }
   return std::pair(*hit, found);
 }

@@ -8,14 +8,14 @@
 
 namespace hinge::robotics {
 
-Closeness closeness(const Triangle& first, const Triangle& second, double radius1, double radius2, double threshold) {
+Closeness closeness(const Triangle& first, const Triangle& second, const exact::Reach& sum) {
   constexpr double smallest = std::numeric_limits<double>::denorm_min();
-  const double radii = radius1 + radius2, between = std::sqrt(squared_distance(first, second));
-  const bool meet = closer_than(first, second, radii);
+  const double radii = sum.first + sum.second, between = std::sqrt(squared_distance(first, second));
+  const bool meet = closer_than(first, second, exact::Reach{sum.first, sum.second, 0.0});
   Closeness result;
-  result.collides = closer_than(first, second, threshold);
+  result.collides = closer_than(first, second, sum);
   result.distance = meet ? 0.0 : std::max(between - radii, smallest);
-  result.gap = between - threshold;
+  result.gap = between - sum;
   if (result.collides && !meet) result.gap = std::min(result.gap, -smallest);
   if (!result.collides) result.gap = std::max(result.gap, 0.0);
 
@@ -26,11 +26,11 @@ Closeness closeness(const Triangle& first, const Triangle& second, double radius
   result.point2 = q;
   if (meet) {
     // Divides the way as the radii do, so it is inside both.
-    if (radii > 0.0) result.point1 = p + way * (radius1 / radii);
+    if (radii > 0.0) result.point1 = p + way * (sum.first / radii);
     result.point2 = result.point1;
   } else if (radii > 0.0 && length > 0.0) {
-    result.point1 = p + way * (radius1 / length);
-    result.point2 = q - way * (radius2 / length);
+    result.point1 = p + way * (sum.first / length);
+    result.point2 = q - way * (sum.second / length);
   }
   return result;
 }

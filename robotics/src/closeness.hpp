@@ -6,6 +6,7 @@
 
 #include "hinge/core/id.hpp"
 #include "hinge/core/vec3.hpp"
+#include "hinge/exact/gap.hpp"
 #include "hinge/primitive/triangle.hpp"
 
 namespace hinge::robotics {
@@ -19,8 +20,8 @@ struct Closeness {
   Vec3 point2 = Vec3::Zero();
 };
 
-/// Of placed triangles grown by radii, with threshold M >= radius1 + radius2, m.
-Closeness closeness(const Triangle& first, const Triangle& second, double radius1, double radius2, double threshold);
+/// Of placed triangles grown by the radii of `sum`, m, with its clearance.
+Closeness closeness(const Triangle& first, const Triangle& second, const exact::Reach& sum);
 
 /// A triangle where the hierarchy's engine sees it. Hierarchy::placed() would place all the others, too.
 template <class H>

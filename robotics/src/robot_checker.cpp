@@ -158,14 +158,14 @@ std::optional<ClosestLinks> RobotChecker::closest() {
       [&](auto& hierarchy) -> std::optional<ClosestLinks> {
         std::optional<Hit> hit = hierarchy.self_closest();
         if (!hit) return {};
-        Closeness found = measure(hierarchy, margins_, hierarchy, margins_, *hit);
+        Closeness found = measure(hierarchy, hierarchy, *hit, margins_.sum(hit->first, hit->second));
         if (!found.collides) {
           // By rounding another pair that is a hit may stand a hair behind.
           AnyHit any;
           hierarchy.self_query(any);
           if (any.done()) {
             hit = any.hit();
-            found = measure(hierarchy, margins_, hierarchy, margins_, *hit);
+            found = measure(hierarchy, hierarchy, *hit, margins_.sum(hit->first, hit->second));
           }
         }
         return answer(links[index(hit->first)], links[index(hit->second)], *hit, found);

@@ -108,10 +108,10 @@ std::optional<ClosestBody> RobotChecker::closest(Environment& environment) {
     if (best && pair.lower > best->gap) break;
     // Yes or no first: is any pair closer than the best? Most often not, and that is soon said.
     if (best && !ask(pair, environment, any_hit, std::max(best->gap, 0.0))) continue;
-    const LinkMargins bare(*pair.body->shape);
+    const LinkMargins of_body(*pair.body->shape, environment.clearance());  // of every body: none is grown
     const auto found =
         ask(pair, environment, [&](auto& mine, auto& theirs, const auto& filter, const QueryOptions& options) {
-          return closest_between(mine, pair.held == nullptr ? margins_ : bare, theirs, bare, filter, options);
+          return closest_between(mine, pair.held == nullptr ? margins_ : of_body, theirs, of_body, filter, options);
         });
     if (!found) continue;
     const auto& [hit, numbers] = *found;

@@ -16,6 +16,9 @@
 #include <string>
 
 #if __has_include(<boost/multiprecision/cpp_int.hpp>)
+#include "hinge/exact/balls.hpp"
+#include "hinge/primitive/capsule.hpp"
+#include "hinge/primitive/sphere.hpp"
 #include "primitive/triangle_families.hpp"
 #include "primitive/triangle_oracle.hpp"
 
@@ -180,6 +183,45 @@ TEST(TriangleFiles, AgreeWithStoredExactAnswers) {
   }
   if (cases == 0) GTEST_SKIP() << "no files in " << HINGE_SHARED_DATA << "/robustness";
   std::cout << cases << " stored cases, largest error " << worst.of_target << " of 16 ulp + 8 ulp of the size\n";
+}
+
+/// Grown points, segments and faces against the spheres and capsules they are, whose verdicts have rationals behind
+/// them elsewhere: at contact to the last bit, and a few ulps from it.
+TEST(GrownTriangles, MeetAsTheSolidsTheyAreDo) {
+  Random random(47);
+  std::size_t touching = 0, hits = 0, cases = 0;
+  for (std::size_t k = 0; k < 20'000; ++k) {
+    // A distance that is a double: along an axis, or five times one of few digits.
+    const bool slanted = random.one_in(2);
+    const double scale = std::ldexp(1.0, static_cast<int>(random.below(40)) - 20);
+    const double t = scale * static_cast<double>(1 + random.below(1'000'000));
+    const double distance = slanted ? 5 * t : t;
+    const Vec3 p(0, 0, 0), q = slanted ? Vec3(3 * t, 4 * t, 0) : Vec3(t, 0, 0);
+    const double m = random.one_in(3) ? distance * random.uniform(0.0, 0.5) : 0.0;
+    const double r = (distance - m) * random.uniform(0.0, 1.0);
+    double s = distance - m - r;  // to half an ulp
+    for (std::size_t n = random.below(4); n > 0; --n) s = std::nextafter(s, random.one_in(2) ? 1e300 : 0.0);
+    s = std::max(s, 0.0);
+    const exact::Reach reach{r, s, m};
+    const bool expected = closer_than(Sphere{p, r}, Sphere{q, s}, m);
+    ++cases;
+    hits += expected ? 1 : 0;
+    touching += expected && m == 0.0 && !exact::balls_closer_than(p, q, {r, s > 0 ? std::nextafter(s, 0.0) : s, 0.0});
+    const Vec3 along = Vec3(0, 0, random.uniform(0.1, 2.0) * distance), across = Vec3(-q[1], q[0], 0) * 0.5;
+    ASSERT_EQ(closer_than(Triangle{p, p, p}, Triangle{q, q, q}, reach), expected) << k;
+    ASSERT_EQ(closer_than(Triangle{q, q, q}, Triangle{p, p, p}, exact::Reach{s, r, m}), expected) << k;
+    // Their nearest points are p and q as well.
+    ASSERT_EQ(closer_than(Triangle{p, p, p + along}, Triangle{q, q, q}, reach), expected) << k;
+    ASSERT_EQ(closer_than(Capsule{p, p + along, r}, Capsule{q, q, s}, m), expected) << k;
+    if (!slanted) {
+      const Triangle face{p - along - across, p + along, p - along + across};
+      ASSERT_EQ(closer_than(face, Triangle{q, q, q}, reach), expected) << k;
+    }
+    ASSERT_EQ(closer_than(Triangle{p, p, p}, Triangle{q, q, q}, exact::Reach{0.0, 0.0, distance}), false) << k;
+  }
+  EXPECT_GT(touching, cases / 20);
+  EXPECT_GT(hits, cases / 3);
+  EXPECT_LT(hits, cases - cases / 5);
 }
 
 }  // namespace

@@ -112,6 +112,51 @@ TEST_P(EveryEngine, AgreesWithAllPairsOneByOne) {
   EXPECT_GT(free, 20U);
 }
 
+/// Balls of radii r and s whose centres are x apart meet exactly when x <= r + s, a sum that is not rounded.
+TEST_P(EveryEngine, LetsGrownShapesMeetWhenTheyTouchAndNotBefore) {
+  SCOPED_TRACE(seed);
+  SampleStream stream(seed + 9, 0);
+  std::size_t exact_sums = 0, touching = 0;
+  const auto check = [&](double r, double s, double x, bool expected) {
+    RobotChecker checker = slider_checker(slider(SphereShape{r}, SphereShape{s}), 0.0, GetParam());
+    for (const char* mode : {"any", "all", "within:0.1", "closest"})
+      EXPECT_EQ(checker.check(std::vector<double>{0.0, x}, Mode::parse(mode)).collides, expected)
+          << mode << ", " << r << ' ' << s << ' ' << x;
+    const auto closest = checker.closest();
+    ASSERT_TRUE(closest.has_value());
+    EXPECT_EQ(closest->distance == 0.0, expected);
+    EXPECT_EQ(closest->collides(), expected);
+  };
+  check(0.1, 0.1, 0.2, true);
+  check(0.1, 0.1, std::nextafter(0.2, 1.0), false);
+  check(0.1, 0.2, 0.3, true);
+  check(0.1, 0.2, 0.1 + 0.2, false);  // rounded up
+  for (int k = 0; k < 40; ++k) {
+    const double r = stream.uniform(), s = k % 4 == 0 ? r : stream.uniform(), x = r + s;
+    // What rounding left out, exactly (Knuth's two-sum).
+    const double b = x - r, left_out = (r - (x - b)) + (s - b);
+    exact_sums += left_out == 0.0 ? 1 : 0;
+    touching += left_out >= 0.0 ? 1 : 0;
+    check(r, s, x, left_out >= 0.0);
+    check(r, s, std::nextafter(x, 10.0), false);
+    check(r, s, std::nextafter(x, 0.0), true);
+  }
+  EXPECT_GE(exact_sums, 10U);
+  EXPECT_LT(touching, 40U);
+}
+
+/// With a clearance contact is no special case: d < r + s + c.
+TEST_P(EveryEngine, AddsClearancesToRadiiWithoutRounding) {
+  const auto collides = [&](double r, double s, double c, double x) {
+    RobotChecker checker = slider_checker(slider(SphereShape{r}, SphereShape{s}), c, GetParam());
+    checker.update(std::vector<double>{0.0, x});
+    return checker.collides();
+  };
+  EXPECT_FALSE(collides(0.25, 0.25, 0.5, 1.0));
+  EXPECT_TRUE(collides(0.25, 0.25, 0.5, std::nextafter(1.0, 0.0)));
+  EXPECT_TRUE(collides(0.5, 0.25, 0.25 + 0x1p-54, 1.0)) << "a sum above 1 that rounds to 1";
+}
+
 TEST_P(EveryEngine, AnswersEveryModeAlike) {
   SCOPED_TRACE(seed);
   for (std::uint64_t number = 0; number < 6; ++number) {

@@ -89,6 +89,7 @@ static_assert(!CrossEngine<Lazy<Point, AdmitAll, OwnOnly>, Point, AdmitAll, OwnO
 static_assert(CrossEngine<Wide<Point, AdmitAll, TypedThresholds>, Point, AdmitAll, TypedThresholds, AdmitAll>);
 static_assert(!CrossEngine<Wide<Point, AdmitAll, OwnOnly>, Point, AdmitAll, OwnOnly, AdmitAll>);
 static_assert(TypesPrimitives<TypedThresholds> && !TypesPrimitives<UniformClearance>);
+static_assert(!GrowsPrimitives<TypedThresholds> && !GrowsPrimitives<UniformClearance>);
 static_assert(TurnsBatch<Point> && !TurnsBatch<Sphere>);
 
 static_assert(Id<PrimitiveId> && !Id<int> && !std::is_convertible_v<LinkId, PrimitiveId>);

@@ -12,11 +12,17 @@
 
 namespace hinge::exact {
 
-/// Two radii and a clearance, each >= 0, whose sum is never rounded.
+/// Two radii and a clearance, each >= 0, whose sum is not rounded where a verdict is about it.
 struct Reach {
   double first = 0.0;
   double second = 0.0;
   double clearance = 0.0;
+
+  /// Rounded twice.
+  operator double() const noexcept { return first + second + clearance; }
+  friend Reach operator+(const Reach& reach, double more) noexcept {
+    return {reach.first, reach.second, reach.clearance + more};
+  }
 
   /// Of which each is a whole multiple of 2^e; never above `unit`.
   int unit(int unit) const noexcept {

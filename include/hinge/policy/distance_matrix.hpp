@@ -15,6 +15,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
+#include "hinge/exact/gap.hpp"
 
 namespace hinge {
 
@@ -26,6 +27,14 @@ concept DistanceMatrix = std::copyable<D> && requires(const D& matrix, Primitive
   noexcept->std::same_as<double>;
   { matrix.reach(i) }
   noexcept->std::same_as<double>;
+};
+
+/// Optional refinement: M is the real sum of two radii and a clearance, which no double may hold; threshold(i, j) is
+/// that sum rounded. Verdicts are about the real sum where the primitive has a closer_than(p, q, exact::Reach).
+template <class D>
+concept GrowsPrimitives = DistanceMatrix<D> && requires(const D& matrix, PrimitiveId i, PrimitiveId j) {
+  { matrix.sum(i, j) }
+  noexcept->std::same_as<exact::Reach>;
 };
 
 /// Optional refinement: thresholds between primitive i of this model and primitive j of another one.

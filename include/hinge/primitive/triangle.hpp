@@ -11,6 +11,7 @@
 #include "hinge/core/pose.hpp"
 #include "hinge/core/vec3.hpp"
 #include "hinge/exact/error_free.hpp"
+#include "hinge/exact/gap.hpp"
 #include "hinge/policy/primitive.hpp"
 #include "hinge/primitive/triangle_corners.hpp"
 #include "hinge/primitive/triangle_distance.hpp"
@@ -68,7 +69,28 @@ struct Triangle {
       if (nearest.distance + pair.rounding(nearest.distance) < m) return true;
       if (nearest.gap - pair.rounding(nearest.gap) >= m) return false;
     }
-    return detail::closer_in_integers(x, y, m);
+    return detail::closer_in_integers(x, y, {0.0, 0.0, m});
+  }
+
+  /// Of triangles grown by radii: d is below the sum of both and the clearance, or, without a clearance, not above it.
+  /// The answer for the real numbers that coordinates, radii and clearance are. Finite radii, clearance >= 0.
+  friend bool closer_than(const Triangle& p, const Triangle& q, const exact::Reach& reach) noexcept {
+    if (reach.first == 0.0 && reach.second == 0.0) return closer_than(p, q, reach.clearance);
+    // Room for the two roundings of the sum, and for one of the comparison; what is above `far` is above the sum also
+    // where products are denormal.
+    constexpr double sum_below = 1.0 - 4 * exact::half_ulp, sum_above = 1.0 + 4 * exact::half_ulp;
+    const double near = reach, far = near * sum_above + 0x1p-1000;
+    if (Boxes(p, q).apart(far)) return false;
+    if (!is_finite(near)) return true;
+    const Corners x = p.corners(), y = q.corners();
+    const detail::TrianglePair pair(x, y);
+    if (pair.in_window()) {
+      if (pair.planes_apart(far)) return false;
+      const auto nearest = pair.nearest();
+      if (nearest.distance + pair.rounding(nearest.distance) < near * sum_below) return true;
+      if (nearest.gap - pair.rounding(nearest.gap) > far) return false;
+    }
+    return detail::closer_in_integers(x, y, reach);
   }
 
   /// As far apart as the distance says, up to an ulp or two of the coordinates; of triangles that meet, one point

@@ -22,19 +22,19 @@ namespace hinge::detail {
 /// is a fraction of whole numbers.
 class ExactTriangles {
  public:
-  /// `m`: a finite length >= 0 to compare with.
-  ExactTriangles(const Corners& x, const Corners& y, double m = 0.0) noexcept : corners_{x, y} {
-    unit_ = exact::common_unit(x, exact::common_unit(y, exact::unit_exponent(m, exact::no_unit)));
+  /// `reach`: finite lengths to compare with.
+  ExactTriangles(const Corners& x, const Corners& y, const exact::Reach& reach = {}) noexcept
+      : corners_{x, y}, counts_touching_(reach.counts_touching()) {
+    unit_ = reach.unit(exact::common_unit(x, exact::common_unit(y)));
     if (unit_ == exact::no_unit) unit_ = 0;
-    m_ = Integer::of(m, unit_);
+    reach_ = reach.whole(unit_);
   }
 
-  /// d < m.
-  bool closer_than_m() const noexcept {
-    const Integer square = m_ * m_;
+  /// d below the reach, or not above it where there is no clearance.
+  bool closer_than_reach() const noexcept {
     bool closer = false;
     visit([&](const Integer& numerator, const Integer& denominator, const auto&) noexcept {
-      closer = numerator < square * denominator;
+      closer = exact::within(numerator, denominator, reach_, counts_touching_);
       return closer;
     });
     return closer;
@@ -165,7 +165,8 @@ class ExactTriangles {
 
   std::array<Corners, 2> corners_;
   int unit_ = 0;
-  Integer m_;
+  Integer reach_;
+  bool counts_touching_ = false;
 };
 
 // Out of line: frames of whole numbers are large, and a caller that seldom gets here should not have them in its own.
@@ -175,8 +176,9 @@ class ExactTriangles {
   return ExactTriangles(x, y).nearest();
 }
 
-[[gnu::cold, gnu::noinline]] inline bool closer_in_integers(const Corners& x, const Corners& y, double m) noexcept {
-  return ExactTriangles(x, y, m).closer_than_m();
+[[gnu::cold, gnu::noinline]] inline bool closer_in_integers(const Corners& x, const Corners& y,
+                                                            const exact::Reach& reach) noexcept {
+  return ExactTriangles(x, y, reach).closer_than_reach();
 }
 
 }  // namespace hinge::detail

@@ -18,6 +18,22 @@ inline double clearance_of(std::span<const double> clearance, GroupId group) noe
   return clearance.empty() ? 0.0 : clearance[index(group)];
 }
 
+/// What closer_than compares with: M, or the sum it is made of.
+template <DistanceMatrix D>
+auto threshold_of(const D& matrix, PrimitiveId i, PrimitiveId j) noexcept {
+  if constexpr (GrowsPrimitives<D>)
+    return matrix.sum(i, j);
+  else
+    return matrix.threshold(i, j);
+}
+template <CrossMatrix D>
+auto threshold_of(const D& matrix, PrimitiveId i, const D& other, PrimitiveId j) noexcept {
+  if constexpr (GrowsPrimitives<D>)
+    return matrix.sum(i, other, j);
+  else
+    return matrix.threshold(i, other, j);
+}
+
 /// Pairs inside one model. A view: lives as long as one query.
 template <Primitive P, PairFilter F, DistanceMatrix D>
 struct SelfRules {
@@ -26,8 +42,8 @@ struct SelfRules {
   const D& matrix;
   const QueryOptions& options;
 
-  double threshold(PrimitiveId i, PrimitiveId j) const noexcept {
-    const double m = matrix.threshold(i, j);
+  auto threshold(PrimitiveId i, PrimitiveId j) const noexcept {
+    const auto m = threshold_of(matrix, i, j);
     if (options.clearance.empty()) return m;
     const auto& model = placement.model();
     return m +
@@ -52,8 +68,8 @@ struct CrossRules {
   const D& second_matrix;
   const QueryOptions& options;
 
-  double threshold(PrimitiveId i, PrimitiveId j) const noexcept {
-    return first_matrix.threshold(i, second_matrix, j) +
+  auto threshold(PrimitiveId i, PrimitiveId j) const noexcept {
+    return threshold_of(first_matrix, i, second_matrix, j) +
            (clearance_of(options.clearance, first.model().group_of(i)) +
             clearance_of(options.other_clearance, second.model().group_of(j)));
   }

@@ -33,8 +33,6 @@ struct ClosestLinks {
   PrimitiveId triangle1{};
   PrimitiveId triangle2{};
   /// Of the surfaces, radii taken off; >= 0, and 0 exactly when they meet. Right to a few ulps of the coordinates.
-  /// Triangles grown by radii meet when they are closer than the rounded sum of their radii, so grown surfaces that
-  /// touch in a single point do not, and have the smallest positive number as their distance.
   double distance = 0.0;
   double gap = 0.0;            ///< d - M: distance minus clearance where the surfaces are apart
   Vec3 point1 = Vec3::Zero();  ///< on link1; where the two meet, one point twice

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hinge/core/id.hpp"
+#include "hinge/exact/gap.hpp"
 #include "hinge/model/model.hpp"
 #include "hinge/policy/distance_matrix.hpp"
 #include "hinge/policy/pair_filter.hpp"
@@ -25,22 +26,26 @@ struct PairClearance {
   double clearance = 0.0;
 };
 
-/// M(i, j) = radius(i) + radius(j) + clearance of their links, m. Copies share one constant table.
+/// M(i, j) = radius(i) + radius(j) + clearance of their links, m, which verdicts take for the real sum. Copies share
+/// one constant table.
 class LinkMargins {
  public:
   /// ModelError, naming the links: a clearance or radius that is not finite or below 0, a link the robot does not have,
   /// a pair of a link with itself or named twice.
   explicit LinkMargins(const Robot& robot, double clearance = 0.0, std::span<const PairClearance> overrides = {});
 
-  double threshold(PrimitiveId i, PrimitiveId j) const noexcept {
-    if (data_->plain) return data_->clearance;
-    return radius(i) + radius(j) + clearance(link_of(i), link_of(j));
+  exact::Reach sum(PrimitiveId i, PrimitiveId j) const noexcept {
+    if (data_->plain) return {0.0, 0.0, data_->clearance};
+    return {radius(i), radius(j), clearance(link_of(i), link_of(j))};
   }
   /// Between two models: each brings half of its clearance of all pairs, the most that boxes grown by reach() bear.
   /// RobotChecker adds what is missing to the larger of the two clearances.
-  double threshold(PrimitiveId i, const LinkMargins& other, PrimitiveId j) const noexcept {
-    return radius(i) + other.radius(j) + (data_->clearance / 2 + other.data_->clearance / 2);
+  exact::Reach sum(PrimitiveId i, const LinkMargins& other, PrimitiveId j) const noexcept {
+    return {radius(i), other.radius(j), data_->clearance / 2 + other.data_->clearance / 2};
   }
+  /// Both rounded.
+  double threshold(PrimitiveId i, PrimitiveId j) const noexcept { return sum(i, j); }
+  double threshold(PrimitiveId i, const LinkMargins& other, PrimitiveId j) const noexcept { return sum(i, other, j); }
   bool compatible(const LinkMargins&) const noexcept { return true; }
   double reach(PrimitiveId i) const noexcept { return data_->plain ? data_->plain_reach : data_->reach[index(i)]; }
   std::size_t size() const noexcept { return data_->model->size(); }
@@ -69,6 +74,6 @@ class LinkMargins {
   std::shared_ptr<const Data> data_;
 };
 
-static_assert(CrossMatrix<LinkMargins> && KnowsSize<LinkMargins>);
+static_assert(CrossMatrix<LinkMargins> && GrowsPrimitives<LinkMargins> && KnowsSize<LinkMargins>);
 
 }  // namespace hinge::robotics
