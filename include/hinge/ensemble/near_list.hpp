@@ -20,24 +20,28 @@
 #include "hinge/model/selected_model.hpp"
 #include "hinge/policy/primitive.hpp"
 #include "hinge/primitive/point.hpp"
+#include "hinge/query/pair_rules.hpp"
 #include "hinge/simd/lanes.hpp"
 
 namespace hinge {
 
-/// A pair and where it stands at the reference that travels are measured from.
+/// A pair and where it stands at the reference that travels are measured from. Threshold: as threshold_of() gives it.
+template <class Threshold>
 struct NearPair {
   PrimitiveId first, second;
   std::uint32_t first_place, second_place;  // among the listed primitives
   std::array<float, 3> apart;               // from the second to the first
   float above, below;                       // the threshold
   float error;                              // of what is in float
-  double threshold;
+  Threshold threshold;
 };
 
 /// Points are tested by the ways they went; of other primitives only the lengths of their ways are used.
-template <Primitive P>
+template <Primitive P, class Threshold>
 class NearList {
  public:
+  using Pair = NearPair<Threshold>;
+
   explicit NearList(std::size_t primitives) : place_of_(primitives, nowhere) {}
 
   std::size_t size() const noexcept { return pairs_.size(); }
@@ -50,10 +54,10 @@ class NearList {
     listed_.clear();
     pairs_.clear();
     for (const auto& [i, j] : pairs) {
-      const double threshold = matrix.threshold(i, j);
+      const Threshold threshold = threshold_of(matrix, i, j);
       if constexpr (HasNoBody<P>)
         if (threshold == 0.0) continue;
-      NearPair pair{i, j, place(i, model, travel), place(j, model, travel), {}, 0.0F, 0.0F, 0.0F, threshold};
+      Pair pair{i, j, place(i, model, travel), place(j, model, travel), {}, 0.0F, 0.0F, 0.0F, threshold};
       if constexpr (by_ways) {
         const Vec3 d =
             listed_[pair.first_place].at_reference.position - listed_[pair.second_place].at_reference.position;
@@ -74,7 +78,7 @@ class NearList {
              const Visit& visit) {
     if constexpr (by_ways) {
       place_ways(frames, model, travel);
-      for (const NearPair& pair : pairs_) {
+      for (const Pair& pair : pairs_) {
         const Way &p = ways_[pair.first_place], &q = ways_[pair.second_place];
         const simd::Float16 squared = squared_distances(pair, p.way - q.way);
         const float error = pair.error + p.error + q.error, near = (pair.above + error) * (1.0F + rounding) + lost;
@@ -87,7 +91,7 @@ class NearList {
         if (!visit(pair, surely, maybe & ~surely)) return;
       }
     } else {
-      for (const NearPair& pair : pairs_) {
+      for (const Pair& pair : pairs_) {
         const double ways = travel.bound(model.group_of(pair.first)) + travel.bound(model.group_of(pair.second));
         // Both sums round.
         const double near = (pair.threshold + ways) * (1.0 + 0x1p-50);
@@ -141,14 +145,14 @@ class NearList {
     }
   }
 
-  [[gnu::always_inline]] static simd::Float16 squared_distances(const NearPair& pair, const LaneVector& ways) noexcept {
+  [[gnu::always_inline]] static simd::Float16 squared_distances(const Pair& pair, const LaneVector& ways) noexcept {
     using simd::Float16;
     const Float16 x = ways.x + Float16(pair.apart[0]), y = ways.y + Float16(pair.apart[1]),
                   z = ways.z + Float16(pair.apart[2]);
     return x * x + y * y + z * z;
   }
 
-  std::vector<NearPair> pairs_;
+  std::vector<Pair> pairs_;
   std::vector<Listed> listed_;
   simd::AlignedVector<Way> ways_;        // the same order
   std::vector<std::uint32_t> place_of_;  // by primitive

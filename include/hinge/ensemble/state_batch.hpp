@@ -67,7 +67,7 @@ class StateBatch {
         block,
         [&](simd::Bits lanes) {
           near_.visit(frames_, single_.model(), travel_, lanes,
-                      [&](const NearPair& pair, simd::Bits surely, simd::Bits maybe) {
+                      [&](const auto& pair, simd::Bits surely, simd::Bits maybe) {
                         hit |= surely;
                         for (maybe &= ~hit; maybe != 0; maybe &= maybe - 1)
                           if (decide(pair, static_cast<std::size_t>(std::countr_zero(maybe)))) hit |= maybe & -maybe;
@@ -86,7 +86,7 @@ class StateBatch {
         block,
         [&](simd::Bits lanes) {
           near_.visit(
-              frames_, single_.model(), travel_, lanes, [&](const NearPair& pair, simd::Bits surely, simd::Bits maybe) {
+              frames_, single_.model(), travel_, lanes, [&](const auto& pair, simd::Bits surely, simd::Bits maybe) {
                 for (simd::Bits left = surely | maybe; left != 0; left &= left - 1) {
                   const auto lane = static_cast<std::size_t>(std::countr_zero(left));
                   const P p = placed(pair.first, lane), q = placed(pair.second, lane);
@@ -106,6 +106,7 @@ class StateBatch {
   const BatchCounts& counts() const noexcept { return counts_; }
 
  private:
+  using List = NearList<P, decltype(threshold_of(std::declval<const D&>(), PrimitiveId{}, PrimitiveId{}))>;
   static constexpr std::size_t least_shared = 4;   // configurations that a list is made for
   static constexpr std::size_t longest_rest = 64;  // blocks
   /// What it takes to find, sort and store a pair, in lanes tested.
@@ -134,7 +135,7 @@ class StateBatch {
     const P& local = single_.model().primitives()[index(i)];
     return group == GroupId{0} ? local : local.placed(frames_.pose(group, lane));
   }
-  bool decide(const NearPair& pair, std::size_t lane) noexcept {
+  bool decide(const typename List::Pair& pair, std::size_t lane) noexcept {
     ++counts_.decided;
     return closer_than(placed(pair.first, lane), placed(pair.second, lane), pair.threshold);
   }
@@ -156,7 +157,7 @@ class StateBatch {
   Hierarchy<P, F, D, EngineOf> single_;
   FrameLanes frames_;
   LaneTravel travel_;
-  NearList<P> near_;
+  List near_;
   double largest_reach_ = 0.0;
   std::span<const double> block_{};  // of the present query
   bool has_list_ = false;
