@@ -52,10 +52,11 @@ class Wide {
   void self_query(C& collector, const QueryOptions& options) {
     QueryCounts counts;
     const SelfRules<P, F, D> rules{placement_, filter_, matrix_, options};
-    if (by_trees()) {
-      trees_->self_query(placement_, self_judge(collector, rules), collector, options, counts);
-      return add(options.counts, counts);
-    }
+    if constexpr (KeepsTrees<P>)
+      if (by_trees()) {
+        trees_->self_query(placement_, self_judge(collector, rules), collector, options, counts);
+        return add(options.counts, counts);
+      }
     if (never_collides(collector, options)) return;
     WideSide<P>& side = present_side();
     side.begin(placement_, options.moved_only, options.clearance);
@@ -73,7 +74,6 @@ class Wide {
       if (witness_)
         decide(witness_->first, witness_->second, exact(side, witness_->first), exact(side, witness_->second));
     }
-    const BlockLayout& layout = side.layout();
     lister_.tasks.clear();
     visits_ = 0;
     const auto present_margin = [&] { return margin(side, collector.cutoff()); };
@@ -83,9 +83,9 @@ class Wide {
     std::size_t patience = 1;
     float extent = -1.0F;
     double cutoff = 0.0;
-    for (std::size_t u = side.state().first_unit(); u < layout.units.size() && !collector.done(); ++u) {
+    for (std::size_t u = side.state().first_unit(); u < side.layout().units.size() && !collector.done(); ++u) {
       side.state().refresh(u, placement_);
-      if (u < layout.static_units) continue;
+      if (u < side.layout().static_units) continue;
       // Margins depend on the size of what was placed so far, in powers of two, and on the cutoff.
       if (side.state().extent() != extent || collector.cutoff() != cutoff) {
         extent = side.state().extent();
@@ -106,7 +106,7 @@ class Wide {
 
   /// Learns, from the present state and those of earlier calls, in which order a yes/no query tries pairs of links.
   /// Answers stay the same; only models that are kept in trees have such an order.
-  void learn_order() {
+  void learn_order() requires KeepsTrees<P> {
     if (!by_trees()) return;
     AnyHit any;
     const QueryOptions options;
@@ -123,17 +123,18 @@ class Wide {
     const auto decide = [&](PrimitiveId i, PrimitiveId j, const P& p, const P& q) {
       offer(collector, i, j, p, q, rules.threshold(i, j), [&] { return rules.admits(i, j); });
     };
-    if (by_trees() && other.by_trees() && trees_->fits(*other.trees_)) {
-      trees_->query(placement_, *other.trees_, other.placement_,
-                    TreeJudge{decide, [&](PrimitiveId i, PrimitiveId j) { return rules.threshold(i, j); },
-                              [&](PrimitiveId i, PrimitiveId j) { return rules.admits(i, j); },
-                              [&](LinkId a, LinkId b) {
-                                if constexpr (AdmitsLinks<G>) return across.admits(a, b);
-                                return true;
-                              }},
-                    collector, options, counts);
-      return add(options.counts, counts);
-    }
+    if constexpr (KeepsTrees<P>)
+      if (by_trees() && other.by_trees() && trees_->fits(*other.trees_)) {
+        trees_->query(placement_, *other.trees_, other.placement_,
+                      TreeJudge{decide, [&](PrimitiveId i, PrimitiveId j) { return rules.threshold(i, j); },
+                                [&](PrimitiveId i, PrimitiveId j) { return rules.admits(i, j); },
+                                [&](LinkId a, LinkId b) {
+                                  if constexpr (AdmitsLinks<G>) return across.admits(a, b);
+                                  return true;
+                                }},
+                      collector, options, counts);
+        return add(options.counts, counts);
+      }
     if (never_collides(collector, options) && other.never_collides(collector, options)) return;
     WideSide<P>&mine = present_side(), &theirs = other.present_side();
     mine.begin(placement_, false, options.clearance);
@@ -230,9 +231,8 @@ class Wide {
   /// What is added to thresholds and boxes so that floats lose no pair with d - M <= cutoff. Extra clearances come on
   /// top, per pair.
   static float margin(WideSide<P>& side, double cutoff) noexcept {
-    const double scaled = cutoff * side.layout().scale;
-    const double largest =
-        static_cast<double>(side.table().largest) + std::abs(scaled) + 2 * static_cast<double>(side.largest_extra());
+    const double scaled = cutoff * side.layout().scale, extra = static_cast<double>(side.largest_extra());
+    const double largest = static_cast<double>(side.table().largest) + std::abs(scaled) + 2 * extra;
     return float_above(scaled + side.state().band(largest));
   }
   static float margin(WideSide<P>& mine, WideSide<P>& theirs, const ThresholdTable& table, const Into<P>& into,
@@ -287,8 +287,8 @@ class Wide {
   Placement<P> placement_;
   F filter_;
   D matrix_;
-  bool all_idle_ = false;             // no primitive has a body or a threshold above 0
-  std::optional<TreeSide<P>> trees_;  // one of these two, as the primitive is
+  bool all_idle_ = false;      // no primitive has a body or a threshold above 0
+  OptionalTreeSide<P> trees_;  // one of these two, as the primitive is
   std::optional<WideSide<P>> by_groups_;
   std::optional<WideSide<P>> by_index_;  // made when coordinates from elsewhere first come
   TaskLister<P> lister_;                 // scratch

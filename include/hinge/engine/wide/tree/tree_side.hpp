@@ -8,9 +8,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <tuple>
+#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "hinge/core/id.hpp"
@@ -24,6 +27,7 @@
 #include "hinge/engine/wide/tree/witnesses.hpp"
 #include "hinge/model/placement.hpp"
 #include "hinge/policy/collector.hpp"
+#include "hinge/primitive/leaf.hpp"
 #include "hinge/query/pair_rules.hpp"
 #include "hinge/query/query_options.hpp"
 
@@ -288,5 +292,9 @@ class TreeSide {
   Witnesses<P> witnesses_, cross_witnesses_;
   std::weak_ptr<const TreeParts<P>> witnessed_;  // whose pairs cross_witnesses_ holds
 };
+
+/// Nothing of the trees is compiled for primitives that are never kept in them.
+template <Primitive P>
+using OptionalTreeSide = std::optional<std::conditional_t<KeepsTrees<P>, TreeSide<P>, std::monostate>>;
 
 }  // namespace hinge
