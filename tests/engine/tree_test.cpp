@@ -13,6 +13,7 @@
 
 #include "engine/random_mechanism.hpp"
 #include "engine/side_by_side.hpp"
+#include "hinge/engine/wide/tree/earlier_parts.hpp"
 #include "hinge/engine/wide/tree/static_tree.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/policy/different_links.hpp"
@@ -100,6 +101,36 @@ TEST(StaticTree, StaysShallowOnInputThatCannotBeCutWell) {
   expect_whole(one_point, 8);
   expect_whole(line, 8);
   expect_whole(exponential, 60);
+}
+
+TEST(EarlierParts, KeepWhatIsLeftOutInMemoryForThatAlone) {
+  Random random(12);
+  for (const std::size_t n : {1U, 16U, 17U, 100U, 1000U})
+    for (const std::size_t one_in : {2U, 30U, 3000U}) {
+      SCOPED_TRACE(testing::Message() << "seed 12, " << n << " parts, one pair in " << one_in << " left out");
+      EarlierParts parts;
+      std::vector<std::vector<bool>> tested(n, std::vector<bool>(n, false));
+      for (std::size_t p = 0; p < n; ++p) {
+        const std::size_t end = p - random.below(std::min<std::size_t>(p + 1, 20));
+        parts.add(end);
+        for (std::size_t q = 0; q < end; ++q) {
+          tested[p][q] = !random.one_in(one_in);
+          if (!tested[p][q]) parts.leave_out(q);
+        }
+      }
+      for (std::size_t p = 0; p < n; ++p)
+        for (std::size_t q = 0; q < (n + 15) / 16 * 16; ++q)
+          ASSERT_EQ((parts.get(p, q / 16) >> q % 16 & 1U) != 0, q < n && tested[p][q]) << p << ' ' << q;
+    }
+  // A chain of links, each left out with its neighbour and the base.
+  const std::size_t n = 100'000;
+  EarlierParts chain;
+  for (std::size_t p = 0; p < n; ++p) {
+    chain.add(p);
+    if (p > 0) chain.leave_out(0);
+    if (p > 1) chain.leave_out(p - 1);
+  }
+  EXPECT_LE(chain.bytes(), 100 * n);
 }
 
 /// Links of many triangles: bumpy balls around the link's origin, every other one a quarter as large and as fine.

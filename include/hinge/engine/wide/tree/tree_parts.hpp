@@ -19,6 +19,7 @@
 #include "hinge/bounds/float_box.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/engine/wide/rigid_blocks.hpp"
+#include "hinge/engine/wide/tree/earlier_parts.hpp"
 #include "hinge/engine/wide/tree/static_tree.hpp"
 #include "hinge/kinematics/pose_source.hpp"
 #include "hinge/model/selected_model.hpp"
@@ -54,7 +55,7 @@ struct TreeParts {
   TreeParts(const SelectedModel<P>& model, const F& filter, const D& matrix);
 
   /// Bits of the parts 16 row ... 16 row + 15 that are tested with part p; only of earlier parts.
-  simd::Bits tested_with(std::size_t p, std::size_t row) const noexcept { return tested[p * rows() + row]; }
+  simd::Bits tested_with(std::size_t p, std::size_t row) const noexcept { return tested.get(p, row); }
   std::size_t rows() const noexcept { return (parts.size() + simd::width - 1) / simd::width; }
 
   const float* leaf(std::uint32_t l) const noexcept { return leaves.data() + std::size_t{l} * Leaf<P>::floats; }
@@ -71,7 +72,7 @@ struct TreeParts {
   TreeStore store;
   simd::AlignedVector<float> leaves;
   simd::AlignedVector<float> reaches;
-  std::vector<std::uint16_t> tested;
+  EarlierParts tested;
   double largest_threshold = 0.0;  ///< no pair has a larger one, model unit
   std::size_t depth = 0;           ///< of the deepest tree
 
@@ -89,14 +90,14 @@ TreeParts<P>::TreeParts(const SelectedModel<P>& model, const F& filter, const D&
   for (std::size_t i = 0; i < model.size(); ++i) boxes[i] = model.primitives()[i].bounds();
   measure(model, boxes);
   build(model, matrix, boxes);
-  tested.assign(parts.size() * rows(), 0);
-  for (std::size_t p = 0; p < parts.size(); ++p)
-    for (std::size_t q = 0; q < p; ++q) {
-      if (parts[p].group == parts[q].group) continue;
-      if constexpr (AdmitsLinks<F>)
-        if (!filter.admits(parts[q].link, parts[p].link)) continue;
-      tested[p * rows() + q / simd::width] |= static_cast<std::uint16_t>(1U << q % simd::width);
-    }
+  // Parts of one group stand together.
+  for (std::size_t p = 0, group = 0; p < parts.size(); ++p) {
+    if (parts[group].group != parts[p].group) group = p;
+    tested.add(group);
+    if constexpr (AdmitsLinks<F>)
+      for (std::size_t q = 0; q < group; ++q)
+        if (!filter.admits(parts[q].link, parts[p].link)) tested.leave_out(q);
+  }
 }
 
 template <Primitive P>
