@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hinge/bounds/aabb.hpp"
-#include "hinge/engine/lazy/lazy_tree.hpp"
+#include "hinge/engine/lazy_tree.hpp"
 #include "hinge/query/query_options.hpp"
 
 namespace hinge {
