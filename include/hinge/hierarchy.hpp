@@ -20,6 +20,7 @@
 #include "hinge/model/selected_model.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/policy/distance_matrix.hpp"
+#include "hinge/policy/largest_threshold.hpp"
 #include "hinge/policy/pair_filter.hpp"
 #include "hinge/policy/primitive.hpp"
 #include "hinge/query/collectors.hpp"
@@ -45,7 +46,8 @@ class Hierarchy {
         matrix_(std::move(matrix)),
         engine_(
             std::make_shared<const SelectedModel<P>>(checked(std::move(model), filter_, matrix_), std::move(selection)),
-            filter_, matrix_) {}
+            filter_, matrix_),
+        largest_threshold_(matrix_, engine_.placement().model().size()) {}
 
   // --- state. Each throws ConfigurationError on bad input, naming the element, and keeps the previous state. ---
 
@@ -73,7 +75,10 @@ class Hierarchy {
     return self(HitsWithin{checked(margin)}, options).take();
   }
   /// The pair with the smallest d - M, most interpenetrating when colliding; none when no pair is tested.
-  std::optional<Hit> self_closest(const QueryOptions& options = {}) { return self(Closest{}, options).hit(); }
+  std::optional<Hit> self_closest(const QueryOptions& options = {}) {
+    const double most = largest(options.clearance);
+    return self(Closest{-(largest_threshold_.within() + (most + most))}, options).hit();
+  }
 
   /// Any collector of your own, handed over in the order the engine finds the pairs.
   template <Collector C>
@@ -99,7 +104,9 @@ class Hierarchy {
   }
   template <PairFilter G = AdmitAll>
   std::optional<Hit> closest(Hierarchy& other, const G& across = {}, const QueryOptions& options = {}) {
-    return mutual(Closest{}, other, across, options).hit();
+    const double most = largest(options.clearance) + largest(options.other_clearance);
+    return mutual(Closest{-(largest_threshold_.between(other.largest_threshold_) + most)}, other, across, options)
+        .hit();
   }
 
   /// Any collector of your own.
@@ -183,6 +190,12 @@ class Hierarchy {
                                  std::to_string(clearance[g]) + ": expected a finite length >= 0");
   }
 
+  static double largest(std::span<const double> clearance) noexcept {
+    double most = 0.0;
+    for (const double extra : clearance) most = std::max(most, extra);
+    return most;
+  }
+
   Placement<P>& placement() noexcept { return engine_.placement(); }
 
   template <Collector C>
@@ -199,6 +212,7 @@ class Hierarchy {
   F filter_;
   D matrix_;
   E engine_;
+  LargestThreshold<D> largest_threshold_;  // after the engine: by then the matrix was checked against the model
 };
 
 template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>

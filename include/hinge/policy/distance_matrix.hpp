@@ -88,7 +88,8 @@ class UniformClearance {
     return std::max(clearance_, other.clearance_);
   }
   bool compatible(const UniformClearance& other) const noexcept { return clearance_ == other.clearance_; }
-  double reach(PrimitiveId) const noexcept { return clearance_ / 2; }
+  /// Half of it, rounded up where half of a denormal is none.
+  double reach(PrimitiveId) const noexcept { return std::max(clearance_ / 2, clearance_ - clearance_ / 2); }
 
  private:
   double clearance_;

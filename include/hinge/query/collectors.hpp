@@ -54,15 +54,19 @@ class Closest {
  public:
   static constexpr bool ranks = true;
   static constexpr bool keeps_smallest = true;
+  Closest() = default;
+  /// least: no pair has a smaller d - M; the first that is not above it ends the search.
+  explicit Closest(double least) noexcept : least_(least) {}
   void add(const Hit& hit) noexcept {
     const auto key = [](const Hit& h) { return std::tuple(h.gap(), h.first, h.second); };
     if (!hit_ || key(hit) < key(*hit_)) hit_ = hit;
   }
   double cutoff() const noexcept { return hit_ ? hit_->gap() : std::numeric_limits<double>::infinity(); }
-  bool done() const noexcept { return false; }
+  bool done() const noexcept { return hit_ && hit_->gap() <= least_; }
   const std::optional<Hit>& hit() const noexcept { return hit_; }
 
  private:
+  double least_ = -std::numeric_limits<double>::infinity();
   std::optional<Hit> hit_;
 };
 
