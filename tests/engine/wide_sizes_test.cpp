@@ -183,7 +183,10 @@ Tally run(const Case& c, Random& random) {
       return with(clearance, clearance);
     }
     const std::size_t types = c.matrix == Matrix::many_types ? 17 + random.below(40) : 1 + random.below(16);
-    const auto table = test::random_table(types, c.matrix == Matrix::zeros ? 10 : random.below(5), random);
+    auto table = test::random_table(types, c.matrix == Matrix::zeros ? 10 : random.below(5), random);
+    // Every other table with a type that collides with none.
+    const bool has_idle_type = types > 1 && random.one_in(2);
+    for (std::size_t t = 0; t < types && has_idle_type; ++t) table[t] = table[t * types] = 0.0;
     with(test::dealt_thresholds(a.size(), types, table, random),
          test::dealt_thresholds(b.size(), types, table, random));
   };
@@ -314,6 +317,28 @@ TEST(WideSizes, LosesNoPairAtItsThreshold) {
     }
   EXPECT_GT(hits, 1000U);
   EXPECT_GT(misses, 1000U);
+}
+
+/// Crowds at one point, each on a slider of its own along x.
+Model<Point> crowd_at_one_point(std::size_t n) {
+  ModelBuilder<Point> builder;
+  for (std::size_t k = 0; k < n; ++k) builder.add_link(world, Prismatic{Vec3::UnitX(), {}, {}}, {Point{Vec3(1, 2, 3)}});
+  return builder.finish();
+}
+
+TEST(WideSizes, PassesOverTypesWithoutThresholdsBetweenModels) {
+  const std::size_t n = 20'000;
+  std::vector<std::uint16_t> types(n, 0);
+  types[5] = types[n / 2] = 1;
+  const TypedThresholds matrix(types, 2, {0.0, 0.0, 0.0, 1.0});
+  using Crowd = Hierarchy<Point, AdmitAll, TypedThresholds, Wide>;
+  const auto model = crowd_at_one_point(n);
+  Crowd a(model, AdmitAll{}, matrix), b(model, AdmitAll{}, matrix);
+  QueryCounts counts;
+  QueryOptions options;
+  options.counts = &counts;
+  EXPECT_EQ(a.collisions(b, AdmitAll{}, options).size(), 4U);
+  EXPECT_LE(counts.pairs_tested + counts.boxes_tested, 16 * simd::width);
 }
 
 }  // namespace

@@ -136,6 +136,25 @@ TEST(Crowds, AtOnePointWithThresholdsOfZeroAreFreeAndCostNothing) {
   }
 }
 
+TEST(Crowds, AtOnePointWithAnotherTypeAmongThemCostNoMoreThanThat) {
+  const std::size_t n = crowd();
+  std::vector<std::uint16_t> types(n, 0);
+  for (const std::size_t i : {std::size_t{7}, n / 3, n - 1}) types[i] = 1;
+  const TypedThresholds matrix(types, 2, {0.0, 0.0, 0.0, 3.0});
+  for (AnyEngine<Point>& engine : test::atoms_on_three_engines(own_groups(at_one_point(n)), matrix)) {
+    if (engine.name == "brute") continue;
+    QueryCounts counts;
+    QueryOptions options;
+    options.counts = &counts;
+    EXPECT_EQ(engine.within(0.0, options).size(), 3U);
+    EXPECT_TRUE(engine.collides(options));
+    // Coordinates from elsewhere come in another order of blocks.
+    engine.update_placed(std::vector<Point>(n, Point{Vec3(4, 5, 6)}));
+    EXPECT_EQ(engine.within(0.0, options).size(), 3U);
+    EXPECT_LE(counts.pairs_tested + counts.boxes_tested, 1000U) << engine.name;
+  }
+}
+
 TEST(Crowds, InOneDiameterEqualBruteForce) {
   const std::vector<Vec3> points = in_one_diameter(crowd());
   expect_bounded_depth(points);

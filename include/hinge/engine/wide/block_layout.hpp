@@ -2,8 +2,11 @@
 // BlockLayout: which primitives engine/wide puts side by side: blocks of sixteen, and the units the sweep works on.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -37,14 +40,16 @@ struct BlockLayout {
   /// Rigid groups with more blocks than this are searched through a tree, others block by block.
   static constexpr std::size_t largest_flat_group = simd::width * simd::width;
 
-  /// By rigid groups, for configurations and poses.
+  /// By rigid groups, for configurations and poses. left_out: per primitive, not 0 for those the layout does not hold;
+  /// empty: it holds all.
   template <Primitive P>
-  static BlockLayout by_groups(const SelectedModel<P>& model);
+  static BlockLayout by_groups(const SelectedModel<P>& model, std::span<const std::uint8_t> left_out = {});
   /// By index alone, for coordinates from elsewhere, where nothing is known to be rigid.
   template <Primitive P>
-  static BlockLayout by_index(const SelectedModel<P>& model);
+  static BlockLayout by_index(const SelectedModel<P>& model, std::span<const std::uint8_t> left_out = {});
 
   std::size_t block_count() const noexcept { return blocks.size(); }
+  bool holds(PrimitiveId i) const noexcept { return block_of[index(i)] < blocks.size(); }
   std::span<const GroupId> groups_of(const Block& block) const noexcept {
     return std::span(groups).subspan(block.first_group, block.group_count);
   }
@@ -62,7 +67,7 @@ struct BlockLayout {
   std::vector<Block> blocks;
   std::vector<Unit> units;
   std::vector<GroupId> groups;          ///< of all blocks, each block's sorted without repetition
-  std::vector<std::uint32_t> block_of;  ///< per primitive
+  std::vector<std::uint32_t> block_of;  ///< per primitive; above all numbers of blocks where it was left out
   std::size_t static_units = 0;         ///< leading units that hold primitives of group 0 only
   Vec3 origin = Vec3::Zero();           ///< about the middle of the model at the reference
   double scale = 1.0;                   ///< power of two that brings the model to a size where float squares are safe
@@ -75,22 +80,23 @@ struct BlockLayout {
   };
   template <Primitive P>
   void assemble(const SelectedModel<P>& model, std::vector<Piece> pieces);
-  void measure(const std::vector<Vec3>& middles);
+  void measure(const Aabb& all);
 };
 
 template <Primitive P>
-BlockLayout BlockLayout::by_groups(const SelectedModel<P>& model) {
+BlockLayout BlockLayout::by_groups(const SelectedModel<P>& model, std::span<const std::uint8_t> left_out) {
   BlockLayout layout;
+  const Members members(model, left_out);
   const std::vector<Vec3> middles = middles_at_reference(model);
-  layout.measure(middles);
+  layout.measure(members.around(middles));
   const std::vector<GroupId> order = chain_order(*model.groups());
-  const auto is_large = [&](GroupId g) { return model.primitives_of(g).size() >= simd::width; };
+  const auto is_large = [&](GroupId g) { return members.of(g).size() >= simd::width; };
   std::vector<Piece> pieces;
   // Small groups are joined in chain order while they stay together: across a large group, only if the block stays
   // about as compact as sixteen primitives of this model usually are.
-  ChainFiller filler(middles, *model.groups(), is_large);
+  ChainFiller filler(middles, members, *model.groups(), is_large);
   for (const GroupId g : order) {
-    const auto primitives = model.primitives_of(g);
+    const auto primitives = members.of(g);
     if (is_large(g)) {
       Piece piece;
       piece.rigid = true;
@@ -114,12 +120,13 @@ BlockLayout BlockLayout::by_groups(const SelectedModel<P>& model) {
 }
 
 template <Primitive P>
-BlockLayout BlockLayout::by_index(const SelectedModel<P>& model) {
+BlockLayout BlockLayout::by_index(const SelectedModel<P>& model, std::span<const std::uint8_t> left_out) {
   BlockLayout layout;
-  layout.measure(middles_at_reference(model));
+  layout.measure(Members(model, left_out).around(middles_at_reference(model)));
   std::vector<Piece> pieces;
   for (std::size_t i = 0; i < model.size(); ++i) {
-    if (i % simd::width == 0) pieces.push_back({{{}}, 0, false});
+    if (!left_out.empty() && left_out[i] != 0) continue;
+    if (pieces.empty() || pieces.back().blocks.front().size() == simd::width) pieces.push_back({{{}}, 0, false});
     pieces.back().blocks.front().push_back(static_cast<std::uint32_t>(i));
   }
   layout.assemble(model, std::move(pieces));
@@ -131,7 +138,7 @@ template <Primitive P>
 void BlockLayout::assemble(const SelectedModel<P>& model, std::vector<Piece> pieces) {
   std::stable_sort(pieces.begin(), pieces.end(),
                    [](const Piece& a, const Piece& b) { return a.last_group < b.last_group; });
-  block_of.resize(model.size());
+  block_of.assign(model.size(), std::numeric_limits<std::uint32_t>::max());
   for (const Piece& piece : pieces) {
     const auto first_unit = static_cast<std::uint32_t>(units.size());
     const bool tree = piece.blocks.size() > largest_flat_group;
@@ -161,9 +168,7 @@ void BlockLayout::assemble(const SelectedModel<P>& model, std::vector<Piece> pie
   }
 }
 
-inline void BlockLayout::measure(const std::vector<Vec3>& middles) {
-  Aabb all;
-  for (const Vec3& x : middles) all.extend(x);
+inline void BlockLayout::measure(const Aabb& all) {
   if (all.is_empty()) return;
   double size = 0.0;
   for (int k = 0; k < 3; ++k) {

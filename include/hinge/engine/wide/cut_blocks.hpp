@@ -20,6 +20,37 @@
 
 namespace hinge {
 
+/// The primitives a layout holds, by rigid group: all of a model but those left out.
+class Members {
+ public:
+  /// left_out: per primitive, not 0 for those to be left out; empty: none.
+  template <Primitive P>
+  Members(const SelectedModel<P>& model, std::span<const std::uint8_t> left_out) {
+    list_.reserve(model.size());
+    for (std::size_t g = 0; g < model.groups()->size(); ++g) {
+      start_.push_back(list_.size());
+      for (const PrimitiveId i : model.primitives_of(id<GroupId>(g)))
+        if (left_out.empty() || left_out[index(i)] == 0) list_.push_back(i);
+    }
+    start_.push_back(list_.size());
+  }
+
+  std::span<const PrimitiveId> of(GroupId g) const noexcept {
+    return all().subspan(start_[index(g)], start_[index(g) + 1] - start_[index(g)]);
+  }
+  std::span<const PrimitiveId> all() const noexcept { return list_; }
+  /// The box around some points, one per primitive of the model.
+  Aabb around(const std::vector<Vec3>& points) const noexcept {
+    Aabb box;
+    for (const PrimitiveId i : list_) box.extend(points[index(i)]);
+    return box;
+  }
+
+ private:
+  std::vector<PrimitiveId> list_;
+  std::vector<std::size_t> start_;  // per group
+};
+
 /// The middle of every primitive's bounds, world frame, all joints at their reference.
 template <Primitive P>
 std::vector<Vec3> middles_at_reference(const SelectedModel<P>& model) {
@@ -101,19 +132,19 @@ inline std::vector<std::vector<std::uint32_t>> cut_spatially(std::span<const Pri
 class ChainFiller {
  public:
   template <class IsLarge>
-  ChainFiller(const std::vector<Vec3>& middles, const RigidGroups& groups, const IsLarge& is_large)
+  ChainFiller(const std::vector<Vec3>& middles, const Members& members, const RigidGroups& groups,
+              const IsLarge& is_large)
       : middles_(middles), chain_of_(groups.size()) {
     for (std::size_t g = 1; g < groups.size(); ++g) {
       const GroupId parent = groups[id<GroupId>(g)].parent;
       chain_of_[g] = is_large(parent) ? g : chain_of_[index(parent)];
     }
-    Aabb all;
-    for (const Vec3& x : middles) all.extend(x);
+    if (members.all().empty()) return;
+    const Aabb all = members.around(middles);
     double volume = 1.0;
-    for (int k = 0; k < 3; ++k) volume *= middles.empty() ? 0.0 : all.length(k);
+    for (int k = 0; k < 3; ++k) volume *= all.length(k);
     // The side of the cube that sixteen primitives fill on average, and half as much again.
-    if (!middles.empty())
-      compact_ = 1.5 * std::cbrt(volume / static_cast<double>(middles.size()) * static_cast<double>(simd::width));
+    compact_ = 1.5 * std::cbrt(volume / static_cast<double>(members.all().size()) * static_cast<double>(simd::width));
   }
 
   void add(GroupId group, std::span<const PrimitiveId> primitives) {

@@ -20,6 +20,7 @@
 #include "hinge/engine/wide/tree/tree_judge.hpp"
 #include "hinge/engine/wide/tree/tree_side.hpp"
 #include "hinge/engine/wide/wide_side.hpp"
+#include "hinge/engine/wide/wide_sides.hpp"
 #include "hinge/model/placement.hpp"
 #include "hinge/query/offer.hpp"
 #include "hinge/query/pair_rules.hpp"
@@ -34,15 +35,11 @@ template <Primitive P, PairFilter F, DistanceMatrix D>
 class Wide {
  public:
   Wide(std::shared_ptr<const SelectedModel<P>> model, F filter, D matrix)
-      : placement_(model), filter_(std::move(filter)), matrix_(std::move(matrix)) {
-    if constexpr (HasNoBody<P>)
-      all_idle_ = std::ranges::all_of(zero_thresholds(matrix_, model->size()), [](auto zero) { return zero != 0; });
+      : placement_(model), filter_(std::move(filter)), matrix_(std::move(matrix)), sides_(*model, matrix_) {
     if constexpr (KeepsTrees<P>)
       trees_.emplace(std::make_shared<const TreeParts<P>>(*model, filter_, matrix_));
     else
-      by_groups_.emplace(std::make_shared<const WideParts<P>>(BlockLayout::by_groups(*model),
-                                                              ThresholdClasses(matrix_, model->size()), *model),
-                         *model, filter_, false);
+      present_side(true);
   }
 
   Placement<P>& placement() noexcept { return placement_; }
@@ -57,8 +54,7 @@ class Wide {
         trees_->self_query(placement_, self_judge(collector, rules), collector, options, counts);
         return add(options.counts, counts);
       }
-    if (never_collides(collector, options)) return;
-    WideSide<P>& side = present_side();
+    WideSide<P>& side = present_side(without_margin(collector, options));
     side.begin(placement_, options.moved_only, options.clearance);
     const auto decide = [&](PrimitiveId i, PrimitiveId j, const P& p, const P& q) __attribute__((always_inline)) {
       const bool turned = j < i;
@@ -135,8 +131,10 @@ class Wide {
                       collector, options, counts);
         return add(options.counts, counts);
       }
-    if (never_collides(collector, options) && other.never_collides(collector, options)) return;
-    WideSide<P>&mine = present_side(), &theirs = other.present_side();
+    // Compatible tables of types are alike; of other matrices nothing is known but that no threshold is above 0.
+    const bool skip_idle =
+        without_margin(collector, options) && (TypesPrimitives<D> || (sides_.all_idle() && other.sides_.all_idle()));
+    WideSide<P>&mine = present_side(skip_idle), &theirs = other.present_side(skip_idle);
     mine.begin(placement_, false, options.clearance);
     theirs.begin(other.placement_, false, options.other_clearance);
     for (std::size_t u = mine.state().first_unit(); u < mine.layout().units.size(); ++u)
@@ -148,7 +146,7 @@ class Wide {
       for (std::size_t k = 0; k < placement_.model().size() && !collector.done(); ++k)
         for (std::size_t l = 0; l < other.placement_.model().size() && !collector.done(); ++l) {
           const auto i = id<PrimitiveId>(k), j = id<PrimitiveId>(l);
-          decide(i, j, exact(mine, i), other.exact(theirs, j));
+          if (mine.layout().holds(i) && theirs.layout().holds(j)) decide(i, j, exact(mine, i), other.exact(theirs, j));
         }
       return add(options.counts, counts);
     }
@@ -195,24 +193,17 @@ class Wide {
                      [](LinkId, LinkId) { return true; }};
   }
 
-  /// Are collisions asked for of primitives that have no body and no threshold above 0?
+  /// Does the query ask for collisions alone, so that primitives whose thresholds are all 0 take no part?
   template <Collector C>
-  bool never_collides(const C& collector, const QueryOptions& options) const noexcept {
-    return all_idle_ && asks_collisions(collector) && !options.adds_clearance();
+  static bool without_margin(const C& collector, const QueryOptions& options) noexcept {
+    return HasNoBody<P> && asks_collisions(collector) && !options.adds_clearance();
   }
 
   /// Are the trees up to the present coordinates? They cannot hold groups that deform.
   bool by_trees() const noexcept { return trees_.has_value() && !placement_.groups_may_deform(); }
 
-  WideSide<P>& present_side() {
-    if (by_groups_ && !placement_.groups_may_deform()) return *by_groups_;
-    if (!by_index_) {
-      const SelectedModel<P>& model = placement_.model();
-      by_index_.emplace(std::make_shared<const WideParts<P>>(BlockLayout::by_index(model),
-                                                             ThresholdClasses(matrix_, model.size()), model),
-                        model, filter_, true);
-    }
-    return *by_index_;
+  WideSide<P>& present_side(bool without_margin) {
+    return sides_.present(placement_, filter_, matrix_, without_margin);
   }
 
   /// A primitive of this model in double.
@@ -287,13 +278,11 @@ class Wide {
   Placement<P> placement_;
   F filter_;
   D matrix_;
-  bool all_idle_ = false;      // no primitive has a body or a threshold above 0
-  OptionalTreeSide<P> trees_;  // one of these two, as the primitive is
-  std::optional<WideSide<P>> by_groups_;
-  std::optional<WideSide<P>> by_index_;  // made when coordinates from elsewhere first come
-  TaskLister<P> lister_;                 // scratch
-  std::size_t visits_ = 0;               // scratch: tasks decided so far in a query, up to placed_alone
-  Thresholds16 thresholds_;              // scratch: of the present margin
+  OptionalTreeSide<P> trees_;
+  WideSides<P> sides_;
+  TaskLister<P> lister_;     // scratch
+  std::size_t visits_ = 0;   // scratch: tasks decided so far in a query, up to placed_alone
+  Thresholds16 thresholds_;  // scratch: of the present margin
   std::optional<std::pair<PrimitiveId, PrimitiveId>> witness_;
 };
 

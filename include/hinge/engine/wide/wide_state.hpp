@@ -79,8 +79,8 @@ class WideState {
     update_ = placement.update_number();
     few_moved_ = placement.few_moved();
     given_ = placement.groups_may_deform();
-    if (given_ && placement.model().size() != 0) {
-      const Aabb box = placement.placed().front().bounds();
+    if (given_ && !parts_->layout.primitive.empty()) {
+      const Aabb box = placement.placed()[parts_->layout.primitive.front()].bounds();
       for (int k = 0; k < 3; ++k) origin_[k] = box.middle(k);
     }
   }
