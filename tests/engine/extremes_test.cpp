@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "engine/fast_sides.hpp"
 #include "engine/random_mechanism.hpp"
 #include "hinge/engine/brute/brute.hpp"
 #include "hinge/hierarchy.hpp"
@@ -42,6 +43,17 @@ void expect_equal(PointsOn<Wide>& wide, PointsOn<Brute>& brute, double margin) {
   EXPECT_EQ(wide.self_collisions(), all);
   EXPECT_EQ(wide.self_within(margin), brute.self_within(margin));
   EXPECT_EQ(wide.self_closest().value().gap(), brute.self_closest().value().gap());
+  for (const double below : {0.0, margin}) {
+    const auto list = [&](const QueryOptions& o) { return wide.self_within(below, o); };
+    test::expect_on_their_sides({}, brute.self_within(below), list, [&](const QueryOptions& o) {
+      return below == 0.0 ? wide.self_collides(o) : !list(o).empty();
+    });
+  }
+}
+
+void expect_on_their_sides(PointsOn<Wide>& a, PointsOn<Wide>& b, const std::vector<Hit>& exact, double margin) {
+  const auto list = [&](const QueryOptions& options) { return a.within(b, margin, AdmitAll{}, options); };
+  test::expect_on_their_sides({}, exact, list, [&](const QueryOptions& o) { return !list(o).empty(); });
 }
 
 void expect_equal_on(const Model<Point>& model, double clearance, const std::vector<double>& q = {}) {
@@ -79,6 +91,8 @@ TEST(WideExtremes, HoldForTwoModelsOfVeryDifferentSize) {
     PointsOn<Brute> c(model, AdmitAll{}, UniformClearance(0.5)), d(other, AdmitAll{}, UniformClearance(0.5));
     EXPECT_EQ(a.collisions(b), c.collisions(d));
     EXPECT_EQ(b.collisions(a), d.collisions(c));
+    expect_on_their_sides(a, b, c.collisions(d), 0.0);
+    expect_on_their_sides(b, a, d.within(c, 0.5), 0.5);
     EXPECT_EQ(a.within(b, 0.5), c.within(d, 0.5));
     EXPECT_EQ(a.closest(b).value().gap(), c.closest(d).value().gap());
     EXPECT_EQ(b.closest(a).value().gap(), d.closest(c).value().gap());
@@ -118,6 +132,7 @@ TEST(WideExtremes, HoldForCoordinatesFarBeyondTheSizeOfTheModel) {
         expect_equal(wide, brute, margin);
         EXPECT_EQ(wide.within(other, margin), brute.within(other_brute, margin));
         EXPECT_EQ(other.within(wide, margin), other_brute.within(brute, margin));
+        expect_on_their_sides(wide, other, brute.within(other_brute, margin), margin);
         EXPECT_EQ(wide.closest(other).value().gap(), brute.closest(other_brute).value().gap());
       }
     }

@@ -16,6 +16,7 @@
 #include "engine/random_mechanism.hpp"
 #include "hinge/engine/wide/into.hpp"
 #include "hinge/engine/wide/wide_side.hpp"
+#include "hinge/hierarchy.hpp"
 #include "hinge/model/placement.hpp"
 #include "hinge/model/selected_model.hpp"
 #include "hinge/policy/pair_filter.hpp"
@@ -29,12 +30,12 @@ constexpr double u = 0x1p-24;
 
 /// One model as engine/wide keeps it, all of it placed.
 struct Placed {
-  Placed(const Model<Point>& model, bool inside_groups)
+  Placed(const Model<Point>& model, bool inside_groups, double clearance = 0.0)
       : selected(std::make_shared<const SelectedModel<Point>>(model, DofSelection::all(model.tree()))),
         placement(selected),
         side(std::make_shared<const WideParts<Point>>(
                  inside_groups ? BlockLayout::by_index(*selected) : BlockLayout::by_groups(*selected),
-                 ThresholdClasses(UniformClearance(0.0), model.size()), *selected),
+                 ThresholdClasses(UniformClearance(clearance), model.size()), *selected),
              *selected, AdmitAll{}, inside_groups) {}
 
   void make() {
@@ -66,7 +67,7 @@ struct Worst {
   }
 };
 
-/// A threshold of exactly the distance: by how much must floats be allowed to be off, so that the pair is looked at?
+/// A threshold of exactly the distance: by how much are floats off, to either side?
 void check_pairs(Placed& m, Random& random, std::size_t count, Worst& worst) {
   if (m.slots() < 2) return;
   const double scale = m.side.layout().scale;
@@ -80,7 +81,7 @@ void check_pairs(Placed& m, Random& random, std::size_t count, Worst& worst) {
     const Vec3 x = m.at(i);
     for (std::size_t lane = 0; lane < n; ++lane) {
       const double d = std::sqrt(squared_norm(Vec3(x - m.at(b * n + lane)))) * scale;
-      const double share = (std::sqrt(static_cast<double>(squared[lane])) - d) / m.side.state().band(d);
+      const double share = std::abs(static_cast<double>(std::sqrt(squared[lane])) - d) / m.side.state().band(d);
       worst.take(m.rigid(i) && m.rigid(b * n) ? worst.rigid : worst.mixed, share);
     }
   }
@@ -139,13 +140,16 @@ Mat3 rotation(Random& random) {
 }
 
 /// Rigid groups turned about the model's place and moved by up to `travel`.
-void turn(Placed& m, const Vec3& offset, double travel, Random& random) {
-  std::vector<Pose> poses(m.selected->groups()->size());
+std::vector<Pose> turned(std::size_t groups, const Vec3& offset, double travel, Random& random) {
+  std::vector<Pose> poses(groups);
   for (std::size_t g = 1; g < poses.size(); ++g) {
     poses[g].rotation = rotation(random);
     poses[g].translation = Vec3(offset - poses[g].rotation * offset + random.vector(travel));
   }
-  m.placement.update_poses(poses);
+  return poses;
+}
+void turn(Placed& m, const Vec3& offset, double travel, Random& random) {
+  m.placement.update_poses(turned(m.selected->groups()->size(), offset, travel, random));
   m.make();
 }
 
@@ -243,7 +247,7 @@ TEST(FloatFilter, BandCoversTwoModels) {
           double largest = d;
           for (const float s : into.shift) largest += 2 * std::abs(static_cast<double>(s));
           const double band = b.side.state().band(largest) + 2 * ratio * a.side.state().band(0.0);
-          worst = std::max(worst, (std::sqrt(static_cast<double>(squared[lane])) - d) / band);
+          worst = std::max(worst, std::abs(static_cast<double>(std::sqrt(squared[lane])) - d) / band);
         }
       }
     }
@@ -255,7 +259,7 @@ TEST(FloatFilter, BandCoversTwoModels) {
 /// Threshold plus margin, squared, in float against the numbers they stand for; and the arithmetic of a distance.
 TEST(FloatFilter, ArithmeticTakesLessThanItsShare) {
   Random random(5);
-  double thresholds = 0.0, extras = 0.0, distances = 0.0;
+  double thresholds = 0.0, extras = 0.0, distances = 0.0, roots = 0.0;
   for (int k = 0; k < 2'000'000; ++k) {
     const double t = std::exp(random.uniform(-8, 8)), m = t * std::exp(random.uniform(-20, 2));
     const float row = float_above(t), margin = float_above(m), more = float_above(t * random.uniform(0, 1));
@@ -275,13 +279,68 @@ TEST(FloatFilter, ArithmeticTakesLessThanItsShare) {
       const double e = static_cast<double>(a[c]) - static_cast<double>(b[c]);
       exact += e * e;
     }
-    distances = std::max(distances, (std::sqrt(static_cast<double>(sum) / exact) - 1) / u);
+    distances = std::max(distances, std::abs(std::sqrt(static_cast<double>(sum) / exact) - 1) / u);
+    roots = std::max(roots, std::abs(static_cast<double>(std::sqrt(sum)) / std::sqrt(exact) - 1) / u);
   }
-  std::printf("in u: threshold %.3f (counted 1.5), with extra %.3f (2.5), distance %.3f (2.5); of 8\n", thresholds,
-              extras, distances);
+  std::printf(
+      "in u: threshold %.3f (counted 1.5), with extra %.3f (2.5), distance %.3f (2.5), its root in float %.3f (3.5); "
+      "of 8\n",
+      thresholds, extras, distances, roots);
   EXPECT_LT(thresholds, 1.5);
   EXPECT_LT(extras, 2.5);
   EXPECT_LT(distances, 2.5);
+  EXPECT_LT(roots, 3.5);
+}
+
+/// Queries in float against exact distances: what they may be off by, and what they must not leave open.
+TEST(FloatFilter, BandCoversMeasuredDistances) {
+  Random random(6);
+  for (const double far : {0.0, 1e3, 1e6, 1e9}) {
+    double worst = 0.0;
+    std::uint64_t undecided = 0;
+    for (int repetition = 0; repetition < 40; ++repetition) {
+      const Vec3 offset = random.vector(far);
+      const auto model = model_of(6, repetition % 2 == 0 ? 5 : 40, 4.0, offset, random);
+      Hierarchy<Point, AdmitAll, UniformClearance> probe(model, AdmitAll{}, UniformClearance(0.0));
+      const std::vector<Pose> poses = turned(probe.model().groups()->size(), offset, 4.0, random);
+      probe.update_poses(poses);
+      const std::vector<Point> at(probe.placed().begin(), probe.placed().end());
+      // One pair is exactly at its threshold.
+      const double clearance = distance(at.front(), at.back()) * random.uniform(0.2, 1.0);
+      const double margin = std::max(0.0, distance(at.front(), at.back()) - clearance), t = clearance + margin;
+      Placed m(model, false, clearance);
+      m.placement.update_poses(poses);
+      m.make();
+      const double scale = m.side.layout().scale, band = m.side.state().band(t * scale) / scale;
+      Hierarchy<Point, AdmitAll, UniformClearance> h(model, AdmitAll{}, UniformClearance(clearance));
+      h.update_poses(poses);
+      QueryCounts counts;
+      QueryOptions options;
+      options.counts = &counts;
+      for (const Precision side : {Precision::never_miss, Precision::never_cry_wolf}) {
+        options.precision = side;
+        std::vector<std::vector<char>> found(at.size(), std::vector<char>(at.size(), 0));
+        for (const Hit& hit : h.self_within(margin, options)) {
+          const std::size_t i = index(hit.first), j = index(hit.second);
+          worst = std::max(worst, std::abs(hit.distance - distance(at[i], at[j])) / band);
+          found[i][j] = 1;
+        }
+        for (std::size_t i = 0; i < at.size(); ++i)
+          for (std::size_t j = i + 1; j < at.size(); ++j) {
+            if (model.links()[i] == model.links()[j]) continue;
+            // Twice the band: measured distances are off by one, and are left open within one.
+            const double gap = distance(at[i], at[j]) - t;
+            ASSERT_FALSE(gap > 2 * band && found[i][j] == 1) << gap / band;
+            ASSERT_FALSE(gap < -2 * band && found[i][j] == 0) << gap / band;
+          }
+      }
+      undecided += counts.undecided;
+    }
+    std::printf("measured, %g from the origin: %.3f of the band, %d undecided\n", far, worst,
+                static_cast<int>(undecided));
+    EXPECT_LT(worst, 1.0);
+    EXPECT_GE(undecided, 80U);  // the pair at its threshold, on either side
+  }
 }
 
 }  // namespace

@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "engine/side_by_side.hpp"
@@ -63,6 +66,49 @@ TEST(Wide, KeepsStaticBlocksThroughCoordinatesFromElsewhere) {
   q[0] = -100.1;  // one value of eight: what stood still is not looked at again
   wide.update(q);
   EXPECT_EQ(wide.self_collisions().size(), 2U);
+}
+
+/// A square of points a unit apart, each on a slider of its own; its diagonals are of no interest.
+Model<Point> square() {
+  ModelBuilder<Point> builder;
+  for (const Vec3& x : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)})
+    builder.add_link(world, Prismatic{{1, 0, 0}, {}, {}}, {Point{x}});
+  return builder.finish();
+}
+
+TEST(WideInFloat, LeavesOpenWhatIsAtItsThresholdAndCountsIt) {
+  const ExcludedPairs one_side({{id<PrimitiveId>(1)}, {id<PrimitiveId>(0)}, {}, {}});
+  // Sides are 1 long: pairs of types 0 and 0 are at their threshold, of 1 and 1 far below it, of 0 and 1 above.
+  const TypedThresholds thresholds({0, 0, 0, 1}, 2, {1.0, 0.5, 0.5, 3.0});
+  Hierarchy wide(square(), one_side, thresholds);
+  const auto ask = [&](Precision precision, double margin) {
+    QueryCounts counts;
+    QueryOptions options;
+    options.precision = precision;
+    options.counts = &counts;
+    return std::pair(wide.self_within(margin, options).size(), counts.undecided);
+  };
+  using Answer = std::pair<std::size_t, std::uint64_t>;
+  EXPECT_EQ(ask(Precision::exact, 0.0), Answer(0, 0));
+  EXPECT_EQ(ask(Precision::never_miss, 0.0), Answer(1, 1));  // 1 and 2; the filter does not admit 0 and 1
+  EXPECT_EQ(ask(Precision::never_cry_wolf, 0.0), Answer(0, 1));
+  EXPECT_EQ(ask(Precision::exact, 0x1p-30), Answer(1, 0));
+  EXPECT_EQ(ask(Precision::never_cry_wolf, 0x1p-30), Answer(0, 1));
+  // Far above what floats resolve, where the sides of types 0 and 1 are at their threshold.
+  EXPECT_EQ(ask(Precision::exact, 0.5), Answer(2, 0));
+  EXPECT_EQ(ask(Precision::never_miss, 0.5), Answer(4, 2));
+  EXPECT_EQ(ask(Precision::never_cry_wolf, 0.5), Answer(2, 2));
+}
+
+TEST(WideInFloat, NeverHitsAtAThresholdOfZero) {
+  Hierarchy wide(square(), AdmitAll{}, TypedThresholds({0, 0, 0, 1}, 2, {0.0, 0.0, 0.0, 1.0}));
+  wide.update_placed(std::vector<Point>(4));
+  QueryCounts counts;
+  QueryOptions options;
+  options.precision = Precision::never_miss;
+  options.counts = &counts;
+  EXPECT_TRUE(wide.self_collisions(options).empty());
+  EXPECT_EQ(counts.undecided, 0U);
 }
 
 }  // namespace

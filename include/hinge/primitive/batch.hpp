@@ -119,6 +119,7 @@ struct Batch {
 template <>
 struct Batch<Point> {
   static constexpr std::size_t floats = 3 * simd::width;
+  static constexpr bool measures = true;
 
   static void set(float* at, std::size_t lane, const Point& p, const Vec3& origin, double scale) noexcept {
     for (int k = 0; k < 3; ++k)
@@ -224,6 +225,12 @@ concept TurnsBatch = requires(const float* local, const std::array<float, 9>& ro
   { Batch<P>::turn(local, rotation, translation, to) } -> std::same_as<FloatBox>;
 };
 
-static_assert(TurnsBatch<Point>);
+/// Optional: squared_distances are those, up to rounding, where others are lower bounds.
+template <class P>
+concept MeasuresDistances = requires {
+  requires Batch<P>::measures;
+};
+
+static_assert(TurnsBatch<Point> && MeasuresDistances<Point>);
 
 }  // namespace hinge

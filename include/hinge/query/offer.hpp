@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// offer: the leaf kernel. The only place where a pair of primitives is judged, for every engine and every mode.
+// offer: the leaf kernel. The only place where a pair of primitives is judged, for every engine and every mode, exactly
+// or by a distance that was only measured.
 #pragma once
 
 #include "hinge/core/id.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/policy/primitive.hpp"
+#include "hinge/query/query_options.hpp"
 
 namespace hinge {
 
@@ -23,6 +25,19 @@ void offer(C& collector, PrimitiveId i, PrimitiveId j, const P& p, const P& q, c
       // Nothing is closer than 0: solids that count at a threshold of 0 meet.
       collector.add(Hit{i, j, near > 0.0 ? distance(p, q) : 0.0, m});
   }
+}
+
+/// The same for primitives without a body (never closer than 0) whose distance is within `error` of `measured`. What
+/// that leaves open is for `precision` to say; returns 1 for such a pair, 0 for a decided one.
+template <Collector C, class Admitted>
+unsigned offer_measured(C& collector, Precision precision, PrimitiveId i, PrimitiveId j, double measured, double error,
+                        double m, Admitted&& admitted) {
+  const double near = m + collector.cutoff();
+  if (!(near > 0.0) || measured - error >= near) return 0;
+  const bool open = measured + error >= near;
+  if (!admitted()) return 0;
+  if (!open || precision == Precision::never_miss) collector.add(Hit{i, j, measured, m});
+  return open ? 1 : 0;
 }
 
 }  // namespace hinge

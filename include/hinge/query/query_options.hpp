@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// QueryCounts and QueryOptions: what a query reports about its work, and what it can be asked beyond its mode.
+// QueryCounts, Precision and QueryOptions: what a query reports about its work, and what it can be asked beyond its
+// mode.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,15 @@ struct QueryCounts {
   std::uint64_t boxes_tested = 0;  ///< pairs of boxes compared
   std::uint64_t nodes_split = 0;   ///< hierarchy nodes built during the queries
   std::uint64_t pairs_tested = 0;  ///< pairs of primitives whose distance was looked at
+  std::uint64_t undecided = 0;     ///< admitted pairs that floats left open and the query's Precision decided
 };
+
+/// How a verdict is reached. Exact: that of the real numbers that coordinates and thresholds are. The fast ones decide
+/// by floats alone wherever those measure a distance: in engine/wide, of points, in queries that do not rank. A pair
+/// whose d - M they cannot tell from the limit is undecided: it counts as a hit in order never to miss one, or as none
+/// in order never to cry wolf. docs/explanation/numerics.md has the width of that band. Hits carry float distances,
+/// which are off by less than it. All other queries are answered exactly, and leave nothing undecided.
+enum class Precision : std::uint8_t { exact, never_miss, never_cry_wolf };
 
 struct QueryOptions {
   /// Only pairs whose distance may have changed in the last update.
@@ -23,6 +32,7 @@ struct QueryOptions {
   /// The same for the groups of the other model, in queries between two.
   std::span<const double> other_clearance{};
   QueryCounts* counts = nullptr;
+  Precision precision = Precision::exact;
 
   bool adds_clearance() const noexcept { return !clearance.empty() || !other_clearance.empty(); }
 };

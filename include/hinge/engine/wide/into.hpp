@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exactly and Into: how tasks read the coordinates of the one: as they are, or brought into another model's.
+// Exactly and Into: how tasks read the coordinates of the one: as they are, or brought into another model's; and how
+// far distances in float may then be off.
 #pragma once
 
 #include <array>
@@ -8,6 +9,7 @@
 
 #include "hinge/bounds/float_box.hpp"
 #include "hinge/engine/wide/float_turn.hpp"
+#include "hinge/engine/wide/threshold_classes.hpp"
 #include "hinge/engine/wide/wide_side.hpp"
 #include "hinge/primitive/batch.hpp"
 
@@ -18,6 +20,11 @@ template <Primitive P>
 struct Exactly {
   [[gnu::always_inline]] typename Batch<P>::One operator()(const float* at) const noexcept {
     return typename Batch<P>::One(at);
+  }
+  /// What floats of a model may be off by, scaled, next to its largest threshold plus the cutoff.
+  double band(const WideSide<P>& one, const WideSide<P>&, const ThresholdTable& table, double cutoff) const noexcept {
+    return one.state().band(static_cast<double>(table.largest) + std::abs(cutoff * one.layout().scale) +
+                            2 * static_cast<double>(one.largest_extra()));
   }
   float scale = 1.0F;
 };
@@ -40,6 +47,16 @@ struct Into {
   }
   [[gnu::always_inline]] typename Batch<P>::One operator()(const float* at) const noexcept {
     return {at, scale, shift};
+  }
+  /// The same for both, in the scale of the sixteen.
+  double band(const WideSide<P>& one, const WideSide<P>& sixteen, const ThresholdTable& table,
+              double cutoff) const noexcept {
+    const auto ratio = static_cast<double>(scale);
+    double largest = static_cast<double>(table.largest) + std::abs(cutoff * sixteen.layout().scale) +
+                     static_cast<double>(sixteen.largest_extra()) + ratio * static_cast<double>(one.largest_extra());
+    // Shifting rounds once more, by the size of what is shifted.
+    for (const float s : shift) largest += 2 * std::abs(static_cast<double>(s));
+    return sixteen.state().band(largest) + 2 * ratio * one.state().band(0.0);
   }
   FloatBox operator()(FloatBox box) const noexcept {
     for (std::size_t k = 0; k < 3; ++k) {

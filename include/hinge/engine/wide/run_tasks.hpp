@@ -43,9 +43,9 @@ class Thresholds16 {
   std::array<float, simd::width> largest_plain_{}, largest_squares_{};
 };
 
-/// Calls visit(position of the one, position of the sixteen, lanes) for every task that floats cannot rule out; visit
-/// may lower the thresholds and answers false to stop. First all tasks are held against the largest threshold of their
-/// one; what is left, lane by lane against its own.
+/// Calls visit(position of the one, position of the sixteen, lanes, squared distances) for every task that floats
+/// cannot rule out; visit may lower the thresholds and answers false to stop. First all tasks are held against the
+/// largest threshold of their one; what is left, lane by lane against its own.
 template <Primitive P, class Convert, class Visit>
 void run_tasks(Tasks& tasks, const WideSide<P>& one, const WideSide<P>& sixteen, const Convert& convert,
                const Thresholds16& thresholds, const Visit& visit) {
@@ -98,8 +98,9 @@ void run_tasks(Tasks& tasks, const WideSide<P>& one, const WideSide<P>& sixteen,
       near = look_up(thresholds.plain() + row, index) + simd::Float16(extra(t));
       near = near * near;
     }
-    const simd::Bits bits = left[k].lanes & ~less(near, squared_distances(t));
-    if (bits != 0 && !visit(ones[t], sixteens[t], bits)) return;
+    const simd::Float16 squared = squared_distances(t);
+    const simd::Bits bits = left[k].lanes & ~less(near, squared);
+    if (bits != 0 && !visit(ones[t], sixteens[t], bits, squared)) return;
   }
 }
 

@@ -5,20 +5,22 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "hinge/core/id.hpp"
 #include "hinge/engine/engine.hpp"
 #include "hinge/engine/wide/list_tasks.hpp"
+#include "hinge/engine/wide/measure.hpp"
 #include "hinge/engine/wide/run_tasks.hpp"
 #include "hinge/engine/wide/tree/tree_judge.hpp"
 #include "hinge/engine/wide/tree/tree_side.hpp"
+#include "hinge/engine/wide/verdicts.hpp"
 #include "hinge/engine/wide/wide_side.hpp"
 #include "hinge/engine/wide/wide_sides.hpp"
 #include "hinge/model/placement.hpp"
@@ -56,15 +58,11 @@ class Wide {
       }
     WideSide<P>& side = present_side(without_margin(collector, options));
     side.begin(placement_, options.moved_only, options.clearance);
-    const auto decide = [&](PrimitiveId i, PrimitiveId j, const P& p, const P& q) __attribute__((always_inline)) {
-      const bool turned = j < i;
-      const PrimitiveId first = turned ? j : i, second = turned ? i : j;
-      offer(collector, first, second, turned ? q : p, turned ? p : q, rules.threshold(first, second), [&] {
-        // Blocks that hold listed exclusions are tested under masks.
-        if constexpr (ListsExclusions<F>) return rules.counts(first, second);
-        return rules.admits(first, second);
-      });
-    };
+    const SelfVerdicts decide{collector, rules, [&](PrimitiveId first, PrimitiveId second) {
+                                // Blocks that hold listed exclusions are tested under masks.
+                                if constexpr (ListsExclusions<F>) return rules.counts(first, second);
+                                return rules.admits(first, second);
+                              }};
     if constexpr (C::ranks) {
       // The pair that was closest last time bounds the answer from the start; it is no part of the answer by itself.
       if (witness_)
@@ -72,10 +70,8 @@ class Wide {
     }
     lister_.tasks.clear();
     visits_ = 0;
-    const auto present_margin = [&] { return margin(side, collector.cutoff()); };
-    const auto run_listed = [&] {
-      run(side, side, placement_, side.table(), Exactly<P>{}, present_margin, decide, collector, counts);
-    };
+    const Exactly<P> as_is;
+    const auto run_listed = [&] { run(side, side, placement_, side.table(), as_is, decide, counts); };
     std::size_t patience = 1;
     float extent = -1.0F;
     double cutoff = 0.0;
@@ -86,7 +82,7 @@ class Wide {
       if (side.state().extent() != extent || collector.cutoff() != cutoff) {
         extent = side.state().extent();
         cutoff = collector.cutoff();
-        thresholds_.set(side.table(), present_margin());
+        set_thresholds(side, side, side.table(), as_is, cutoff);
       }
       lister_.within(side, u, placement_, thresholds_.margin(), counts, relief(run_listed, collector));
       // Soon at first: a hit at the root saves placing the rest. Then in longer runs, which cost less.
@@ -116,9 +112,7 @@ class Wide {
   void query(Wide& other, const G& across, C& collector, const QueryOptions& options) {
     QueryCounts counts;
     const CrossRules<P, G, D> rules{placement_, other.placement_, across, matrix_, other.matrix_, options};
-    const auto decide = [&](PrimitiveId i, PrimitiveId j, const P& p, const P& q) {
-      offer(collector, i, j, p, q, rules.threshold(i, j), [&] { return rules.admits(i, j); });
-    };
+    const CrossVerdicts decide{collector, rules};
     if constexpr (KeepsTrees<P>)
       if (by_trees() && other.by_trees() && trees_->fits(*other.trees_)) {
         trees_->query(placement_, *other.trees_, other.placement_,
@@ -152,12 +146,9 @@ class Wide {
     }
     visits_ = 0;
     const ThresholdTable table = mine.parts().classes.table(theirs.parts().classes, theirs.layout().scale);
-    const auto between = [&] { return margin(mine, theirs, table, into, collector.cutoff()); };
-    thresholds_.set(table, between());
+    set_thresholds(mine, theirs, table, into, collector.cutoff());
     for (std::size_t u = 0; u < mine.layout().units.size() && !collector.done(); ++u) {
-      const auto run_listed = [&] {
-        run(mine, theirs, other.placement_, table, into, between, decide, collector, counts);
-      };
+      const auto run_listed = [&] { run(mine, theirs, other.placement_, table, into, decide, counts); };
       lister_.across(mine, u, placement_, theirs, other.placement_, into, thresholds_.margin(), options.moved_only,
                      counts, relief(run_listed, collector));
       run_listed();
@@ -217,54 +208,58 @@ class Wide {
     if (total == nullptr) return;
     total->boxes_tested += counts.boxes_tested * simd::width;
     total->pairs_tested += counts.pairs_tested * simd::width;
+    total->undecided += counts.undecided;
   }
 
-  /// What is added to thresholds and boxes so that floats lose no pair with d - M <= cutoff. Extra clearances come on
-  /// top, per pair.
-  static float margin(WideSide<P>& side, double cutoff) noexcept {
-    const double scaled = cutoff * side.layout().scale, extra = static_cast<double>(side.largest_extra());
-    const double largest = static_cast<double>(side.table().largest) + std::abs(scaled) + 2 * extra;
-    return float_above(scaled + side.state().band(largest));
-  }
-  static float margin(WideSide<P>& mine, WideSide<P>& theirs, const ThresholdTable& table, const Into<P>& into,
-                      double cutoff) noexcept {
-    const double scaled = cutoff * theirs.layout().scale, ratio = static_cast<double>(into.scale);
-    double largest = static_cast<double>(table.largest) + std::abs(scaled) +
-                     static_cast<double>(theirs.largest_extra()) + ratio * static_cast<double>(mine.largest_extra());
-    // Shifting rounds once more, by the size of what is shifted.
-    for (const float s : into.shift) largest += 2 * std::abs(static_cast<double>(s));
-    return float_above(scaled + theirs.state().band(largest) + 2 * ratio * mine.state().band(0.0));
+  /// Thresholds grow, as boxes do, so that floats lose no pair with d - M <= cutoff. Extra clearances come on top, per
+  /// pair.
+  template <class Convert>
+  void set_thresholds(const WideSide<P>& one, const WideSide<P>& sixteen, const ThresholdTable& table,
+                      const Convert& convert, double cutoff) noexcept {
+    thresholds_.set(table, float_above(cutoff * sixteen.layout().scale + convert.band(one, sixteen, table, cutoff)));
   }
 
   /// Runs the listed tasks: lanes of `one` against blocks of `sixteen`; what floats cannot rule out goes to `decide`.
-  template <class Convert, class Margin, class Decide, Collector C>
+  template <class Convert, class Decide>
   void run(WideSide<P>& one, WideSide<P>& sixteen, Placement<P>& placement_of_sixteen, const ThresholdTable& table,
-           const Convert& convert, const Margin& present_margin, const Decide& decide, C& collector,
-           QueryCounts& counts) {
+           const Convert& convert, const Decide& decide, QueryCounts& counts) {
+    auto& collector = decide.collector;
+    constexpr bool may_measure = MeasuresDistances<P> && !std::remove_reference_t<decltype(collector)>::ranks;
+    Measure measure;
+    if (may_measure && decide.rules.options.precision != Precision::exact)
+      measure = Measure(one, sixteen, table, thresholds_, convert, collector.cutoff());
     counts.pairs_tested += lister_.tasks.size();
     run_tasks(
         lister_.tasks, one, sixteen, convert, thresholds_,
-        [&](std::uint32_t at_one, std::uint32_t at_sixteen, simd::Bits bits) __attribute__((always_inline)) {
-          const std::uint32_t own = slot<P>(at_one), first = slot<P>(at_sixteen);
-          const auto i = id<PrimitiveId>(one.layout().primitive[own]);
-          const std::uint32_t* const others = sixteen.layout().primitive.data() + first;
-          const double before = collector.cutoff();
-          // For the first few only what they need is placed: often one of them answers the question.
-          const bool few = visits_ < placed_alone;
-          visits_ += few;
-          constexpr auto n = static_cast<std::uint32_t>(simd::width);
-          const std::uint32_t b = own / n, a = first / n;
-          const simd::Bits alone = simd::Bits{1} << own % n;
-          const P& p = (few ? one.state().exact(b, alone, placement_) : one.state().exact(b, placement_))[own % n];
-          const P* const q = few ? sixteen.state().exact(a, bits, placement_of_sixteen)
-                                 : sixteen.state().exact(a, placement_of_sixteen);
-          for (; bits != 0 && !collector.done(); bits &= bits - 1) {
-            const int k = std::countr_zero(bits);
-            decide(i, id<PrimitiveId>(others[k]), p, q[k]);
-          }
-          if (collector.cutoff() != before) thresholds_.set(table, present_margin());
-          return !collector.done();
-        });
+        [&](std::uint32_t at_one, std::uint32_t at_sixteen, simd::Bits bits, const simd::Float16& squared)
+            __attribute__((always_inline)) {
+              const std::uint32_t own = slot<P>(at_one), first = slot<P>(at_sixteen);
+              const auto i = id<PrimitiveId>(one.layout().primitive[own]);
+              const std::uint32_t* const others = sixteen.layout().primitive.data() + first;
+              const auto go_on = [&, before = collector.cutoff()] {
+                if (collector.cutoff() != before) set_thresholds(one, sixteen, table, convert, collector.cutoff());
+                return !collector.done();
+              };
+              if constexpr (may_measure)
+                if (measure.holds()) {
+                  counts.undecided += measure(i, others, bits, squared, decide);
+                  return go_on();
+                }
+              // For the first few only what they need is placed: often one of them answers the question.
+              const bool few = visits_ < placed_alone;
+              visits_ += few;
+              constexpr auto n = static_cast<std::uint32_t>(simd::width);
+              const std::uint32_t b = own / n, a = first / n;
+              const simd::Bits alone = simd::Bits{1} << own % n;
+              const P& p = (few ? one.state().exact(b, alone, placement_) : one.state().exact(b, placement_))[own % n];
+              const P* const q = few ? sixteen.state().exact(a, bits, placement_of_sixteen)
+                                     : sixteen.state().exact(a, placement_of_sixteen);
+              for (; bits != 0 && !collector.done(); bits &= bits - 1) {
+                const int k = std::countr_zero(bits);
+                decide(i, id<PrimitiveId>(others[k]), p, q[k]);
+              }
+              return go_on();
+            });
     lister_.tasks.clear();
   }
 
