@@ -20,6 +20,7 @@
 #include "robots/trade_tiers.hpp"
 #include "scene.hpp"
 #include "timing.hpp"
+#include "trade_precision.hpp"
 
 namespace {
 
@@ -72,8 +73,8 @@ double best_time(const Away& away, const Work& work) {
   return best;
 }
 
-/// engine/wide: banded float, decided in double.
-Variant banded(std::string name, const Protein& protein, const DofSelection& selection) {
+/// engine/wide, exact.
+Variant asked_exactly(std::string name, const Protein& protein, const DofSelection& selection) {
   const auto h =
       std::make_shared<Molecular<Wide>>(protein.molecule->model(), selection, protein.filter, protein.thresholds);
   return {std::move(name), [=](const Turns& turns) {
@@ -92,85 +93,6 @@ Variant banded(std::string name, const Protein& protein, const DofSelection& sel
               h->update(q);
               const auto hit = h->self_closest();
               outcome.gap = hit ? hit->gap() : std::numeric_limits<double>::infinity();
-            });
-            return outcome;
-          }};
-}
-
-/// Every pair in float: coordinates rounded to float (after moving the molecule `away` angstrom along each axis),
-/// squares compared in float.
-class FloatBrute {
- public:
-  FloatBrute(std::shared_ptr<const PeerInput> input, double away) : input_(std::move(input)), away_(away) {
-    for (const double m : input_->table) table_.push_back(static_cast<float>(m));
-  }
-  void update(std::span<const Point> placed) {
-    x_.clear();
-    y_.clear();
-    z_.clear();
-    for (const Point& p : placed) {
-      x_.push_back(static_cast<float>(p.position[0] + away_));
-      y_.push_back(static_cast<float>(p.position[1] + away_));
-      z_.push_back(static_cast<float>(p.position[2] + away_));
-    }
-    squared_.resize(x_.size());
-  }
-  bool any() {
-    return each([](float squared, float m) { return squared < m * m; });
-  }
-  double closest() {
-    float best = std::numeric_limits<float>::infinity();
-    each([&](float squared, float m) {
-      best = std::min(best, std::sqrt(squared) - m);
-      return false;
-    });
-    return static_cast<double>(best);
-  }
-
- private:
-  template <class Stop>
-  bool each(const Stop& stop) {
-    constexpr float reach = 8.0F;  // angstrom: no threshold, and no closest pair of a protein, is beyond
-    for (std::size_t i = 0; i < x_.size(); ++i) {
-      for (std::size_t j = i + 1; j < x_.size(); ++j) {
-        const float dx = x_[i] - x_[j], dy = y_[i] - y_[j], dz = z_[i] - z_[j];
-        squared_[j] = dx * dx + dy * dy + dz * dz;
-      }
-      for (std::size_t j = i + 1; j < x_.size(); ++j) {
-        if (squared_[j] > reach * reach) continue;
-        const auto a = static_cast<std::uint32_t>(i), b = static_cast<std::uint32_t>(j);
-        if (input_->admits(a, b) && stop(squared_[j], table_[input_->type[i] * input_->type_count + input_->type[j]]))
-          return true;
-      }
-    }
-    return false;
-  }
-  std::shared_ptr<const PeerInput> input_;
-  double away_;
-  std::vector<float> table_, x_, y_, z_, squared_;
-};
-
-Variant float_only(std::string name, const Protein& protein, const DofSelection& selection, double away_from_origin) {
-  const Scene scene(protein, selection);
-  const auto h = std::make_shared<Molecular<Wide>>(scene.make<Wide>());
-  const auto brute = std::make_shared<FloatBrute>(scene.input(), away_from_origin);
-  return {std::move(name), [=](const Turns& turns) {
-            const std::vector<double> q = configuration(*protein.molecule, selection, turns);
-            const std::vector<double> home(q.size(), 0.0);
-            const auto away = [&] {
-              h->update(home);
-              h->placed();
-            };
-            Outcome outcome;
-            outcome.any_us = best_time(away, [&] {
-              h->update(q);
-              brute->update(h->placed());
-              outcome.collides = brute->any();
-            });
-            outcome.closest_us = best_time(away, [&] {
-              h->update(q);
-              brute->update(h->placed());
-              outcome.gap = brute->closest();
             });
             return outcome;
           }};
@@ -262,17 +184,15 @@ int main(int argc, char** argv) {
 
   const Protein protein = read_protein(heavy, false);
   const DofSelection all = select(protein, "all");
-  run(results, "float only", protein, all,
-      {banded("banded float, decided in double", protein, all), float_only("float, every pair", protein, all, 0.0),
-       float_only("float, every pair, 1e3 A off the origin", protein, all, 1e3),
-       float_only("float, every pair, 1e5 A off the origin", protein, all, 1e5)},
-      n);
+  trade_precision(protein, all, static_cast<std::size_t>(arguments.number), results);
   run(results, "fewer torsions moved", protein, all,
-      {banded("all residues", protein, all), banded("35 residues", protein, select(protein, "count:35")),
-       banded("10 residues", protein, select(protein, "count:10"))},
+      {asked_exactly("all residues", protein, all), asked_exactly("35 residues", protein, select(protein, "count:35")),
+       asked_exactly("10 residues", protein, select(protein, "count:10"))},
       n);
   run(results, "rigid secondary structure", protein, all,
-      {banded("all free", protein, all), banded("helices and strands rigid", protein, select(protein, "loops"))}, n);
+      {asked_exactly("all free", protein, all),
+       asked_exactly("helices and strands rigid", protein, select(protein, "loops"))},
+      n);
   if (hydrogens.empty()) {
     std::printf("explicit hydrogens are left out: no file with hydrogens is there\n");
     hydrogens = heavy;
@@ -283,16 +203,16 @@ int main(int argc, char** argv) {
                   united = with_radii(hydrogens, false, "probe-united"), bare = with_radii(hydrogens, false, "bondi");
     const DofSelection moved = select(reference, "all");
     run(results, "explicit against united hydrogens", reference, moved,
-        {banded("hydrogens explicit (probe)", reference, moved),
-         banded("united with their carbons (probe-united)", united, select(united, "all")),
-         banded("heavy atoms alone (bondi)", bare, select(bare, "all"))},
+        {asked_exactly("hydrogens explicit (probe)", reference, moved),
+         asked_exactly("united with their carbons (probe-united)", united, select(united, "all")),
+         asked_exactly("heavy atoms alone (bondi)", bare, select(bare, "all"))},
         n);
   }
   std::vector<Variant> sets;
   const Protein bondi = with_radii(hydrogens, explicit_hydrogens, "bondi");
   for (const char* set : {"bondi", "probe", "probe-united", "amber"}) {
     const Protein p = with_radii(hydrogens, explicit_hydrogens && std::string(set) != "probe-united", set);
-    sets.push_back(banded(set, p, select(p, "all")));
+    sets.push_back(asked_exactly(set, p, select(p, "all")));
   }
   run(results, "radii sets", bondi, select(bondi, "all"), std::move(sets), n);
   trade_tiers(static_cast<std::size_t>(arguments.number), results);
