@@ -64,6 +64,20 @@ class Hierarchy {
   void learn_order() {
     if constexpr (requires { engine_.learn_order(); }) engine_.learn_order();
   }
+  /// The same for yes/no queries of this model against others: which of its links are tried first. `other`, at its
+  /// current state, stands for those to come. ModelError as by queries.
+  template <PairFilter G = AdmitAll>
+  void learn_order(Hierarchy& other, const G& across = {}) {
+    if (!matrix_.compatible(other.matrix_)) throw ModelError("the two models use different distance matrices");
+    if constexpr (requires { engine_.learn_order(other.engine_, across); }) {
+      if (this == &other) {
+        Hierarchy twin(other);  // engines keep scratch on either side
+        engine_.learn_order(twin.engine_, across);
+      } else {
+        engine_.learn_order(other.engine_, across);
+      }
+    }
+  }
 
   // --- queries at the current state ---
 

@@ -53,7 +53,7 @@ class Wide {
     const SelfRules<P, F, D> rules{placement_, filter_, matrix_, options};
     if constexpr (KeepsTrees<P>)
       if (by_trees()) {
-        trees_->self_query(placement_, self_judge(collector, rules), collector, options, counts);
+        trees_->self_query(placement_, tree_judge(collector, rules), collector, options, counts);
         return add(options.counts, counts);
       }
     WideSide<P>& side = present_side(without_margin(collector, options));
@@ -103,7 +103,17 @@ class Wide {
     AnyHit any;
     const QueryOptions options;
     const SelfRules<P, F, D> rules{placement_, filter_, matrix_, options};
-    trees_->learn(placement_, self_judge(any, rules), any);
+    trees_->learn(placement_, tree_judge(any, rules), any);
+  }
+  /// The same for queries against other models, of which this one stands for all: the order of this model's links.
+  template <PairFilter G>
+  requires CrossMatrix<D>
+  void learn_order(Wide& other, const G& across) {
+    if (!by_trees_with(other)) return;
+    AnyHit any;
+    const QueryOptions options;
+    const CrossRules<P, G, D> rules{placement_, other.placement_, across, matrix_, other.matrix_, options};
+    trees_->learn(placement_, *other.trees_, other.placement_, tree_judge(any, rules), any);
   }
 
   /// `across` admits (primitive of this, primitive of other).
@@ -112,19 +122,13 @@ class Wide {
   void query(Wide& other, const G& across, C& collector, const QueryOptions& options) {
     QueryCounts counts;
     const CrossRules<P, G, D> rules{placement_, other.placement_, across, matrix_, other.matrix_, options};
-    const CrossVerdicts decide{collector, rules};
     if constexpr (KeepsTrees<P>)
-      if (by_trees() && other.by_trees() && trees_->fits(*other.trees_)) {
-        trees_->query(placement_, *other.trees_, other.placement_,
-                      TreeJudge{decide, [&](PrimitiveId i, PrimitiveId j) { return rules.threshold(i, j); },
-                                [&](PrimitiveId i, PrimitiveId j) { return rules.admits(i, j); },
-                                [&](LinkId a, LinkId b) {
-                                  if constexpr (AdmitsLinks<G>) return across.admits(a, b);
-                                  return true;
-                                }},
-                      collector, options, counts);
+      if (by_trees_with(other)) {
+        trees_->query(placement_, *other.trees_, other.placement_, tree_judge(collector, rules), collector, options,
+                      counts);
         return add(options.counts, counts);
       }
+    const CrossVerdicts decide{collector, rules};
     // Compatible tables of types are alike; of other matrices nothing is known but that no threshold is above 0.
     const bool skip_idle =
         without_margin(collector, options) && (TypesPrimitives<D> || (sides_.all_idle() && other.sides_.all_idle()));
@@ -166,24 +170,6 @@ class Wide {
     };
   }
 
-  template <Collector C>
-  static auto self_judge(C& collector, const SelfRules<P, F, D>& rules) {
-    const auto in_order = [](PrimitiveId i, PrimitiveId j, const auto& say) { return j < i ? say(j, i) : say(i, j); };
-    return TreeJudge{[&](PrimitiveId i, PrimitiveId j, const P& p, const P& q) {
-                       const bool turned = j < i;
-                       const PrimitiveId first = turned ? j : i, second = turned ? i : j;
-                       offer(collector, first, second, turned ? q : p, turned ? p : q, rules.threshold(first, second),
-                             [&] { return rules.admits(first, second); });
-                     },
-                     [&rules, in_order](PrimitiveId i, PrimitiveId j) {
-                       return in_order(i, j, [&](auto k, auto l) { return rules.threshold(k, l); });
-                     },
-                     [&rules, in_order](PrimitiveId i, PrimitiveId j) {
-                       return in_order(i, j, [&](auto k, auto l) { return rules.admits(k, l); });
-                     },
-                     [](LinkId, LinkId) { return true; }};
-  }
-
   /// Does the query ask for collisions alone, so that primitives whose thresholds are all 0 take no part?
   template <Collector C>
   static bool without_margin(const C& collector, const QueryOptions& options) noexcept {
@@ -192,6 +178,9 @@ class Wide {
 
   /// Are the trees up to the present coordinates? They cannot hold groups that deform.
   bool by_trees() const noexcept { return trees_.has_value() && !placement_.groups_may_deform(); }
+  bool by_trees_with(const Wide& other) const noexcept {
+    return by_trees() && other.by_trees() && trees_->fits(*other.trees_);
+  }
 
   WideSide<P>& present_side(bool without_margin) {
     return sides_.present(placement_, filter_, matrix_, without_margin);

@@ -19,7 +19,7 @@
 
 namespace hinge {
 
-/// Squared lower bounds of d - M, all parts of a node against a box as near_lanes has it; 0 where boxes overlap.
+/// Squared lower bounds of d - M, all parts of a node against a box that `turn` brought there; 0 where boxes overlap.
 [[gnu::always_inline]] inline simd::Float16 squared_gaps(const TreeNode& node, const TreeBox& box,
                                                          const TreeBox& turned, const Turn& turn) noexcept {
   using simd::Float16;
@@ -105,7 +105,7 @@ class ClosestFinder {
     const TreeBox turned = turn(box);
     const simd::Float16 squared = squared_gaps(node, box, turned, turn);
     // A negative bound asks for deeper penetration: boxes must overlap by that much.
-    simd::Bits lanes = bound < 0.0F ? near_lanes(node, box, turned, turn, bound)
+    simd::Bits lanes = bound < 0.0F ? near_lanes(node, BoxProbe(box, turn, bound), turn)
                                     : ~less(simd::Float16(bound * bound), squared) & node.used;
     alignas(64) std::array<float, simd::width> each;
     squared.store(each.data());
@@ -123,7 +123,8 @@ class ClosestFinder {
   template <class Flush>
   float run_leaves(const TreeParts<P>& a, BoxId x, const TreeParts<P>& b, BoxId y, const RelativeTurn& turn,
                    float bound, QueryCounts& counts, const Flush& flush) {
-    LeafPair<P> pair(a, x, b, y, turn.b_to_a, bound);
+    const TurnedLeaf<P> turned(b, y, turn.b_to_a);
+    LeafPair<P> pair(a, x, turned, bound);
     for (simd::Bits ones = pair.ones(); ones != 0; ones &= ones - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(ones));
       ++counts.pairs_tested;

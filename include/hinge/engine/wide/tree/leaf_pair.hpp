@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// LeafPair: two leaves of two trees, the one's primitives brought into the other's frame.
+// TurnedLeaf: a leaf's primitives brought into another tree's frame. LeafPair: such a leaf and one of that tree.
 #pragma once
 
 #include <array>
@@ -13,35 +13,60 @@
 namespace hinge {
 
 template <Primitive P>
+class TurnedLeaf {
+ public:
+  /// y: the box of a leaf of `from`; `turn` brings what is in that tree to another one.
+  [[gnu::always_inline]] TurnedLeaf(const TreeParts<P>& from, BoxId y, const Turn& turn) noexcept
+      : leaf_(from.store.leaf(y)),
+        real_(from.store.real[leaf_]),
+        error_(turn.point_error),
+        reach_(from.leaf_reach(leaf_)),
+        turned_(from.leaf(leaf_), {turn.rotation, turn.size, turn.translation}) {
+    // Reaches are in the unit of the tree they come from.
+    if (reach_ != nullptr && turn.ratio != 1.0F) {
+      for (std::size_t k = 0; k < simd::width; ++k) scaled_[k] = reach_[k] * turn.ratio;
+      reach_ = scaled_.data();
+    }
+  }
+  TurnedLeaf(const TurnedLeaf&) = delete;
+  TurnedLeaf& operator=(const TurnedLeaf&) = delete;
+
+  /// Lanes that may come within the margin of a box, which holds the reaches of what is inside.
+  [[gnu::always_inline]] simd::Bits near_box(const TreeBox& box, float margin) const noexcept {
+    return turned_.near_box(box.middle, box.half, Nearness{margin, error_, nullptr, reach_}) & real_;
+  }
+  simd::Bits real() const noexcept { return real_; }
+  const float* reach() const noexcept { return reach_; }
+  float error() const noexcept { return error_; }
+  std::uint32_t slot(std::size_t k) const noexcept { return static_cast<std::uint32_t>(leaf_ * simd::width + k); }
+  const typename Leaf<P>::Turned& turned() const noexcept { return turned_; }
+
+ private:
+  std::uint32_t leaf_;
+  simd::Bits real_;
+  float error_;
+  const float* reach_;
+  alignas(64) std::array<float, simd::width> scaled_;  // unless all reaches are 0 or in the same unit
+  typename Leaf<P>::Turned turned_;
+};
+
+template <Primitive P>
 class LeafPair {
  public:
-  /// x and y are boxes of leaves; `turn` brings what is in `other` to `own`. `margin`: what counts as near beyond
+  /// x is the box of a leaf of `own`, the tree that `other` was brought to. `margin`: what counts as near beyond
   /// reaches, unit of own.
-  [[gnu::always_inline]] LeafPair(const TreeParts<P>& own, BoxId x, const TreeParts<P>& other, BoxId y,
-                                  const Turn& turn, float margin) noexcept
+  [[gnu::always_inline]] LeafPair(const TreeParts<P>& own, BoxId x, const TurnedLeaf<P>& other, float margin) noexcept
       : own_(own),
+        other_(other),
         leaf_(own.store.leaf(x)),
-        other_leaf_(other.store.leaf(y)),
-        near_{margin, turn.point_error, own.leaf_reach(leaf_), other.leaf_reach(other_leaf_)},
-        turned_(other.leaf(other_leaf_), {turn.rotation, turn.size, turn.translation}) {
-    // Reaches of the other tree are in its own unit.
-    if (near_.other_reach != nullptr && turn.ratio != 1.0F) {
-      for (std::size_t k = 0; k < simd::width; ++k) scaled_[k] = near_.other_reach[k] * turn.ratio;
-      near_.other_reach = scaled_.data();
-    }
-    const TreeBox box = own.store.box(x);
-    ones_ = turned_.near_box(box.middle, box.half, near_) & other.store.real[other_leaf_];
-  }
-  LeafPair(const LeafPair&) = delete;
-  LeafPair& operator=(const LeafPair&) = delete;
+        ones_(other.near_box(own.store.box(x), margin)),
+        near_{margin, other.error(), own.leaf_reach(leaf_), other.reach()} {}
 
   /// Lanes of the other leaf that may be near the own leaf's box.
   simd::Bits ones() const noexcept { return ones_; }
   std::uint32_t leaf() const noexcept { return leaf_; }
-  std::uint32_t other_slot(std::size_t k) const noexcept {
-    return static_cast<std::uint32_t>(other_leaf_ * simd::width + k);
-  }
-  const typename Leaf<P>::Turned& turned() const noexcept { return turned_; }
+  std::uint32_t other_slot(std::size_t k) const noexcept { return other_.slot(k); }
+  const typename Leaf<P>::Turned& turned() const noexcept { return other_.turned(); }
   const float* own() const noexcept { return own_.leaf(leaf_); }
   simd::Bits real() const noexcept { return own_.store.real[leaf_]; }
   const Nearness& nearness() const noexcept { return near_; }
@@ -49,11 +74,10 @@ class LeafPair {
 
  private:
   const TreeParts<P>& own_;
-  std::uint32_t leaf_, other_leaf_;
-  simd::Bits ones_ = 0;
+  const TurnedLeaf<P>& other_;
+  std::uint32_t leaf_;
+  simd::Bits ones_;
   Nearness near_;
-  alignas(64) std::array<float, simd::width> scaled_;  // unless all reaches are 0 or in the same unit
-  typename Leaf<P>::Turned turned_;
 };
 
 }  // namespace hinge

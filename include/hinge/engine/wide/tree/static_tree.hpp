@@ -20,6 +20,11 @@ namespace hinge {
 /// A box of a tree: lane + 16 * node. Every box but the topmost holds a node's or a leaf's contents.
 using BoxId = std::uint32_t;
 
+/// One box as traversals hold it.
+struct TreeBox {
+  std::array<float, 3> middle{}, half{};
+};
+
 /// Sixteen boxes or fewer, each around a node or a leaf.
 struct alignas(64) TreeNode {
   static constexpr std::uint32_t leaf_bit = 0x80000000U;
@@ -30,11 +35,19 @@ struct alignas(64) TreeNode {
   std::array<float, simd::width> size{};  ///< the longest half length
   simd::Bits used = 0;                    ///< lanes that hold boxes
   simd::Bits inner = 0;                   ///< of these, lanes that hold nodes; the others hold leaves
-};
 
-/// One box as traversals hold it.
-struct TreeBox {
-  std::array<float, 3> middle{}, half{};
+  void set(std::size_t lane, const TreeBox& box) noexcept {
+    used |= simd::Bits{1} << lane;
+    for (std::size_t k = 0; k < 3; ++k) {
+      middle[k * simd::width + lane] = box.middle[k];
+      half[k * simd::width + lane] = box.half[k];
+      size[lane] = std::max(size[lane], box.half[k]);
+    }
+  }
+  void set_child(std::size_t lane, std::uint32_t to) noexcept {
+    child[lane] = to;
+    if ((to & leaf_bit) == 0) inner |= simd::Bits{1} << lane;
+  }
 };
 
 /// What a tree is built from: the outward rounded box of a primitive, relative to the tree's origin, scaled.
@@ -89,13 +102,12 @@ class TreeBuilder {
       stack_.pop_back();
       depth = std::max(depth, open.depth);
       if (open.items.size() <= simd::width) {
-        store.nodes[open.node].child[open.lane] = TreeNode::leaf_bit | add_leaf(open.items, store);
+        store.nodes[open.node].set_child(open.lane, TreeNode::leaf_bit | add_leaf(open.items, store));
         continue;
       }
       const auto node = static_cast<std::uint32_t>(store.nodes.size());
       store.nodes.emplace_back();
-      store.nodes[open.node].child[open.lane] = node;
-      store.nodes[open.node].inner |= simd::Bits{1} << open.lane;
+      store.nodes[open.node].set_child(open.lane, node);
       split(open.items);
       for (std::size_t lane = 0; lane < parts_.size(); ++lane) place(parts_[lane], store, node, lane);
       for (std::size_t lane = parts_.size(); lane-- > 0;)
@@ -138,16 +150,14 @@ class TreeBuilder {
   }
 
   static void place(const Part& part, TreeStore& store, std::uint32_t n, std::size_t lane) noexcept {
-    TreeNode& node = store.nodes[n];
-    node.used |= simd::Bits{1} << lane;
+    TreeBox box;
     for (std::size_t k = 0; k < 3; ++k) {
-      const float low = part.box.lower[k], high = part.box.upper[k], middle = low / 2 + high / 2;
+      const float low = part.box.lower[k], high = part.box.upper[k];
+      box.middle[k] = low / 2 + high / 2;
       // Differences of floats, rounded once, and so is the middle.
-      const float half = std::max(high - middle, middle - low) * (1.0F + 0x1p-22F);
-      node.middle[k * simd::width + lane] = middle;
-      node.half[k * simd::width + lane] = half;
-      node.size[lane] = std::max(node.size[lane], half);
+      box.half[k] = std::max(high - box.middle[k], box.middle[k] - low) * (1.0F + 0x1p-22F);
     }
+    store.nodes[n].set(lane, box);
   }
 
   static std::uint32_t add_leaf(std::span<const BuildItem> items, TreeStore& store) {

@@ -1,6 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// TreeJudge: what walks through trees have to ask about pairs.
+// TreeJudge: what walks through trees have to ask about pairs, and the judges of one model and of two.
 #pragma once
+
+#include "hinge/core/id.hpp"
+#include "hinge/policy/collector.hpp"
+#include "hinge/policy/distance_matrix.hpp"
+#include "hinge/policy/pair_filter.hpp"
+#include "hinge/policy/primitive.hpp"
+#include "hinge/query/offer.hpp"
+#include "hinge/query/pair_rules.hpp"
 
 namespace hinge {
 
@@ -15,5 +23,36 @@ struct TreeJudge {
 };
 template <class Decide, class Threshold, class Admits, class AdmitsPairs>
 TreeJudge(Decide, Threshold, Admits, AdmitsPairs) -> TreeJudge<Decide, Threshold, Admits, AdmitsPairs>;
+
+/// What it decides goes to the collector. Views both.
+template <Collector C, Primitive P, PairFilter F, DistanceMatrix D>
+auto tree_judge(C& collector, const SelfRules<P, F, D>& rules) {
+  const auto in_order = [](PrimitiveId i, PrimitiveId j, const auto& say) { return j < i ? say(j, i) : say(i, j); };
+  return TreeJudge{[&](PrimitiveId i, PrimitiveId j, const P& p, const P& q) {
+                     const bool turned = j < i;
+                     const PrimitiveId first = turned ? j : i, second = turned ? i : j;
+                     offer(collector, first, second, turned ? q : p, turned ? p : q, rules.threshold(first, second),
+                           [&] { return rules.admits(first, second); });
+                   },
+                   [&rules, in_order](PrimitiveId i, PrimitiveId j) {
+                     return in_order(i, j, [&](auto k, auto l) { return rules.threshold(k, l); });
+                   },
+                   [&rules, in_order](PrimitiveId i, PrimitiveId j) {
+                     return in_order(i, j, [&](auto k, auto l) { return rules.admits(k, l); });
+                   },
+                   [](LinkId, LinkId) { return true; }};
+}
+template <Collector C, Primitive P, PairFilter G, CrossMatrix D>
+auto tree_judge(C& collector, const CrossRules<P, G, D>& rules) {
+  return TreeJudge{[&](PrimitiveId i, PrimitiveId j, const P& p, const P& q) {
+                     offer(collector, i, j, p, q, rules.threshold(i, j), [&] { return rules.admits(i, j); });
+                   },
+                   [&rules](PrimitiveId i, PrimitiveId j) { return rules.threshold(i, j); },
+                   [&rules](PrimitiveId i, PrimitiveId j) { return rules.admits(i, j); },
+                   [&rules](LinkId a, LinkId b) {
+                     if constexpr (AdmitsLinks<G>) return rules.filter.admits(a, b);
+                     return true;
+                   }};
+}
 
 }  // namespace hinge

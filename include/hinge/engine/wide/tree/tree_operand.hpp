@@ -26,15 +26,15 @@ struct TreeOperand {
   std::span<const double> clearance;
 
   const TreePart& part(std::size_t p) const noexcept { return state.parts().parts[p]; }
-  double clearance_at(std::size_t p) const noexcept { return clearance_of(clearance, id<GroupId>(part(p).group)); }
+  double clearance_at(const TreePart& part) const noexcept { return clearance_of(clearance, id<GroupId>(part.group)); }
+  double clearance_at(std::size_t p) const noexcept { return clearance_at(part(p)); }
   double largest_clearance() const noexcept {
     double most = 0.0;
     for (const double c : clearance) most = std::max(most, c);
     return most;
   }
   PrimitiveId primitive(std::uint32_t slot) const noexcept { return id<PrimitiveId>(state.parts().store.slots[slot]); }
-  RelativeTurn turn(std::size_t p, const TreeOperand& other, std::size_t q) const noexcept {
-    const TreePart &a = part(p), &b = other.part(q);
+  RelativeTurn turn(const TreePart& a, const TreeOperand& other, const TreePart& b) const noexcept {
     return {state.frame(a.group),       state.parts().scale,       a.extent,
             other.state.frame(b.group), other.state.parts().scale, b.extent};
   }

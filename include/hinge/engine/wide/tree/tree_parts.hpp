@@ -34,6 +34,9 @@ namespace hinge {
 /// The primitives of one link. Lengths in the unit of the trees.
 struct TreePart {
   BoxId root = 0;
+  std::uint32_t top = 0;  ///< what the root's box holds: a node or a leaf
+  TreeBox root_box{};     ///< the same as in its node, all in one place
+  float root_size = 0.0F;
   std::uint32_t group = 0;
   LinkId link{};
   float extent = 0.0F;  ///< largest magnitude of a coordinate, without reaches
@@ -65,6 +68,8 @@ struct TreeParts {
   }
 
   std::vector<TreePart> parts;  ///< by group
+  /// Per group: all its parts under one root; only where there are two to sixteen, else the link is the world's.
+  std::vector<TreePart> merged;
   simd::AlignedVector<PartRow> part_rows;
   std::vector<Vec3> origin;  ///< per group: of its trees, in its frame
   double scale = 1.0;        ///< power of two that brings the largest group to a size where float products are safe
@@ -74,10 +79,11 @@ struct TreeParts {
   simd::AlignedVector<float> reaches;
   EarlierParts tested;
   double largest_threshold = 0.0;  ///< no pair has a larger one, model unit
-  std::size_t depth = 0;           ///< of the deepest tree
+  std::size_t depth = 0;           ///< of the deepest tree, merged ones included
 
  private:
   void set_row(std::size_t p, const Aabb& whole, std::span<const BuildItem> items, const Vec3& o);
+  void merge(std::size_t first, std::size_t last);
   void measure(const SelectedModel<P>& model, const std::vector<Aabb>& boxes);
   template <DistanceMatrix D>
   void build(const SelectedModel<P>& model, const D& matrix, const std::vector<Aabb>& boxes);
@@ -90,6 +96,11 @@ TreeParts<P>::TreeParts(const SelectedModel<P>& model, const F& filter, const D&
   for (std::size_t i = 0; i < model.size(); ++i) boxes[i] = model.primitives()[i].bounds();
   measure(model, boxes);
   build(model, matrix, boxes);
+  merged.resize(model.groups()->size());
+  for (std::size_t first = 0, last = 0; first < parts.size(); first = last) {
+    while (last < parts.size() && parts[last].group == parts[first].group) ++last;
+    if (last - first >= 2 && last - first <= simd::width) merge(first, last);
+  }
   // Parts of one group stand together.
   for (std::size_t p = 0, group = 0; p < parts.size(); ++p) {
     if (parts[group].group != parts[p].group) group = p;
@@ -155,6 +166,42 @@ void TreeParts<P>::set_row(std::size_t p, const Aabb& whole, std::span<const Bui
 }
 
 template <Primitive P>
+void TreeParts<P>::merge(std::size_t first, std::size_t last) {
+  TreePart& whole = merged[parts[first].group];
+  whole = parts[first];
+  const auto node = static_cast<std::uint32_t>(store.nodes.size());
+  whole.root = static_cast<BoxId>((node + 1) * simd::width);
+  whole.top = node;
+  TreeNode all, top;
+  std::array<double, 3> lower, upper;
+  lower.fill(std::numeric_limits<double>::infinity());
+  upper.fill(-std::numeric_limits<double>::infinity());
+  for (std::size_t p = first; p < last; ++p) {
+    const TreePart& part = parts[p];
+    all.set(p - first, part.root_box);
+    all.set_child(p - first, part.top);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto middle = static_cast<double>(part.root_box.middle[k]),
+                 half = static_cast<double>(part.root_box.half[k]);
+      lower[k] = std::min(lower[k], middle - half);
+      upper[k] = std::max(upper[k], middle + half);
+    }
+    whole.extent = std::max(whole.extent, part.extent);
+    whole.reach = std::max(whole.reach, part.reach);
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    whole.root_box.middle[k] = static_cast<float>((lower[k] + upper[k]) / 2);
+    const auto middle = static_cast<double>(whole.root_box.middle[k]);
+    whole.root_box.half[k] = float_above(std::max(upper[k] - middle, middle - lower[k]) * (1 + 0x1p-50));
+  }
+  top.set(0, whole.root_box);
+  top.set_child(0, node);
+  whole.root_size = top.size[0];
+  store.nodes.push_back(all);
+  store.nodes.push_back(top);
+}
+
+template <Primitive P>
 template <DistanceMatrix D>
 void TreeParts<P>::build(const SelectedModel<P>& model, const D& matrix, const std::vector<Aabb>& boxes) {
   std::vector<std::uint32_t> order(model.size());
@@ -202,7 +249,10 @@ void TreeParts<P>::build(const SelectedModel<P>& model, const D& matrix, const s
     const std::size_t leaf = store.real.size();
     const TreeBuilder::Tree tree = builder.build(items, store);
     part.root = tree.root;
-    depth = std::max(depth, tree.depth);
+    part.top = store.child(tree.root);
+    part.root_box = store.box(tree.root);
+    part.root_size = store.size(tree.root);
+    depth = std::max(depth, tree.depth + 1);
     for (int k = 0; k < 3; ++k) {
       const auto axis = static_cast<std::size_t>(k);
       part.box.middle[axis] = whole.middle(k);

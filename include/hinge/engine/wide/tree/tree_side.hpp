@@ -3,32 +3,26 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
-#include <span>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "hinge/core/id.hpp"
-#include "hinge/engine/wide/tree/find_closest.hpp"
-#include "hinge/engine/wide/tree/find_near.hpp"
-#include "hinge/engine/wide/tree/pair_order.hpp"
-#include "hinge/engine/wide/tree/relative_turn.hpp"
+#include "hinge/engine/wide/tree/closest_search.hpp"
+#include "hinge/engine/wide/tree/cross_operands.hpp"
+#include "hinge/engine/wide/tree/learned_order.hpp"
+#include "hinge/engine/wide/tree/near_search.hpp"
+#include "hinge/engine/wide/tree/pair_numbers.hpp"
 #include "hinge/engine/wide/tree/tree_operand.hpp"
 #include "hinge/engine/wide/tree/tree_parts.hpp"
 #include "hinge/engine/wide/tree/tree_state.hpp"
 #include "hinge/engine/wide/tree/witnesses.hpp"
 #include "hinge/model/placement.hpp"
 #include "hinge/policy/collector.hpp"
-#include "hinge/primitive/leaf.hpp"
-#include "hinge/query/pair_rules.hpp"
 #include "hinge/query/query_options.hpp"
 
 namespace hinge {
@@ -38,13 +32,12 @@ template <Primitive P>
 class TreeSide {
  public:
   explicit TreeSide(std::shared_ptr<const TreeParts<P>> parts)
-      : state_(std::move(parts)), order_(state_.parts().parts.size()) {
-    finder_.reserve(2 * state_.parts().depth);
+      : state_(std::move(parts)), cross_order_(state_.parts().parts.size()), asked_(state_.parts().parts.size()) {
+    near_.reserve(2 * state_.parts().depth);
     closest_.reserve(2 * state_.parts().depth);
     // So that queries of usual models never allocate.
     const std::size_t n = state_.parts().parts.size();
-    pairs_.reserve(std::min<std::size_t>(n * n / 2, 1U << 16U));
-    candidates_.reserve(most_candidates + simd::width);
+    closest_.reserve_pairs(std::min<std::size_t>(n * n / 2, 1U << 16U));
   }
 
   template <Collector C, class Judge>
@@ -59,54 +52,64 @@ class TreeSide {
     const std::size_t n = state_.parts().parts.size();
     const double most = mine.largest_clearance();
     if constexpr (C::ranks) {
-      find_closest(mine, mine, witnesses_, judge, collector, counts, [&](double bound) {
-        for (std::size_t p = 1; p < n; ++p)
-          state_.append_before(p, mine.scaled(bound + mine.clearance_at(p) + most), pairs_);
-        counts.boxes_tested += n * state_.parts().rows() / 2;
-        std::erase_if(pairs_, [&](const PartPair& pair) { return !wanted(pair.first, pair.second); });
-      });
-    } else if (StopsAtFirst<C> && order_.is_learned()) {
-      pairs_.clear();
-      each_candidate(mine, most, wanted, counts, [&](std::uint32_t q, std::uint32_t p) {
-        pairs_.push_back({order_.weight(p, q), q, p});
-      });
-      std::sort(pairs_.begin(), pairs_.end(), [](const PartPair& x, const PartPair& y) { return x.gap > y.gap; });
-      for (const PartPair& pair : pairs_) {
-        find_near(mine, pair.first, mine, pair.second, 0.0, judge, collector, counts);
-        if (collector.done()) break;
-      }
+      closest_.run(mine, mine, near_, witnesses_, judge, collector, counts,
+                   [&](double bound, std::vector<PartPair>& pairs) {
+                     for (std::size_t p = 1; p < n; ++p)
+                       state_.append_before(p, mine.scaled(bound + mine.clearance_at(p) + most), pairs);
+                     counts.boxes_tested += n * state_.parts().rows() / 2;
+                     std::erase_if(pairs, [&](const PartPair& pair) { return !wanted(pair.first, pair.second); });
+                   });
     } else {
-      for (std::size_t p = 1; p < n && !collector.done(); ++p) {
-        counts.boxes_tested += p / simd::width + 1;
-        for (const std::uint32_t q : state_.before(p, mine.scaled(collector.cutoff() + mine.clearance_at(p) + most))) {
-          if (!wanted(q, p)) continue;
-          find_near(mine, q, mine, p, collector.cutoff(), judge, collector, counts);
-          if (collector.done()) break;
-        }
-      }
+      const auto look = [&](std::size_t q, std::size_t p) {
+        near_.run(mine, mine.part(q), mine, mine.part(p), collector.cutoff(), judge, collector, counts);
+        return !collector.done();
+      };
+      counts.boxes_tested += n * state_.parts().rows() / 2;
+      const auto margin = [&](std::size_t p) { return mine.scaled(collector.cutoff() + mine.clearance_at(p) + most); };
+      if (!StopsAtFirst<C> || !order_.is_learned())
+        return state_.sweep(margin, [&](std::uint32_t q, std::uint32_t p) { return !wanted(q, p) || look(q, p); });
+      order_.start();
+      state_.sweep(margin, [&](std::uint32_t q, std::uint32_t p) {
+        if (wanted(q, p)) order_.mark(numbers_.of(q, p));
+        return true;
+      });
+      order_.each([&](std::size_t pair) { return look(numbers_.parts(pair)[0], numbers_.parts(pair)[1]); });
     }
   }
 
   /// Adds the present state to what the order of yes/no queries is learned from; `any` is the judge's collector.
   template <Collector C, class Judge>
   void learn(Placement<P>& placement, const Judge& judge, C& any) {
-    if (state_.parts().parts.size() > most_ordered) return;
+    const std::size_t n = state_.parts().parts.size();
+    if (n > most_ordered) return;
+    if (!order_.is_learned()) {
+      numbers_ = PairNumbers(state_.parts().tested, state_.parts().parts.size());
+      order_ = LearnedOrder(numbers_.size());
+    }
     state_.refresh(placement);
     const TreeOperand<P> mine{state_, placement, {}};
-    pairs_.clear();
-    QueryCounts counts;
-    each_candidate(
-        mine, 0.0, [](std::size_t, std::size_t) { return true; }, counts,
-        [&](std::uint32_t q, std::uint32_t p) {
-          pairs_.push_back({0.0F, q, p});
-        });
-    for (const PartPair& pair : pairs_) {
-      any = C{};
-      counts = {};
-      find_near(mine, pair.first, mine, pair.second, 0.0, judge, any, counts);
-      order_.add(pair.first, pair.second, any.done(), counts.boxes_tested + counts.pairs_tested);
-    }
-    order_.settle();
+    state_.sweep([](std::size_t) { return 0.0F; },
+                 [&](std::uint32_t q, std::uint32_t p) {
+                   any = C{};
+                   QueryCounts counts;
+                   near_.run(mine, mine.part(q), mine, mine.part(p), 0.0, judge, any, counts);
+                   order_.add(numbers_.of(q, p), any.done(), counts.boxes_tested + counts.pairs_tested);
+                   return true;
+                 });
+  }
+  /// The same for queries against other models: in which order the parts of this one are tried.
+  template <Collector C, class Judge>
+  void learn(Placement<P>& placement, TreeSide& theirs, Placement<P>& their_placement, const Judge& judge, C& any) {
+    const CrossOperands<P> cross(state_, placement, theirs.state_, their_placement, {});
+    near_.reserve(state_.parts().depth + theirs.state_.parts().depth);
+    for (std::size_t q = 0; q < theirs.state_.parts().parts.size(); ++q)
+      each_meeting<C>(cross, judge, q, 0.0F, [&](std::size_t p, const TreePart& part) {
+        any = C{};
+        QueryCounts counts;
+        near_.run(cross.mine, part, cross.others, cross.others.part(q), 0.0, judge, any, counts);
+        cross_order_.add(p, any.done(), counts.boxes_tested + counts.pairs_tested);
+        return true;
+      });
   }
 
   /// Are the units of the two alike enough for floats to hold both?
@@ -119,176 +122,88 @@ class TreeSide {
   template <Collector C, class Judge>
   void query(Placement<P>& placement, TreeSide& theirs, Placement<P>& their_placement, const Judge& judge, C& collector,
              const QueryOptions& options, QueryCounts& counts) {
-    state_.refresh(placement);
-    theirs.state_.refresh(their_placement);
-    const TreeOperand<P> mine{state_, placement, options.clearance};
-    const TreeOperand<P> others{theirs.state_, their_placement, options.other_clearance};
+    const CrossOperands<P> cross(state_, placement, theirs.state_, their_placement, options);
+    const TreeOperand<P>&mine = cross.mine, &others = cross.others;
     const std::size_t depth = state_.parts().depth + theirs.state_.parts().depth;
-    finder_.reserve(depth);
+    near_.reserve(depth);
     closest_.reserve(depth);
-    const auto wanted = [&](std::size_t p, std::size_t q) {
-      const TreePart &a = mine.part(p), &b = others.part(q);
-      return judge.admits_links(a.link, b.link) && (!options.moved_only || placement.moved(id<GroupId>(a.group)) ||
-                                                    their_placement.moved(id<GroupId>(b.group)));
-    };
-    // Their boxes in this model's unit and origin.
-    const auto ratio = static_cast<float>(state_.parts().scale / theirs.state_.parts().scale);
-    const auto their_box = [&](std::size_t q) {
-      FloatBox box = theirs.state_.world_box(q, their_placement, state_.world_origin());
-      for (std::size_t k = 0; k < 3; ++k) {
-        box.lower[k] *= ratio;
-        box.upper[k] *= ratio;
-      }
-      return box;
-    };
     const std::size_t n = theirs.state_.parts().parts.size();
     const double most = mine.largest_clearance();
     if constexpr (C::ranks) {
       if (witnessed_.lock() != theirs.state_.shared_parts()) cross_witnesses_.clear();
       witnessed_ = theirs.state_.shared_parts();
-      find_closest(mine, others, cross_witnesses_, judge, collector, counts, [&](double bound) {
-        for (std::size_t q = 0; q < n; ++q)
-          state_.append_near(their_box(q), mine.scaled(bound + others.clearance_at(q) + most), q, pairs_);
-        counts.boxes_tested += n * state_.parts().rows();
-        std::erase_if(pairs_, [&](const PartPair& pair) { return !wanted(pair.first, pair.second); });
-      });
+      closest_.run(
+          mine, others, near_, cross_witnesses_, judge, collector, counts,
+          [&](double bound, std::vector<PartPair>& pairs) {
+            for (std::size_t q = 0; q < n; ++q)
+              state_.append_near(cross.their_box(q), mine.scaled(bound + others.clearance_at(q) + most), q, pairs);
+            counts.boxes_tested += n * state_.parts().rows();
+            std::erase_if(pairs, [&](const PartPair& pair) { return !cross.wanted(judge, pair.first, pair.second); });
+          });
     } else {
+      const bool in_order = StopsAtFirst<C> && cross_order_.is_learned();
       for (std::size_t q = 0; q < n && !collector.done(); ++q) {
         counts.boxes_tested += state_.parts().rows();
         const float margin = mine.scaled(collector.cutoff() + others.clearance_at(q) + most);
-        for (const std::uint32_t p : state_.meeting(their_box(q).grown(margin))) {
-          if (!wanted(p, q)) continue;
-          find_near(mine, p, others, q, collector.cutoff(), judge, collector, counts);
-          if (collector.done()) break;
+        const auto look = [&](const TreePart& part) {
+          near_.run(mine, part, others, others.part(q), collector.cutoff(), judge, collector, counts);
+          return !collector.done();
+        };
+        if (!in_order) {
+          each_meeting<C>(cross, judge, q, margin, [&](std::size_t, const TreePart& part) { return look(part); });
+          continue;
         }
+        cross_order_.start();
+        each_meeting<C>(cross, judge, q, margin, [&](std::size_t p, const TreePart& part) {
+          cross_order_.mark(p);
+          asked_[p] = &part;
+          return true;
+        });
+        cross_order_.each([&](std::size_t p) { return look(*asked_[p]); });
       }
     }
   }
 
  private:
-  template <Collector C>
-  static bool asks(const C& collector, LinkId a, LinkId b) noexcept {
-    if constexpr (RefusesLinks<C>) return collector.wants(a, b);
-    return true;
-  }
-
-  template <class Wanted, class Visit>
-  void each_candidate(const TreeOperand<P>& mine, double most, const Wanted& wanted, QueryCounts& counts,
-                      const Visit& visit) {
-    for (std::size_t p = 1; p < state_.parts().parts.size(); ++p) {
-      counts.boxes_tested += p / simd::width + 1;
-      for (const std::uint32_t q : state_.before(p, mine.scaled(mine.clearance_at(p) + most)))
-        if (wanted(q, p)) visit(q, static_cast<std::uint32_t>(p));
+  /// visit(p, part) -> go on? for the parts whose boxes come within `margin` of that of part q of the other model.
+  /// Where there are several of one group, and nothing asks for links one by one, they are visited once, as one: the
+  /// first.
+  template <Collector C, class Judge, class Visit>
+  void each_meeting(const CrossOperands<P>& cross, const Judge& judge, std::size_t q, float margin,
+                    const Visit& visit) {
+    const std::vector<TreePart>& parts = state_.parts().parts;
+    const auto met = state_.meeting(cross.their_box(q).grown(margin));
+    const auto wanted = [&](std::size_t p) { return cross.wanted(judge, p, q); };
+    for (std::size_t k = 0; k < met.size();) {
+      const std::size_t p = met[k++];
+      const std::uint32_t group = parts[p].group;
+      const TreePart& merged = state_.parts().merged[group];
+      if (!RefusesLinks<C> && merged.root_size > 0.0F && k < met.size() && parts[met[k]].group == group) {
+        std::size_t first = p, last = p + 1;
+        while (first > 0 && parts[first - 1].group == group) --first;
+        while (last < parts.size() && parts[last].group == group) ++last;
+        bool all = true;
+        for (std::size_t other = first; other < last; ++other) all = all && wanted(other);
+        if (all) {
+          while (k < met.size() && parts[met[k]].group == group) ++k;
+          if (!visit(p, merged)) return;
+          continue;
+        }
+      }
+      if (wanted(p) && !visit(p, parts[p])) return;
     }
   }
 
-  /// All pairs of two parts with d - M below a margin, until the collector wants no more.
-  template <Collector C, class Judge>
-  void find_near(const TreeOperand<P>& a, std::size_t p, const TreeOperand<P>& b, std::size_t q, double cutoff,
-                 const Judge& judge, C& collector, QueryCounts& counts) {
-    const TreePart &part_a = a.part(p), &part_b = b.part(q);
-    if (!asks(collector, part_a.link, part_b.link)) return;
-    const double margin = cutoff + a.clearance_at(p) + b.clearance_at(q);
-    finder_.run(a.state.parts(), part_a, b.state.parts(), part_b, a.turn(p, b, q), a.scaled(margin), counts,
-                [&](std::uint32_t slot, std::uint32_t leaf, simd::Bits lanes, bool slot_in_a) {
-                  const TreeOperand<P>&of_slot = slot_in_a ? a : b, &of_leaf = slot_in_a ? b : a;
-                  const PrimitiveId one = of_slot.primitive(slot);
-                  const P alone = of_slot.placement.alone(one);
-                  for (; lanes != 0; lanes &= lanes - 1) {
-                    const auto k = static_cast<std::uint32_t>(std::countr_zero(lanes));
-                    const PrimitiveId i = of_leaf.primitive(leaf * static_cast<std::uint32_t>(simd::width) + k);
-                    const P other = of_leaf.placement.alone(i);
-                    slot_in_a ? judge.decide(one, i, alone, other) : judge.decide(i, one, other, alone);
-                    if (collector.done() || !asks(collector, part_a.link, part_b.link)) return false;
-                  }
-                  return true;
-                });
-  }
-
-  /// list(bound) fills pairs_ with all parts that may hold a pair with d - M <= bound.
-  template <Collector C, class Judge, class List>
-  void find_closest(const TreeOperand<P>& a, const TreeOperand<P>& b, Witnesses<P>& witnesses, const Judge& judge,
-                    C& collector, QueryCounts& counts, const List& list) {
-    const double scale = a.state.parts().scale;
-    double bound = collector.cutoff();
-    if constexpr (KeepsSmallest<C>) bound = std::min(bound, witnesses.bound(a.placement, b.placement, judge));
-    pairs_.clear();
-    list(bound);
-    std::sort(pairs_.begin(), pairs_.end(), [](const PartPair& x, const PartPair& y) {
-      return std::tie(x.gap, x.first, x.second) < std::tie(y.gap, y.first, y.second);
-    });
-    // No pair can come closer than this.
-    const double least = -std::max(a.state.parts().largest_threshold, b.state.parts().largest_threshold) -
-                         a.largest_clearance() - b.largest_clearance();
-    candidates_.clear();
-    const auto settle = [&] {
-      std::sort(candidates_.begin(), candidates_.end(),
-                [](const Candidate& x, const Candidate& y) { return x.lower < y.lower; });
-      for (const Candidate& c : candidates_) {
-        if (c.lower > collector.cutoff() || (KeepsSmallest<C> && collector.cutoff() <= least)) break;
-        const PrimitiveId i = a.primitive(c.slot_a), j = b.primitive(c.slot_b);
-        judge.decide(i, j, a.placement.alone(i), b.placement.alone(j));
-      }
-      candidates_.clear();
-      bound = std::min(bound, collector.cutoff());
-    };
-    if (KeepsSmallest<C> && least == 0.0) {
-      // Whether anything collides at all is found sooner than what is closest, and then nothing is closer.
-      for (const PartPair& pair : pairs_) {
-        if (pair.gap > 0.0F || collector.cutoff() <= least) break;
-        find_near(a, pair.first, b, pair.second, 0.0, judge, collector, counts);
-      }
-      bound = std::min(bound, collector.cutoff());
-    }
-    for (const PartPair& pair : pairs_) {
-      if (collector.done() || (KeepsSmallest<C> && collector.cutoff() <= least)) break;
-      const double extra = a.clearance_at(pair.first) + b.clearance_at(pair.second);
-      // Boxes that overlap say nothing about how deep.
-      if (pair.gap > 0.0F && static_cast<double>(pair.gap) / scale - extra > bound) {
-        if (extra == 0.0) break;  // nearest first
-        continue;
-      }
-      const float* const reach_a = a.state.parts().leaf_reach(0);
-      const float* const reach_b = b.state.parts().leaf_reach(0);
-      const double ratio = scale / b.state.parts().scale;
-      closest_.run(a.state.parts(), a.part(pair.first), b.state.parts(), b.part(pair.second),
-                   a.turn(pair.first, b, pair.second), a.scaled(bound + extra), counts,
-                   [&](const auto& slots_a, const auto& slots_b, std::size_t n, const Bounds16& bounds) {
-                     for (std::size_t k = 0; k < n; ++k) {
-                       double reach = 0.0;
-                       if (reach_a != nullptr) reach += static_cast<double>(reach_a[slots_a[k]]);
-                       if (reach_b != nullptr) reach += static_cast<double>(reach_b[slots_b[k]]) * ratio;
-                       reach = reach / scale + extra;
-                       const double upper = static_cast<double>(bounds.upper[k]) / scale;
-                       if (KeepsSmallest<C> && upper - reach < bound) {
-                         const PrimitiveId i = a.primitive(slots_a[k]), j = b.primitive(slots_b[k]);
-                         if (judge.admits(i, j)) bound = std::min(bound, upper - judge.threshold(i, j));
-                       }
-                       const double lower = static_cast<double>(bounds.lower[k]) / scale - reach;
-                       if (lower <= bound) candidates_.push_back({slots_a[k], slots_b[k], lower});
-                     }
-                     if (!KeepsSmallest<C> || candidates_.size() >= most_candidates) settle();
-                     return a.scaled(bound + extra);
-                   });
-    }
-    settle();
-    if constexpr (KeepsSmallest<C> && requires { collector.hit()->first; })
-      if (collector.hit()) witnesses.remember(*collector.hit(), a.placement, b.placement);
-  }
-
-  struct Candidate {
-    std::uint32_t slot_a, slot_b;
-    double lower;  // of d - M, model unit
-  };
-  static constexpr std::size_t most_candidates = 1024;
-  static constexpr std::size_t most_ordered = 1024;  // parts: the order takes the square of it in memory
+  /// Parts: the order of pairs takes the square of it in memory.
+  static constexpr std::size_t most_ordered = 1024;
 
   TreeState<P> state_;
-  NearFinder<P> finder_;
-  ClosestFinder<P> closest_;
-  std::vector<PartPair> pairs_;
-  std::vector<Candidate> candidates_;
-  PairOrder order_;
+  NearSearch<P> near_;
+  ClosestSearch<P> closest_;
+  PairNumbers numbers_;                 // once an order is learned
+  LearnedOrder order_{0};               // of tested pairs
+  LearnedOrder cross_order_;            // of parts
+  std::vector<const TreePart*> asked_;  // scratch: for a part, itself or all of its group
   Witnesses<P> witnesses_, cross_witnesses_;
   std::weak_ptr<const TreeParts<P>> witnessed_;  // whose pairs cross_witnesses_ holds
 };

@@ -16,6 +16,7 @@
 #include "hinge/bounds/float_box.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/engine/wide/float_turn.hpp"
+#include "hinge/engine/wide/tree/placed_row.hpp"
 #include "hinge/engine/wide/tree/relative_turn.hpp"
 #include "hinge/engine/wide/tree/tree_parts.hpp"
 #include "hinge/model/placement.hpp"
@@ -36,10 +37,9 @@ class TreeState {
       : parts_(std::move(parts)),
         frames_(parts_->origin.size()),
         frame_at_(parts_->origin.size(), 0),
-        float_frames_(parts_->origin.size()),
         rows_(parts_->rows()),
-        balls_(parts_->rows()),
-        found_(parts_->rows() * simd::width + simd::width),
+        found_((4 * parts_->rows() + 1) * simd::width),
+        partner_(found_.size()),
         world_origin_(parts_->world_origin) {}
 
   const TreeParts<P>& parts() const noexcept { return *parts_; }
@@ -62,9 +62,10 @@ class TreeState {
         frame_at_[group] = placement.update_number();
         if (!current) place(group, placement.frame(g));
       }
+      if (!current) rows_[p / simd::width].set_frame(p % simd::width, float_frame_);
       row_current = row_current && current;
       if (p % simd::width != simd::width - 1 && p + 1 != parts.size()) continue;
-      if (!row_current) place_row(p / simd::width);
+      if (!row_current) rows_[p / simd::width].place(parts_->part_rows[p / simd::width]);
       row_current = true;
     }
     update_ = placement.update_number();
@@ -79,35 +80,45 @@ class TreeState {
     const float size = box.extent();
     return sane(box.grown(size < 0x1p100F ? size * rounding : 0.0F));
   }
-  FloatBox box(std::size_t p) const noexcept { return rows_[p / simd::width].get(p % simd::width); }
 
-  /// The parts before p that are tested with it and whose boxes, grown by `margin` (tree unit), meet its own; valid
-  /// until the next call.
-  std::span<const std::uint32_t> before(std::size_t p, float margin) noexcept {
-    const BoxLanes probe(box(p).grown(margin));
+  /// visit(q, p) -> go on? for the tested pairs, q before p, whose boxes and balls come within margin(p) (tree unit).
+  /// Many are listed before any is visited: how many each p has cannot be foretold.
+  template <class Margin, class Visit>
+  void sweep(const Margin& margin, const Visit& visit) {
     std::size_t n = 0;
-    for (std::size_t r = 0; r * simd::width < p; ++r) {
-      const simd::Bits tested = parts_->tested_with(p, r);
-      if (tested == 0) continue;
-      simd::Bits near = overlapping(rows_[r], probe) & tested;
-      if (near != 0) near &= ~apart(r, p, margin);
-      n += simd::append_lanes(near, static_cast<std::uint32_t>(r * simd::width), found_.data() + n);
+    const auto hand_over = [&] {
+      for (std::size_t k = 0; k < n; ++k)
+        if (!visit(found_[k], partner_[k])) return false;
+      n = 0;
+      return true;
+    };
+    for (std::size_t p = 1; p < parts_->parts.size(); ++p) {
+      if (n + p + simd::width > found_.size() && !hand_over()) return;
+      const PlacedRow::Probe probe(rows_[p / simd::width], p % simd::width, margin(p));
+      for (std::size_t r = 0; r * simd::width < p; ++r) {
+        const simd::Bits tested = parts_->tested_with(p, r);
+        if (tested == 0) continue;
+        std::fill_n(partner_.data() + n, simd::width, static_cast<std::uint32_t>(p));
+        n += simd::append_lanes(probe.near(rows_[r]) & tested, static_cast<std::uint32_t>(r * simd::width),
+                                found_.data() + n);
+      }
     }
-    return {found_.data(), n};
+    hand_over();
   }
   /// All parts whose boxes meet a box.
   std::span<const std::uint32_t> meeting(const FloatBox& box) noexcept {
     const BoxLanes probe(box);
     std::size_t n = 0;
     for (std::size_t r = 0; r < rows_.size(); ++r)
-      n += simd::append_lanes(overlapping(rows_[r], probe) & used(r), static_cast<std::uint32_t>(r * simd::width),
+      n += simd::append_lanes(overlapping(rows_[r].box, probe) & used(r), static_cast<std::uint32_t>(r * simd::width),
                               found_.data() + n);
     return {found_.data(), n};
   }
 
   /// Appends the parts before p that are tested with it, if their boxes are at most `bound` apart.
   void append_before(std::size_t p, float bound, std::vector<PartPair>& to) const {
-    for (std::size_t r = 0; r * simd::width < p; ++r) append_near(r, parts_->tested_with(p, r), box(p), bound, p, to);
+    const FloatBox box = rows_[p / simd::width].box.get(p % simd::width);
+    for (std::size_t r = 0; r * simd::width < p; ++r) append_near(r, parts_->tested_with(p, r), box, bound, p, to);
   }
   /// Appends all parts at most `bound` from a box; `second` is what they are paired with.
   void append_near(const FloatBox& box, float bound, std::size_t second, std::vector<PartPair>& to) const {
@@ -115,76 +126,14 @@ class TreeState {
   }
 
  private:
-  /// What turning and moving in float needs of a group's frame.
-  struct alignas(64) FloatFrame {
-    std::array<float, 16> column{};  // three of the rotation, then the tree's origin in the world; each with a spare
-  };
-
   void place(std::uint32_t group, const Frame& frame) noexcept {
     frames_[group] = TreeFrame(frame, parts_->origin[group]);
-    float* to = float_frames_[group].column.data();
+    float* to = float_frame_.data();
     for (std::size_t k = 0; k < 3; ++k) simd::Double4(frame.column.data() + 4 * k).store_rounded(to + 4 * k);
     ((simd::Double4(frames_[group].middle.data()) -
       simd::Double4::of(world_origin_[0], world_origin_[1], world_origin_[2], 0.0)) *
      simd::Double4(parts_->scale))
         .store_rounded(to + 12);
-  }
-
-  void place_row(std::size_t r) noexcept {
-    using simd::Float16;
-    constexpr std::size_t n = simd::width;
-    // What rounding of the rotation, its products and sums loses, as a share of the numbers involved.
-    constexpr float rounding = 32 * 0x1p-24F;
-    alignas(64) std::array<float, 16 * n> turn{};
-    const std::size_t count = std::min(n, parts_->parts.size() - r * n);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      const float* column = float_frames_[parts_->parts[r * n + lane].group].column.data();
-      for (std::size_t k = 0; k < 16; ++k) turn[k * n + lane] = column[k];
-    }
-    const auto entry = [&](std::size_t k) { return Float16(turn.data() + k * n); };
-    const PartRow& local = parts_->part_rows[r];
-    std::array<Float16, 3> middle, half;
-    Float16 size(0.0F);
-    for (std::size_t k = 0; k < 3; ++k) {
-      middle[k] = entry(12 + k);
-      half[k] = Float16(0.0F);
-      for (std::size_t j = 0; j < 3; ++j) {
-        middle[k] = middle[k] + entry(4 * j + k) * Float16(local.middle.data() + j * n);
-        half[k] = half[k] + abs(entry(4 * j + k)) * Float16(local.half.data() + j * n);
-      }
-      size = max(size, abs(middle[k]) + half[k] + abs(Float16(local.middle.data() + k * n)) +
-                           Float16(local.half.data() + k * n));
-    }
-    const Float16 error = size * Float16(rounding);
-    error.store(balls_[r].error.data());
-    for (std::size_t k = 0; k < 3; ++k) {
-      (middle[k] - half[k] - error).store(rows_[r].lower.data() + k * n);
-      (middle[k] + half[k] + error).store(rows_[r].upper.data() + k * n);
-      middle[k].store(balls_[r].middle.data() + k * n);
-    }
-    const simd::Bits sane_lanes = less_equal(size, Float16(largest_sane_coordinate));
-    for (std::size_t lane = 0; sane_lanes != simd::all_bits && lane < n; ++lane)
-      if ((sane_lanes >> lane & 1U) == 0) rows_[r].set(lane, FloatBox::everything());
-    for (std::size_t lane = count; lane < n; ++lane) rows_[r].set(lane, FloatBox{});
-  }
-
-  /// Parts of a row whose balls are surely farther than `margin` from that of part p.
-  simd::Bits apart(std::size_t r, std::size_t p, float margin) const noexcept {
-    using simd::Float16;
-    const PlacedBalls& other = balls_[p / simd::width];
-    const std::size_t lane = p % simd::width;
-    Float16 square(0.0F);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Float16 d =
-          Float16(balls_[r].middle.data() + k * simd::width) - Float16(other.middle[k * simd::width + lane]);
-      square = square + d * d;
-    }
-    // An error along each axis, and the sum's own rounding.
-    const Float16 reach = (Float16(parts_->part_rows[r].radius.data()) +
-                           Float16(parts_->part_rows[p / simd::width].radius[lane] + std::max(margin, 0.0F)) +
-                           (Float16(balls_[r].error.data()) + Float16(other.error[lane])) * Float16(2.0F)) *
-                          Float16(1.0F + 0x1p-20F);
-    return less(reach * reach, square);
   }
 
   void append_near(std::size_t r, simd::Bits lanes, const FloatBox& box, float bound, std::size_t second,
@@ -194,8 +143,8 @@ class TreeState {
     constexpr float down = 1.0F - 0x1p-20F;
     Float16 square(0.0F);
     for (std::size_t k = 0; k < 3; ++k) {
-      const Float16 below = Float16(rows_[r].lower.data() + k * simd::width) - Float16(box.upper[k]);
-      const Float16 above = Float16(box.lower[k]) - Float16(rows_[r].upper.data() + k * simd::width);
+      const Float16 below = Float16(rows_[r].box.lower.data() + k * simd::width) - Float16(box.upper[k]);
+      const Float16 above = Float16(box.lower[k]) - Float16(rows_[r].box.upper.data() + k * simd::width);
       const Float16 gap = max(max(below, above), Float16(0.0F));
       square = square + gap * gap;
     }
@@ -215,15 +164,10 @@ class TreeState {
 
   std::shared_ptr<const TreeParts<P>> parts_;
   std::vector<TreeFrame> frames_;
-  std::vector<std::uint64_t> frame_at_;  // per group: the update its frame is of; 0: none
-  struct alignas(64) PlacedBalls {
-    std::array<float, 3 * simd::width> middle{};
-    std::array<float, simd::width> error{};  // of a coordinate
-  };
-  std::vector<FloatFrame> float_frames_;  // per group
-  std::vector<BoxRow> rows_;              // of parts
-  std::vector<PlacedBalls> balls_;        // the same
-  std::vector<std::uint32_t> found_;
+  std::vector<std::uint64_t> frame_at_;         // per group: the update its frame is of; 0: none
+  std::vector<PlacedRow> rows_;                 // of parts
+  PlacedRow::FloatFrame float_frame_;           // scratch: of the group placed last
+  std::vector<std::uint32_t> found_, partner_;  // scratch: parts of pairs
   Vec3 world_origin_;
   std::uint64_t update_ = 0;
 };

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// LearnedOrder: which pairs of parts a yes/no query tries first.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace hinge {
+
+/// Things to look at are numbered from 0. Learned from states that are like those to come: what collides most often for
+/// the work it takes to find out comes first. Until something is learned there is no order.
+class LearnedOrder {
+ public:
+  explicit LearnedOrder(std::size_t things) : things_(things) {}
+
+  bool is_learned() const noexcept { return !tally_.empty(); }
+
+  /// One look at a thing: did it collide, and how many tests did it take?
+  void add(std::size_t thing, bool collides, std::uint64_t tests) {
+    if (tally_.empty()) tally_.resize(things_);
+    Tally& tally = tally_[thing];
+    tally.hits += collides ? 1.0F : 0.0F;
+    tally.tests += static_cast<float>(tests);
+    tally.looks += 1.0F;
+    at_.clear();
+  }
+
+  /// Forgets what was marked. Allocates in the first call after add().
+  void start() {
+    if (at_.empty()) settle();
+    std::fill(marks_.begin(), marks_.end(), 0U);
+  }
+  void mark(std::size_t thing) noexcept { marks_[rank_[thing] / 64] |= std::uint64_t{1} << rank_[thing] % 64; }
+  /// visit(thing) -> go on? of what was marked, in order: a set of ranks is sorted without a comparison.
+  template <class Visit>
+  void each(const Visit& visit) const {
+    for (std::size_t w = 0; w < marks_.size(); ++w)
+      for (std::uint64_t word = marks_[w]; word != 0; word &= word - 1)
+        if (!visit(at_[64 * w + static_cast<std::size_t>(std::countr_zero(word))])) return;
+  }
+
+ private:
+  struct Tally {
+    float hits = 0.0F, tests = 0.0F, looks = 0.0F;
+    // A look costs about as much as ten tests before the first is made. Half a hit is granted to each, so that what was
+    // never seen to collide is still ordered by what it costs.
+    float weight() const noexcept {
+      constexpr float per_look = 10.0F, granted = 0.5F;
+      const float seen = std::max(looks, 1.0F);
+      return (hits + granted) / (seen + 1.0F) / (per_look + tests / seen);
+    }
+  };
+
+  void settle() {
+    std::vector<float> weight(things_);
+    for (std::size_t k = 0; k < things_; ++k) weight[k] = tally_[k].weight();
+    at_.resize(things_);
+    std::iota(at_.begin(), at_.end(), 0U);
+    std::stable_sort(at_.begin(), at_.end(), [&](std::uint32_t x, std::uint32_t y) { return weight[x] > weight[y]; });
+    rank_.resize(things_);
+    for (std::uint32_t r = 0; r < things_; ++r) rank_[at_[r]] = r;
+    marks_.resize((things_ + 63) / 64);
+  }
+
+  std::size_t things_;
+  std::vector<Tally> tally_;
+  std::vector<std::uint32_t> rank_, at_;  // of a thing; the thing of a rank, empty when it has to be found again
+  std::vector<std::uint64_t> marks_;      // by rank
+};
+
+}  // namespace hinge
