@@ -127,6 +127,10 @@ Pose RobotChecker::link_pose(LinkId link) {
   return std::visit([&](auto& hierarchy) { return hierarchy.link_pose(link); }, *hierarchy_);
 }
 
+void RobotChecker::learn_order() {
+  std::visit([](auto& hierarchy) { hierarchy.learn_order(); }, *hierarchy_);
+}
+
 bool RobotChecker::collides() {
   return std::visit([](auto& hierarchy) { return hierarchy.self_collides(); }, *hierarchy_);
 }

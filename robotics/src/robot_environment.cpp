@@ -74,6 +74,13 @@ std::vector<RobotChecker::BodyPair> RobotChecker::body_pairs(Environment& enviro
   return pairs;
 }
 
+void RobotChecker::learn_order(Environment& environment) {
+  for (const BodyPair& pair : body_pairs(environment, 0.0))
+    if (pair.held == nullptr)
+      ask(pair, environment,
+          [](auto& mine, auto& theirs, const auto& filter, const QueryOptions&) { mine.learn_order(theirs, filter); });
+}
+
 bool RobotChecker::collides(Environment& environment) {
   const std::vector<BodyPair> pairs = body_pairs(environment, 0.0);
   return std::any_of(pairs.begin(), pairs.end(), [&](const BodyPair& pair) { return ask(pair, environment, any_hit); });

@@ -146,6 +146,8 @@ TEST_P(EnvironmentOf, AgreesWithAllPairsOneByOneWhileBodiesMoveComeAndGo) {
         least = std::min(least, gap);
       }
       EXPECT_EQ(checker.collides(environment), !hits.empty());
+      // An order changes no answer to come.
+      if (number % 2 == 0) checker.learn_order(environment);
       EXPECT_EQ(keys(checker.collisions(environment)), hits);
       EXPECT_EQ(keys(checker.within(environment, 0.1)), near);
       const auto closest = checker.closest(environment);

@@ -93,6 +93,9 @@ class RobotChecker {
 
   // --- queries at the current state ---
 
+  /// Learns from the current state which pairs of links yes/no queries try first (Hierarchy::learn_order): to be called
+  /// at some hundred states like those to come. Answers stay the same.
+  void learn_order();
   bool collides();
   /// Pairs of links that collide, sorted.
   std::vector<LinkContact> colliding_links() { return within(0.0); }
@@ -109,6 +112,8 @@ class RobotChecker {
   // --- against an environment. Bodies attached to this robot follow it, and are tested against its links and the other
   // bodies. The clearance is the larger of the environment's and margins().clearance(). ModelError: another engine ---
 
+  /// The same for collides(environment): which links are tried first, whatever the body.
+  void learn_order(Environment& environment);
   bool collides(Environment& environment);
   /// Pairs of link and body (first links, then held bodies; each sorted).
   std::vector<BodyContact> collisions(Environment& environment) { return within(environment, 0.0); }
