@@ -59,6 +59,14 @@ class HingeRobot {
     }
   }
 
+  /// Which links to try first against the scene where it stands now, from the same configurations.
+  void learn_scene(const Subject& subject) {
+    for (const std::vector<double>& q : subject.training(training_configurations)) {
+      robot_.update(q);
+      robot_.learn_order(*scene_);
+    }
+  }
+
   void ask(std::size_t posture, RobotQuery query, RobotAnswer& answer) {
     robot_.update_poses(postures_[posture].groups);
     switch (query) {

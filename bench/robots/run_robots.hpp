@@ -138,6 +138,7 @@ inline int run_robot(const Subject& subject, int distances, SceneSet& scenes, co
   HingeRobot hinge(subject, scenes.hinge);
   const FclPeer<oracle::FclBuild::debian> debian(subject, scenes.debian);
   scenes.place(find_place(*scenes.debian, *debian.robot, subject));
+  hinge.learn_scene(subject);
   std::vector<RobotContestant> all = {
       {"hinge", [&](std::size_t posture, RobotQuery q, RobotAnswer& answer) { hinge.ask(posture, q, answer); }},
       debian.contestant("fcl-loop", oracle::FclManner::loop),
