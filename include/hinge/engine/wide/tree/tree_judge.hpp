@@ -49,7 +49,7 @@ auto tree_judge(C& collector, const CrossRules<P, G, D>& rules) {
                    },
                    [&rules](PrimitiveId i, PrimitiveId j) { return rules.threshold(i, j); },
                    [&rules](PrimitiveId i, PrimitiveId j) { return rules.admits(i, j); },
-                   [&rules](LinkId a, LinkId b) {
+                   [&](LinkId a, LinkId b) {
                      if constexpr (AdmitsLinks<G>) return rules.filter.admits(a, b);
                      return true;
                    }};
