@@ -319,6 +319,36 @@ TEST(WideSizes, LosesNoPairAtItsThreshold) {
   EXPECT_GT(misses, 1000U);
 }
 
+/// Points so exponentially spaced that floats take nearly all of them for one: queries change over to trees of boxes in
+/// double half-way through rigid groups, through chains, and through pairs of models.
+TEST(WideSizes, EqualsBruteWhereFloatsTellNothingApart) {
+  Random random(6);
+  const auto point = [&] { return Point{std::exp2(random.uniform(-20.0, 900.0)) * random.vector(1.0)}; };
+  const auto model_of = [&](const std::vector<std::size_t>& per_link) {
+    ModelBuilder<Point> builder;
+    for (const std::size_t size : per_link) {
+      const LinkId link = builder.add_link(world, Prismatic{Vec3::UnitX(), {}, {}});
+      for (std::size_t k = 0; k < size; ++k) builder.add_primitive(link, point());
+    }
+    return builder.finish();
+  };
+  const Model<Point> groups = model_of({700, 5, 700, 300}), own = model_of(std::vector<std::size_t>(1000, 1));
+  const ExcludedPairs first(groups.size(), random, 400), second(own.size(), random, 400);
+  const UniformClearance clearance(0.3);
+  Both a(groups, DofSelection::all(groups.tree()), first, clearance);
+  Both b(own, DofSelection::all(own.tree()), second, clearance);
+  Tally tally;
+  walk(a, b, 4, random, tally);
+  walk(b, a, 4, random, tally);
+  QueryCounts counts;
+  QueryOptions options;
+  options.counts = &counts;
+  a.tested.self_collisions(options);
+  b.tested.self_collisions(options);
+  a.tested.collisions(b.tested, across(first), options);
+  EXPECT_GT(counts.nodes_split, 0U);
+}
+
 /// Crowds at one point, each on a slider of its own along x.
 Model<Point> crowd_at_one_point(std::size_t n) {
   ModelBuilder<Point> builder;

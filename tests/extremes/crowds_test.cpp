@@ -155,6 +155,66 @@ TEST(Crowds, AtOnePointWithAnotherTypeAmongThemCostNoMoreThanThat) {
   }
 }
 
+/// Two rigid groups on sliders of their own.
+Model<Point> two_groups(const std::vector<Vec3>& first, const std::vector<Vec3>& second) {
+  ModelBuilder<Point> builder;
+  for (const auto* points : {&first, &second}) {
+    std::vector<Point> group;
+    for (const Vec3& x : *points) group.push_back(Point{x});
+    builder.add_link(world, Prismatic{Vec3::UnitX(), {}, {}}, group);
+  }
+  return builder.finish();
+}
+
+/// The first pair that is looked at bounds what the others are held against, and nothing comes closer than 0.
+TEST(Crowds, ClosestOfTwoLargeGroupsLooksAtFewPairs) {
+  const std::size_t n = crowd() / 4;
+  // A third type that is not there has the largest threshold.
+  std::vector<std::uint16_t> types(2 * n, 0);
+  types[n / 2] = 1;
+  const TypedThresholds matrix(types, 3, {3.0, 2.0, 3.5, 2.0, 2.0, 3.5, 3.5, 3.5, 3.5});
+  Random random(6);
+  std::vector<Vec3> cloud, other;
+  for (std::size_t k = 0; k < n; ++k) cloud.push_back(random.vector(std::cbrt(static_cast<double>(n))));
+  for (std::size_t k = 0; k < n; ++k) other.push_back(random.vector(std::cbrt(static_cast<double>(n))));
+  for (const bool coincide : {true, false}) {
+    const Model<Point> model = coincide ? two_groups(at_one_point(n), at_one_point(n)) : two_groups(cloud, other);
+    std::vector<double> gaps;
+    for (AnyEngine<Point>& engine : test::atoms_on_three_engines(model, matrix)) {
+      if (engine.name == "brute") continue;
+      QueryCounts counts;
+      QueryOptions options;
+      options.counts = &counts;
+      const auto closest = engine.closest(options);
+      ASSERT_TRUE(closest.has_value());
+      gaps.push_back(closest->gap());
+      EXPECT_LE(counts.pairs_tested + counts.boxes_tested, 100 * n) << engine.name;
+    }
+    EXPECT_EQ(gaps[0], gaps[1]);
+    if (coincide) {
+      EXPECT_EQ(gaps[0], -3.0);
+    }
+  }
+}
+
+/// Two rigid groups whose coordinates no float can hold: the search through one group's tree stops half-way.
+TEST(Crowds, ExponentiallySpacedInTwoGroupsEqualOnBothEngines) {
+  const std::size_t n = crowd() / 4;
+  const double m = std::exp2(-495.0);
+  std::vector<std::vector<Hit>> hits;
+  for (AnyEngine<Point>& engine :
+       test::atoms_on_three_engines(two_groups(exponentially_spaced(n), exponentially_spaced(n)), one_type(2 * n, m))) {
+    if (engine.name == "brute") continue;
+    QueryCounts counts;
+    QueryOptions options;
+    options.counts = &counts;
+    hits.push_back(engine.within(0.0, options));
+    EXPECT_LE(counts.pairs_tested + counts.boxes_tested, 100 * n + 10 * hits.back().size()) << engine.name;
+  }
+  EXPECT_GT(hits[0].size(), n);
+  EXPECT_EQ(hits[1], hits[0]);
+}
+
 TEST(Crowds, InOneDiameterEqualBruteForce) {
   const std::vector<Vec3> points = in_one_diameter(crowd());
   expect_bounded_depth(points);
@@ -162,10 +222,12 @@ TEST(Crowds, InOneDiameterEqualBruteForce) {
   const double m = 0.02;
   const Answer lazy = ask_all(points, m, "lazy");
   expect_sampled(lazy.hits, points, m);
-  expect_n_log_n(ask_all(in_one_diameter(crowd() / 8), 2 * m, "lazy").counts, lazy.counts);
+  const std::vector<Vec3> eighth = in_one_diameter(crowd() / 8);
+  expect_n_log_n(ask_all(eighth, 2 * m, "lazy").counts, lazy.counts);
   // Blocks of engine/wide follow the chain, here one that jumps about: each is as large as the whole.
-  const std::vector<Vec3> fewer = in_one_diameter(10000);
-  EXPECT_EQ(ask_all(fewer, m, "wide").hits, ask_all(fewer, m, "lazy").hits);
+  const Answer wide = ask_all(points, m, "wide");
+  EXPECT_EQ(wide.hits, lazy.hits);
+  expect_n_log_n(ask_all(eighth, 2 * m, "wide").counts, wide.counts);
 }
 
 TEST(Crowds, OnALineEqualBruteForce) {
@@ -187,9 +249,10 @@ TEST(Crowds, ExponentiallySpacedEqualBruteForce) {
   const Answer lazy = ask_all(points, m, "lazy");
   EXPECT_GT(lazy.hits.size(), 1000U);
   expect_sampled(lazy.hits, points, m);
-  // In float nearly all of them are one point: what engine/wide cannot tell apart it decides pair by pair.
-  const std::vector<Vec3> fewer = exponentially_spaced(4000);
-  EXPECT_EQ(ask_all(fewer, m, "wide").hits, ask_all(fewer, m, "lazy").hits);
+  // In float nearly all of them are one point.
+  const Answer wide = ask_all(points, m, "wide");
+  EXPECT_EQ(wide.hits, lazy.hits);
+  EXPECT_LE(wide.counts.pairs_tested + wide.counts.boxes_tested, 100 * points.size());
 }
 
 /// Joints on one line leave every atom on it where it is, in the frame of every link.

@@ -49,9 +49,15 @@ struct BlockLayout {
   static BlockLayout by_index(const SelectedModel<P>& model, std::span<const std::uint8_t> left_out = {});
 
   std::size_t block_count() const noexcept { return blocks.size(); }
-  bool holds(PrimitiveId i) const noexcept { return block_of[index(i)] < blocks.size(); }
   std::span<const GroupId> groups_of(const Block& block) const noexcept {
     return std::span(groups).subspan(block.first_group, block.group_count);
+  }
+
+  /// The unit of a primitive it holds.
+  std::size_t unit_of(PrimitiveId i) const noexcept {
+    const auto after = std::upper_bound(units.begin(), units.end(), block_of[index(i)],
+                                        [](std::uint32_t b, const Unit& unit) { return b < unit.first_block; });
+    return static_cast<std::size_t>(after - units.begin()) - 1;
   }
 
   /// The unit after the last one of the same rigid group; u must be the group's first. A mixed unit stands alone.

@@ -11,6 +11,7 @@
 #include "hinge/core/id.hpp"
 #include "hinge/engine/wide/into.hpp"
 #include "hinge/engine/wide/near_masks.hpp"
+#include "hinge/engine/wide/progress.hpp"
 #include "hinge/engine/wide/tasks.hpp"
 #include "hinge/engine/wide/wide_side.hpp"
 #include "hinge/model/placement.hpp"
@@ -30,25 +31,28 @@ std::uint32_t slot(std::uint32_t position) noexcept {
   return position / floats * static_cast<std::uint32_t>(simd::width) + position % floats;
 }
 
-/// `margin`: what is not farther than a threshold plus this must be listed; extra clearances come on top. `relieve` is
-/// called between blocks of a large unit, whose tasks may be as many as its pairs; it answers false to stop.
+/// `margin()`: what is not farther than a threshold plus this must be listed; extra clearances come on top; it may
+/// shrink on the way. `relieve` is called between blocks of a large unit, whose tasks may be as many as its pairs; it
+/// answers false to stop, and so do listers that were stopped.
 template <Primitive P>
 class TaskLister {
  public:
   Tasks tasks;
+  /// To be told of the units that are done; knows of the one where a lister was stopped.
+  Progress progress;
 
   /// Adds the tasks between a unit and the ones before it, and inside it.
-  template <class Relieve>
-  void within(WideSide<P>& side, std::size_t u, Placement<P>& placement, float margin, QueryCounts& counts,
+  template <class Margin, class Relieve>
+  bool within(WideSide<P>& side, std::size_t u, Placement<P>& placement, const Margin& margin, QueryCounts& counts,
               const Relieve& relieve) {
     const Unit& unit = side.layout().units[u];
     const std::uint32_t first = unit.first_block;
     const simd::Bits lanes = side.near().self_lanes(first);
     if (lanes != 0 && !side.kept_apart(u, u))
       tasks.add_rows(lanes, position<P>(first), position<P>(first), side.near().self_rows(first));
-    const float more = margin + side.extra(first) + side.largest_extra();
+    const float extra = side.extra(first) + side.largest_extra(), more = margin() + extra;
     const auto found = side.state().units().sweep(side.state().units().get(u).grown(more), unit.sweep_end, counts);
-    if (found.empty()) return;
+    if (found.empty()) return true;
     if (unit.block_count == 1) {
       Facing facing(side, first, placement, more);
       for (const std::uint32_t w : found) {
@@ -61,42 +65,45 @@ class TaskLister {
           add_found(side, facing, placement);
         }
       }
-      return;
+      return true;
     }
     for (const std::uint32_t w : found) {
       if (side.kept_apart(u, w)) continue;
-      side.descend(u, side.state().units().get(w).grown(more), placement, counts, mine_);
+      side.descend(u, side.state().units().get(w).grown(margin() + extra), placement, counts, mine_);
       for (const std::uint32_t b : mine_) {
+        const float near = margin() + extra;
         // Placed only when it meets something.
         if (side.layout().units[w].block_count == 1)
           theirs_.assign(1, side.layout().units[w].first_block);
         else
-          side.descend(w, side.state().tree_box(u, b, placement).grown(more), placement, counts, theirs_);
+          side.descend(w, side.state().tree_box(u, b, placement).grown(near), placement, counts, theirs_);
         if (theirs_.empty()) continue;
-        add_found(side, Facing(side, b, placement, more), placement);
-        if (!relieve()) return;
+        add_found(side, Facing(side, b, placement, near), placement);
+        if (!relieve()) return stop(w, b);
       }
     }
+    return true;
   }
 
   /// Adds the tasks of a unit against another model, into whose unit and origin `into` brings coordinates.
-  template <class Relieve>
-  void across(WideSide<P>& mine, std::size_t u, Placement<P>& placement, WideSide<P>& theirs,
-              Placement<P>& other_placement, const Into<P>& into, float margin, bool moved_only, QueryCounts& counts,
-              const Relieve& relieve) {
+  template <class Margin, class Relieve>
+  bool across(WideSide<P>& mine, std::size_t u, Placement<P>& placement, WideSide<P>& theirs,
+              Placement<P>& other_placement, const Into<P>& into, const Margin& margin, bool moved_only,
+              QueryCounts& counts, const Relieve& relieve) {
     const Unit& unit = mine.layout().units[u];
     const float extra = mine.extra(unit.first_block) * into.scale;
-    const FloatBox box = into(mine.state().units().get(u)).grown(margin + extra + theirs.largest_extra());
+    const FloatBox box = into(mine.state().units().get(u)).grown(margin() + extra + theirs.largest_extra());
     const bool stood_still = moved_only && !mine.moved(u, placement);
     for (const std::uint32_t w : theirs.state().units().sweep(box, theirs.layout().units.size(), counts)) {
       if (stood_still && !theirs.moved(w, other_placement)) continue;
       const Unit& partner = theirs.layout().units[w];
-      const float own = margin + extra + theirs.extra(partner.first_block);
+      const float extras = extra + theirs.extra(partner.first_block);
       if (unit.block_count == 1)
         mine_.assign(1, unit.first_block);
       else
-        mine.descend(u, into.back(theirs.state().units().get(w).grown(own)), placement, counts, mine_);
+        mine.descend(u, into.back(theirs.state().units().get(w).grown(margin() + extras)), placement, counts, mine_);
       for (const std::uint32_t b : mine_) {
+        const float own = margin() + extras;
         const float* at = mine.state().block(b, placement);
         const float more = own + mine.parts().rigid.reach[b] * into.scale;
         if (partner.block_count == 1)
@@ -109,12 +116,19 @@ class TaskLister {
           const simd::Bits lanes = Batch<P>::inside(at, BoxLanes(near)) & mine.layout().blocks[b].real;
           tasks.add(lanes, position<P>(b), position<P>(a), theirs.layout().blocks[a].real);
         }
-        if (!relieve()) return;
+        if (!relieve()) return stop(w, b);
       }
     }
+    return true;
   }
 
  private:
+  /// Block b of mine_ was the last to be held against partner w.
+  bool stop(std::size_t w, std::uint32_t b) {
+    progress.stop(w, {mine_.begin(), std::find(mine_.begin(), mine_.end(), b) + 1});
+    return false;
+  }
+
   /// A block, ready to be held against many others.
   struct Facing {
     Facing(WideSide<P>& side, std::uint32_t b, Placement<P>& placement, float more) noexcept

@@ -16,12 +16,13 @@ struct SelfVerdicts {
   const Rules& rules;
   Admits admits;
 
+  /// Was the pair wanted?
   template <Primitive P>
-  [[gnu::always_inline]] void operator()(PrimitiveId i, PrimitiveId j, const P& p, const P& q) const {
+  [[gnu::always_inline]] bool operator()(PrimitiveId i, PrimitiveId j, const P& p, const P& q) const {
     const bool turned = j < i;
     const PrimitiveId first = turned ? j : i, second = turned ? i : j;
-    offer(collector, first, second, turned ? q : p, turned ? p : q, rules.threshold(first, second),
-          [&] { return admits(first, second); });
+    return offer(collector, first, second, turned ? q : p, turned ? p : q, rules.threshold(first, second),
+                 [&] { return admits(first, second); });
   }
   /// By a distance that may be off by `error`; returns how many pairs that leaves undecided.
   [[gnu::always_inline]] unsigned operator()(PrimitiveId i, PrimitiveId j, double measured, double error) const {
@@ -38,8 +39,8 @@ struct CrossVerdicts {
   const Rules& rules;
 
   template <Primitive P>
-  void operator()(PrimitiveId i, PrimitiveId j, const P& p, const P& q) const {
-    offer(collector, i, j, p, q, rules.threshold(i, j), [&] { return rules.admits(i, j); });
+  bool operator()(PrimitiveId i, PrimitiveId j, const P& p, const P& q) const {
+    return offer(collector, i, j, p, q, rules.threshold(i, j), [&] { return rules.admits(i, j); });
   }
   unsigned operator()(PrimitiveId i, PrimitiveId j, double measured, double error) const {
     return offer_measured(collector, rules.options.precision, i, j, measured, error, rules.threshold(i, j),

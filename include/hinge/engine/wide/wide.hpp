@@ -15,6 +15,8 @@
 
 #include "hinge/core/id.hpp"
 #include "hinge/engine/engine.hpp"
+#include "hinge/engine/wide/box_search.hpp"
+#include "hinge/engine/wide/effort.hpp"
 #include "hinge/engine/wide/list_tasks.hpp"
 #include "hinge/engine/wide/measure.hpp"
 #include "hinge/engine/wide/run_tasks.hpp"
@@ -32,7 +34,9 @@ namespace hinge {
 
 /// Rigid groups of sixteen primitives or more keep blocks in their own frame, with a tree above them when they are
 /// large; smaller groups share blocks that are refitted. Along the chain, each unit is placed, swept against the ones
-/// before it, and what comes close is tested one against sixteen. Floats only ever prove that a pair is apart.
+/// before it, and what comes close is tested one against sixteen. Floats only ever prove that a pair is apart. A query
+/// for which that would be too much, because boxes of blocks are as large as the model or floats too coarse, goes on
+/// through trees of boxes in double.
 template <Primitive P, PairFilter F, DistanceMatrix D>
 class Wide {
  public:
@@ -49,12 +53,12 @@ class Wide {
 
   template <Collector C>
   void self_query(C& collector, const QueryOptions& options) {
-    QueryCounts counts;
+    Effort effort;
     const SelfRules<P, F, D> rules{placement_, filter_, matrix_, options};
     if constexpr (KeepsTrees<P>)
       if (by_trees()) {
-        trees_->self_query(placement_, tree_judge(collector, rules), collector, options, counts);
-        return add(options.counts, counts);
+        trees_->self_query(placement_, tree_judge(collector, rules), collector, options, effort.counts);
+        return effort.report(options.counts);
       }
     WideSide<P>& side = present_side(without_margin(collector, options));
     side.begin(placement_, options.moved_only, options.clearance);
@@ -66,34 +70,53 @@ class Wide {
     if constexpr (C::ranks) {
       // The pair that was closest last time bounds the answer from the start; it is no part of the answer by itself.
       if (witness_)
-        decide(witness_->first, witness_->second, exact(side, witness_->first), exact(side, witness_->second));
+        decide(witness_->first, witness_->second, side.exact(witness_->first, placement_),
+               side.exact(witness_->second, placement_));
     }
-    lister_.tasks.clear();
-    visits_ = 0;
+    const BlockLayout& layout = side.layout();
+    effort.blocks_in = layout.block_count();
+    begin();
+    const auto listed_margin = [&] { return thresholds_.margin(); };
     const Exactly<P> as_is;
-    const auto run_listed = [&] { run(side, side, placement_, side.table(), as_is, decide, counts); };
+    const auto run_listed = [&] { run(side, side, placement_, side.table(), as_is, decide, effort); };
     std::size_t patience = 1;
     float extent = -1.0F;
     double cutoff = 0.0;
-    for (std::size_t u = side.state().first_unit(); u < side.layout().units.size() && !collector.done(); ++u) {
+    std::size_t u = side.state().first_unit();
+    for (; u < layout.units.size() && !collector.done() && !effort.is_too_much(); ++u) {
       side.state().refresh(u, placement_);
-      if (u < side.layout().static_units) continue;
+      if (u < layout.static_units) continue;
       // Margins depend on the size of what was placed so far, in powers of two, and on the cutoff.
       if (side.state().extent() != extent || collector.cutoff() != cutoff) {
         extent = side.state().extent();
         cutoff = collector.cutoff();
         set_thresholds(side, side, side.table(), as_is, cutoff);
       }
-      lister_.within(side, u, placement_, thresholds_.margin(), counts, relief(run_listed, collector));
+      if (!lister_.within(side, u, placement_, listed_margin, effort.counts, relief(run_listed, collector, effort)))
+        break;
+      lister_.progress.reach(u + 1);
       // Soon at first: a hit at the root saves placing the rest. Then in longer runs, which cost less.
       if (lister_.tasks.size() < patience) continue;
       patience = std::min(2 * patience, longest_run);
       run_listed();
     }
     if (!collector.done()) run_listed();
+    if (u < layout.units.size() && !collector.done()) {
+      search_.place(layout, placement_, matrix_, options.clearance);
+      const auto placed = placement_.placed();
+      search_.within([&] { return collector.cutoff(); },
+                     [&](PrimitiveId i, PrimitiveId j) {
+                       const PrimitiveId first = std::min(i, j), second = std::max(i, j);
+                       offer(collector, first, second, placed[index(first)], placed[index(second)],
+                             rules.threshold(first, second),
+                             [&] { return !lister_.progress.passed(layout, i, j) && rules.admits(first, second); });
+                       return !collector.done();
+                     },
+                     effort.searched);
+    }
     if constexpr (C::ranks && requires { collector.hit()->first; })
       if (collector.hit()) witness_.emplace(collector.hit()->first, collector.hit()->second);
-    add(options.counts, counts);
+    effort.report(options.counts);
   }
 
   /// Learns, from the present state and those of earlier calls, in which order a yes/no query tries pairs of links.
@@ -120,13 +143,13 @@ class Wide {
   template <Collector C, PairFilter G>
   requires CrossMatrix<D>
   void query(Wide& other, const G& across, C& collector, const QueryOptions& options) {
-    QueryCounts counts;
+    Effort effort;
     const CrossRules<P, G, D> rules{placement_, other.placement_, across, matrix_, other.matrix_, options};
     if constexpr (KeepsTrees<P>)
       if (by_trees_with(other)) {
         trees_->query(placement_, *other.trees_, other.placement_, tree_judge(collector, rules), collector, options,
-                      counts);
-        return add(options.counts, counts);
+                      effort.counts);
+        return effort.report(options.counts);
       }
     const CrossVerdicts decide{collector, rules};
     // Compatible tables of types are alike; of other matrices nothing is known but that no threshold is above 0.
@@ -140,33 +163,50 @@ class Wide {
     for (std::size_t u = theirs.state().first_unit(); u < theirs.layout().units.size(); ++u)
       theirs.state().refresh(u, other.placement_);
     const Into<P> into(mine, theirs);
-    if (!into.holds()) {
-      for (std::size_t k = 0; k < placement_.model().size() && !collector.done(); ++k)
-        for (std::size_t l = 0; l < other.placement_.model().size() && !collector.done(); ++l) {
-          const auto i = id<PrimitiveId>(k), j = id<PrimitiveId>(l);
-          if (mine.layout().holds(i) && theirs.layout().holds(j)) decide(i, j, exact(mine, i), other.exact(theirs, j));
-        }
-      return add(options.counts, counts);
-    }
-    visits_ = 0;
+    begin();
     const ThresholdTable table = mine.parts().classes.table(theirs.parts().classes, theirs.layout().scale);
     set_thresholds(mine, theirs, table, into, collector.cutoff());
-    for (std::size_t u = 0; u < mine.layout().units.size() && !collector.done(); ++u) {
-      const auto run_listed = [&] { run(mine, theirs, other.placement_, table, into, decide, counts); };
-      lister_.across(mine, u, placement_, theirs, other.placement_, into, thresholds_.margin(), options.moved_only,
-                     counts, relief(run_listed, collector));
+    const std::size_t units = mine.layout().units.size();
+    effort.blocks_in = mine.layout().block_count() + theirs.layout().block_count();
+    const auto run_listed = [&] { run(mine, theirs, other.placement_, table, into, decide, effort); };
+    std::size_t u = 0;
+    for (; into.holds() && u < units && !collector.done() && !effort.is_too_much(); ++u) {
+      if (!lister_.across(
+              mine, u, placement_, theirs, other.placement_, into, [&] { return thresholds_.margin(); },
+              options.moved_only, effort.counts, relief(run_listed, collector, effort)))
+        break;
+      lister_.progress.reach(u + 1);
       run_listed();
     }
-    add(options.counts, counts);
+    if (!collector.done()) run_listed();
+    if (u < units && !collector.done()) {
+      search_.place(mine.layout(), placement_, matrix_, options.clearance);
+      other.search_.place(theirs.layout(), other.placement_, other.matrix_, options.other_clearance);
+      search_.across(
+          other.search_, [&] { return collector.cutoff(); },
+          [&](PrimitiveId i, PrimitiveId j) {
+            if (!lister_.progress.passed(mine.layout(), i, theirs.layout(), j))
+              decide(i, j, placement_.placed()[index(i)], other.placement_.placed()[index(j)]);
+            return !collector.done();
+          },
+          effort.searched);
+    }
+    effort.report(options.counts);
   }
 
  private:
+  void begin() noexcept {
+    lister_.tasks.clear();
+    lister_.progress.reach(0);
+    visits_ = 0;
+  }
+
   /// What listers call on the way.
   template <class Run, Collector C>
-  auto relief(const Run& run_listed, const C& collector) {
+  auto relief(const Run& run_listed, const C& collector, const Effort& effort) {
     return [&] {
       if (lister_.tasks.size() >= longest_list) run_listed();
-      return !collector.done();
+      return !collector.done() && !effort.is_too_much();
     };
   }
 
@@ -186,20 +226,6 @@ class Wide {
     return sides_.present(placement_, filter_, matrix_, without_margin);
   }
 
-  /// A primitive of this model in double.
-  const P& exact(WideSide<P>& side, PrimitiveId i) noexcept {
-    const std::uint32_t b = side.layout().block_of[index(i)];
-    const std::uint32_t* const first = side.layout().primitive.data() + b * simd::width;
-    return side.state().exact(b, placement_)[std::find(first, first + simd::width, index(i)) - first];
-  }
-
-  static void add(QueryCounts* total, const QueryCounts& counts) noexcept {
-    if (total == nullptr) return;
-    total->boxes_tested += counts.boxes_tested * simd::width;
-    total->pairs_tested += counts.pairs_tested * simd::width;
-    total->undecided += counts.undecided;
-  }
-
   /// Thresholds grow, as boxes do, so that floats lose no pair with d - M <= cutoff. Extra clearances come on top, per
   /// pair.
   template <class Convert>
@@ -211,13 +237,13 @@ class Wide {
   /// Runs the listed tasks: lanes of `one` against blocks of `sixteen`; what floats cannot rule out goes to `decide`.
   template <class Convert, class Decide>
   void run(WideSide<P>& one, WideSide<P>& sixteen, Placement<P>& placement_of_sixteen, const ThresholdTable& table,
-           const Convert& convert, const Decide& decide, QueryCounts& counts) {
+           const Convert& convert, const Decide& decide, Effort& effort) {
     auto& collector = decide.collector;
     constexpr bool may_measure = MeasuresDistances<P> && !std::remove_reference_t<decltype(collector)>::ranks;
     Measure measure;
     if (may_measure && decide.rules.options.precision != Precision::exact)
       measure = Measure(one, sixteen, table, thresholds_, convert, collector.cutoff());
-    counts.pairs_tested += lister_.tasks.size();
+    effort.counts.pairs_tested += lister_.tasks.size();
     run_tasks(
         lister_.tasks, one, sixteen, convert, thresholds_,
         [&](std::uint32_t at_one, std::uint32_t at_sixteen, simd::Bits bits, const simd::Float16& squared)
@@ -231,7 +257,7 @@ class Wide {
               };
               if constexpr (may_measure)
                 if (measure.holds()) {
-                  counts.undecided += measure(i, others, bits, squared, decide);
+                  effort.counts.undecided += measure(i, others, bits, squared, decide);
                   return go_on();
                 }
               // For the first few only what they need is placed: often one of them answers the question.
@@ -245,7 +271,7 @@ class Wide {
                                      : sixteen.state().exact(a, placement_of_sixteen);
               for (; bits != 0 && !collector.done(); bits &= bits - 1) {
                 const int k = std::countr_zero(bits);
-                decide(i, id<PrimitiveId>(others[k]), p, q[k]);
+                ++(decide(i, id<PrimitiveId>(others[k]), p, q[k]) ? effort.hits : effort.misses);
               }
               return go_on();
             });
@@ -267,6 +293,7 @@ class Wide {
   TaskLister<P> lister_;     // scratch
   std::size_t visits_ = 0;   // scratch: tasks decided so far in a query, up to placed_alone
   Thresholds16 thresholds_;  // scratch: of the present margin
+  BoxSearch search_;         // scratch
   std::optional<std::pair<PrimitiveId, PrimitiveId>> witness_;
 };
 

@@ -2,6 +2,7 @@
 // WideSide: one model in one query of engine/wide: its blocks in their present state, and searches through them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -39,6 +40,13 @@ class WideSide {
   const ThresholdTable& table() const noexcept { return table_; }
   WideState<P>& state() noexcept { return state_; }
   const WideState<P>& state() const noexcept { return state_; }
+
+  /// A primitive that the layout holds, in double.
+  const P& exact(PrimitiveId i, Placement<P>& placement) noexcept {
+    const std::uint32_t b = layout().block_of[index(i)];
+    const std::uint32_t* const first = layout().primitive.data() + b * simd::width;
+    return state_.exact(b, placement)[std::find(first, first + simd::width, index(i)) - first];
+  }
 
   /// What the options of a query mean for the units. Units are brought up to date one by one after that.
   void begin(Placement<P>& placement, bool moved_only, std::span<const double> clearance) {
