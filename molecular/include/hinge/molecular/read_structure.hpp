@@ -17,7 +17,8 @@ struct ReadOptions {
 };
 
 /// Atoms, coordinates (angstrom) and bonds. LoadError names file, line (or entity), what was found and expected: files
-/// that cannot be opened, unpack to more than 64 MiB + 200 times their size, hold no atoms, have blank or non-finite coordinates, broken MODEL records, unequal models.
+/// that cannot be opened, unpack to more than 64 MiB + 200 times their size, hold no atoms, have blank or non-finite
+/// coordinates, broken MODEL records, unequal models.
 Structure read_structure(const std::filesystem::path& path, const ReadOptions& options = {});
 
 }  // namespace hinge::molecular
