@@ -40,6 +40,11 @@ TEST(Point, KnowsWhenItLiesOnAnAxis) {
     EXPECT_TRUE(Point{a}.fixed_on_axis(a, axis));
     EXPECT_FALSE(Point{Vec3(b + axis.unitOrthogonal() * 1e-9)}.fixed_on_axis(a, axis));
   }
+  // Of any size: squares of these lengths are 0 or infinite.
+  for (const double size : {0x1p-1060, 1e-300, 1e-170, 1e170, 1e300}) {
+    EXPECT_TRUE(Point{Vec3(0, 0, size)}.fixed_on_axis(Vec3(0, 0, -size), Vec3::UnitZ())) << size;
+    EXPECT_FALSE(Point{Vec3(size / 4, 0, size)}.fixed_on_axis(Vec3(0, 0, -size), Vec3::UnitZ())) << size;
+  }
 }
 
 TEST(Sphere, TouchesWhenClosed) {

@@ -65,9 +65,18 @@ struct Point {
   /// On the line through axis_point along the unit vector axis, up to rounding: an axis is a normalised difference of
   /// two stored points, so its end misses the line by a few 2^-53 of the coordinates involved.
   bool fixed_on_axis(const Vec3& axis_point, const Vec3& axis) const noexcept {
-    const double size = std::sqrt(squared_norm(position)) + std::sqrt(squared_norm(axis_point));
-    const double off = 16 * 0x1p-53 * size;
-    return squared_norm(cross(Vec3(position - axis_point), axis)) <= off * off;
+    // By a power of two first, which rounds nothing: squares of tiny and huge lengths leave the range of doubles.
+    int exponent = 0;
+    double largest = 0.0;
+    for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(position[k]), std::abs(axis_point[k])});
+    std::frexp(largest, &exponent);
+    Vec3 p, o;
+    for (int k = 0; k < 3; ++k) {
+      p[k] = std::ldexp(position[k], -exponent);
+      o[k] = std::ldexp(axis_point[k], -exponent);
+    }
+    const double off = 16 * 0x1p-53 * (norm(p) + norm(o));
+    return squared_norm(cross(Vec3(p - o), axis)) <= off * off;
   }
 };
 
