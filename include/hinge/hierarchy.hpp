@@ -16,6 +16,7 @@
 #include "hinge/core/id.hpp"
 #include "hinge/engine/engine.hpp"
 #include "hinge/engine/wide/wide.hpp"
+#include "hinge/kinematics/frame.hpp"
 #include "hinge/model/model.hpp"
 #include "hinge/model/selected_model.hpp"
 #include "hinge/policy/collector.hpp"
@@ -146,6 +147,15 @@ class Hierarchy {
     for (std::size_t g = 0; g < model().groups()->size(); ++g) placement().place(id<GroupId>(g));
     return placement().placed();
   }
+  /// The same of one primitive.
+  P placed(PrimitiveId i) noexcept {
+    return placement().groups_may_deform() ? placement().placed()[index(i)] : placement().alone(i);
+  }
+  /// World frames of the rigid groups at the current configuration or poses, by group.
+  std::span<const Frame> frames() noexcept {
+    return placement().frames_through(id<GroupId>(model().groups()->size() - 1));
+  }
+  const D& matrix() const noexcept { return matrix_; }
   /// World pose of a link at the current configuration or poses. ModelError: no such link.
   Pose link_pose(LinkId link) {
     if (index(link) >= model().model().tree().link_count())

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <concepts>
+#include <cstddef>
 #include <utility>
 
 #include "hinge/bounds/aabb.hpp"
@@ -31,6 +32,16 @@ template <class P>
 concept HasClosestPoints = Primitive<P> && requires(const P& p, const P& q) {
   { closest_points(p, q) }
   noexcept->std::same_as<std::pair<Vec3, Vec3>>;
+};
+
+/// Optional refinement: lies within hull_radius() of the convex hull of a few points, hull(), so that what is known of
+/// the motion of points is known of it.
+template <class P>
+concept HasHull = Primitive<P> && requires(const P& p) {
+  { p.hull()[0] } -> std::convertible_to<Vec3>;
+  { p.hull().size() } -> std::convertible_to<std::size_t>;
+  { p.hull_radius() }
+  noexcept->std::same_as<double>;
 };
 
 /// Optional refinement: can tell that turning about the line (point, unit axis) leaves it where it is, so that its

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -28,6 +29,8 @@ struct Capsule {
   Capsule placed(const Pose& pose) const noexcept { return {pose * a, pose * b, radius}; }
   bool is_valid() const noexcept { return is_finite(a) && is_finite(b) && is_finite(radius) && radius >= 0.0; }
   Aabb bounds() const noexcept { return Sphere{a, radius}.bounds().extend(Sphere{b, radius}.bounds()); }
+  std::array<Vec3, 2> hull() const noexcept { return {a, b}; }
+  double hull_radius() const noexcept { return radius; }
   bool fixed_on_axis(const Vec3& axis_point, const Vec3& axis) const noexcept {
     return Point{a}.fixed_on_axis(axis_point, axis) && Point{b}.fixed_on_axis(axis_point, axis);
   }
@@ -91,6 +94,6 @@ struct Capsule {
   }
 };
 
-static_assert(HasClosestPoints<Capsule> && HasAxisInvariance<Capsule>);
+static_assert(HasClosestPoints<Capsule> && HasHull<Capsule> && HasAxisInvariance<Capsule>);
 
 }  // namespace hinge

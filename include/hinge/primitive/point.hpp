@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -21,6 +22,8 @@ struct Point {
 
   Point placed(const Pose& pose) const noexcept { return {pose * position}; }
   Aabb bounds() const noexcept { return Aabb(position); }
+  std::array<Vec3, 1> hull() const noexcept { return {position}; }
+  double hull_radius() const noexcept { return 0.0; }
 
   /// 0 exactly when the points coincide. The distance, its root, is right to 4 half ulps; beyond 2^512 and below 2^-537
   /// its square leaves the range of doubles and is infinite or the smallest positive number, and below 2^-511 it has
@@ -80,6 +83,6 @@ struct Point {
   }
 };
 
-static_assert(HasClosestPoints<Point> && HasAxisInvariance<Point>);
+static_assert(HasClosestPoints<Point> && HasHull<Point> && HasAxisInvariance<Point>);
 
 }  // namespace hinge

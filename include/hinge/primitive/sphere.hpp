@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -24,6 +25,8 @@ struct Sphere {
 
   Sphere placed(const Pose& pose) const noexcept { return {pose * center, radius}; }
   bool is_valid() const noexcept { return is_finite(center) && is_finite(radius) && radius >= 0.0; }
+  std::array<Vec3, 1> hull() const noexcept { return {center}; }
+  double hull_radius() const noexcept { return radius; }
 
   /// Rounded outward, by no more than has to be.
   Aabb bounds() const noexcept {
@@ -81,6 +84,6 @@ struct Sphere {
   }
 };
 
-static_assert(HasClosestPoints<Sphere> && HasAxisInvariance<Sphere>);
+static_assert(HasClosestPoints<Sphere> && HasHull<Sphere> && HasAxisInvariance<Sphere>);
 
 }  // namespace hinge

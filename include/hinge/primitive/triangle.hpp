@@ -27,6 +27,8 @@ struct Triangle {
 
   Triangle placed(const Pose& pose) const noexcept { return {pose * a, pose * b, pose * c}; }
   Aabb bounds() const noexcept { return Aabb(a).extend(b).extend(c); }
+  Corners hull() const noexcept { return {a, b, c}; }
+  double hull_radius() const noexcept { return 0.0; }
   /// Bounds hide a NaN in b or c.
   bool is_valid() const noexcept { return is_finite(a) && is_finite(b) && is_finite(c); }
 
@@ -35,7 +37,7 @@ struct Triangle {
   /// is infinite or the smallest positive number.
   friend double squared_distance(const Triangle& p, const Triangle& q) noexcept {
     constexpr double smallest = 0x1p-1074;
-    const Corners x = p.corners(), y = q.corners();
+    const Corners x = p.hull(), y = q.hull();
     const Boxes boxes(p, q);
     if (!boxes.apart(0.0) && intersect(x, y, boxes.extent())) return 0.0;
     const detail::TrianglePair pair(x, y);
@@ -51,14 +53,14 @@ struct Triangle {
     const double squared = squared_distance(p, q);
     if ((squared >= exact::lost_squares && squared <= exact::largest_square) || squared == 0.0)
       return std::sqrt(squared);
-    return std::max(detail::nearest_in_integers(p.corners(), q.corners()).distance, 0x1p-1074);
+    return std::max(detail::nearest_in_integers(p.hull(), q.hull()).distance, 0x1p-1074);
   }
 
   /// d < m, or they share a point: the answer for the real numbers that the coordinates and m are. m >= 0.
   friend bool closer_than(const Triangle& p, const Triangle& q, double m) noexcept {
     const Boxes boxes(p, q);
     if (boxes.apart(std::max(m, 0.0))) return false;
-    const Corners x = p.corners(), y = q.corners();
+    const Corners x = p.hull(), y = q.hull();
     if (!boxes.apart(0.0) && intersect(x, y, boxes.extent())) return true;
     if (!(m > 0.0)) return false;
     if (!is_finite(m)) return true;
@@ -96,7 +98,7 @@ struct Triangle {
   /// As far apart as the distance says, up to an ulp or two of the coordinates; of triangles that meet, one point
   /// twice.
   friend std::pair<Vec3, Vec3> closest_points(const Triangle& p, const Triangle& q) noexcept {
-    const Corners x = p.corners(), y = q.corners();
+    const Corners x = p.hull(), y = q.hull();
     const detail::TrianglePair pair(x, y);
     if (pair.in_window()) {
       const auto nearest = pair.nearest();
@@ -108,8 +110,6 @@ struct Triangle {
   }
 
  private:
-  Corners corners() const noexcept { return {a, b, c}; }
-
   struct Boxes {
     Boxes(const Triangle& s, const Triangle& t) noexcept : p(s.bounds()), q(t.bounds()) {}
 
@@ -130,6 +130,6 @@ struct Triangle {
   };
 };
 
-static_assert(HasClosestPoints<Triangle>);
+static_assert(HasClosestPoints<Triangle> && HasHull<Triangle>);
 
 }  // namespace hinge
