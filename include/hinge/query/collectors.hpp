@@ -59,14 +59,17 @@ class Closest {
   explicit Closest(double least) noexcept : least_(least) {}
   void add(const Hit& hit) noexcept {
     const auto key = [](const Hit& h) { return std::tuple(h.gap(), h.first, h.second); };
-    if (!hit_ || key(hit) < key(*hit_)) hit_ = hit;
+    if (hit_ && !(key(hit) < key(*hit_))) return;
+    hit_ = hit;
+    done_ = hit.gap() <= least_;
   }
   double cutoff() const noexcept { return hit_ ? hit_->gap() : std::numeric_limits<double>::infinity(); }
-  bool done() const noexcept { return hit_ && hit_->gap() <= least_; }
+  bool done() const noexcept { return done_; }
   const std::optional<Hit>& hit() const noexcept { return hit_; }
 
  private:
   double least_ = -std::numeric_limits<double>::infinity();
+  bool done_ = false;
   std::optional<Hit> hit_;
 };
 
