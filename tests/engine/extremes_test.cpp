@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "engine/fast_sides.hpp"
@@ -43,6 +44,9 @@ void expect_equal(PointsOn<Wide>& wide, PointsOn<Brute>& brute, double margin) {
   EXPECT_EQ(wide.self_collisions(), all);
   EXPECT_EQ(wide.self_within(margin), brute.self_within(margin));
   EXPECT_EQ(wide.self_closest().value().gap(), brute.self_closest().value().gap());
+}
+
+void expect_on_its_sides(PointsOn<Wide>& wide, PointsOn<Brute>& brute, double margin) {
   for (const double below : {0.0, margin}) {
     const auto list = [&](const QueryOptions& o) { return wide.self_within(below, o); };
     test::expect_on_their_sides({}, brute.self_within(below), list, [&](const QueryOptions& o) {
@@ -51,9 +55,10 @@ void expect_equal(PointsOn<Wide>& wide, PointsOn<Brute>& brute, double margin) {
   }
 }
 
-void expect_on_their_sides(PointsOn<Wide>& a, PointsOn<Wide>& b, const std::vector<Hit>& exact, double margin) {
+std::uint64_t expect_on_their_sides(PointsOn<Wide>& a, PointsOn<Wide>& b, const std::vector<Hit>& exact,
+                                    double margin) {
   const auto list = [&](const QueryOptions& options) { return a.within(b, margin, AdmitAll{}, options); };
-  test::expect_on_their_sides({}, exact, list, [&](const QueryOptions& o) { return !list(o).empty(); });
+  return test::expect_on_their_sides({}, exact, list, [&](const QueryOptions& o) { return !list(o).empty(); });
 }
 
 void expect_equal_on(const Model<Point>& model, double clearance, const std::vector<double>& q = {}) {
@@ -64,6 +69,7 @@ void expect_equal_on(const Model<Point>& model, double clearance, const std::vec
     brute.update(q);
   }
   expect_equal(wide, brute, clearance);
+  expect_on_its_sides(wide, brute, clearance);
 }
 
 TEST(WideExtremes, HoldAtAnySizeOfTheModel) {
@@ -132,8 +138,10 @@ TEST(WideExtremes, HoldForCoordinatesFarBeyondTheSizeOfTheModel) {
         expect_equal(wide, brute, margin);
         EXPECT_EQ(wide.within(other, margin), brute.within(other_brute, margin));
         EXPECT_EQ(other.within(wide, margin), other_brute.within(brute, margin));
-        expect_on_their_sides(wide, other, brute.within(other_brute, margin), margin);
         EXPECT_EQ(wide.closest(other).value().gap(), brute.closest(other_brute).value().gap());
+        if (round % 5 != 0) continue;
+        expect_on_its_sides(wide, brute, margin);
+        expect_on_their_sides(wide, other, brute.within(other_brute, margin), margin);
       }
     }
   }
@@ -152,6 +160,31 @@ TEST(WideExtremes, HoldWhereSquaresUnderflow) {
       wide.update_placed(points);
       brute.update_placed(points);
       expect_equal(wide, brute, w);
+      expect_on_its_sides(wide, brute, w);
+    }
+  }
+}
+
+TEST(WideExtremes, LeaveNothingUndecidedWhereFloatsDoNotHoldThem) {
+  // About one middle, so that floats hold both models in the unit of either.
+  const double size = 0x1p-59;
+  const Model<Point> large = sliders({{-1, 0, 0}, {1, 0, 0}, {0, -0.5, 0}, {0, 0.5, 0}});
+  const Model<Point> small = sliders({{-size, 0, 0}, {size, 0, 0}});
+  // Twice the distance of the two models; and far above the error of small coordinates, however large they become.
+  for (const double clearance : {2.0, 1e15}) {
+    SCOPED_TRACE(clearance);
+    PointsOn<Wide> a(large, AdmitAll{}, UniformClearance(clearance)), b(small, AdmitAll{}, UniformClearance(clearance));
+    PointsOn<Brute> c(large, AdmitAll{}, UniformClearance(clearance)),
+        d(small, AdmitAll{}, UniformClearance(clearance));
+    for (const double travel : {0.0, 1e100}) {
+      const std::vector<double> q = {travel, travel};
+      b.update(q);
+      d.update(q);
+      EXPECT_EQ(expect_on_their_sides(a, b, c.collisions(d), 0.0), 0U);
+      EXPECT_EQ(expect_on_their_sides(b, a, d.collisions(c), 0.0), 0U);
+      const auto list = [&](const QueryOptions& options) { return b.self_collisions(options); };
+      const auto any = [&](const QueryOptions& options) { return b.self_collides(options); };
+      EXPECT_EQ(test::expect_on_their_sides({}, d.self_collisions(), list, any), 0U);
     }
   }
 }
