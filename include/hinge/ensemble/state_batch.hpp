@@ -46,15 +46,14 @@ class StateBatch {
       : StateBatch(model, DofSelection::all(model.tree()), std::move(filter), std::move(matrix)) {}
   /// Only the selected DOF free, all others at their reference.
   StateBatch(const Model<P>& model, DofSelection selection, F filter, D matrix)
-      : matrix_(matrix),
-        single_(model, std::move(selection), std::move(filter), std::move(matrix)),
+      : single_(model, std::move(selection), std::move(filter), std::move(matrix)),
         frames_(*single_.model().groups()),
         travel_(single_.model()),
         near_(model.size()),
         allowed_(single_.model().groups()->size(), 0.0),
         usual_(allowed_) {
     for (std::size_t i = 0; i < model.size(); ++i)
-      largest_reach_ = std::max(largest_reach_, matrix_.reach(id<PrimitiveId>(i)));
+      largest_reach_ = std::max(largest_reach_, single_.matrix().reach(id<PrimitiveId>(i)));
   }
 
   // --- a block is 1 to 16 configurations, one after the other, dof_count() values each (rad or model length unit).
@@ -153,7 +152,6 @@ class StateBatch {
     return true;
   }
 
-  D matrix_;
   Hierarchy<P, F, D, EngineOf> single_;
   FrameLanes frames_;
   LaneTravel travel_;
@@ -255,7 +253,7 @@ bool StateBatch<P, F, D, EngineOf>::make_list(std::size_t first, std::size_t end
   const double factor = allowance_.factor();
   if (!find_pairs(factor) && (factor == 1.0 || !find_pairs(1.0))) return false;
   std::ranges::sort(found_);
-  near_.assign(found_, matrix_, single_.model(), travel_);
+  near_.assign(found_, single_.matrix(), single_.model(), travel_);
   allowance_.made(tests_, near_.size());
   has_list_ = true;
   ++counts_.lists;

@@ -54,7 +54,8 @@ struct Joint {
 /// The rotation about the unit axis (x, y, z) by the angle of this sine and cosine (Rodrigues), column by column, in a
 /// fixed order of operations. T: double, or lanes of it.
 template <class T>
-[[gnu::always_inline]] inline std::array<T, 9> rotation_columns(const T& x, const T& y, const T& z, const T& sine, const T& cosine) noexcept {
+[[gnu::always_inline]] inline std::array<T, 9> rotation_columns(const T& x, const T& y, const T& z, const T& sine,
+                                                                const T& cosine) noexcept {
   const T v = T(1.0) - cosine;
   const T xs = x * sine, ys = y * sine, zs = z * sine;
   return {cosine + x * x * v, x * y * v + zs,     x * z * v - ys,  //

@@ -265,7 +265,7 @@ bool CertifiedPath<P, F, D, EngineOf>::find_near(const PathPair& links, double c
 template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
 bool CertifiedPath<P, F, D, EngineOf>::collides(const PathPair& pair, double t) {
   const P p = hierarchy_.placed(pair.first), q = hierarchy_.placed(pair.second);
-  const double m = hierarchy_.matrix().threshold(pair.first, pair.second);
+  const auto m = threshold_of(hierarchy_.matrix(), pair.first, pair.second);
   if (!closer_than(p, q, m)) return false;
   answer_collision({pair.first, pair.second, m > 0.0 ? distance(p, q) : 0.0, m}, t);
   return true;

@@ -75,7 +75,8 @@ ProvedRadii prove_apart(const P& p, const P& q, double m, const RelativeMotion& 
   along /= length;
   const detail::Corners1<n> a(x, scale, along, motion.first_point, motion.first),
       b(y, scale, along, motion.second_point, motion.second);
-  const double less = (p.hull_radius() + q.hull_radius() + m) * scale + motion.rounding;
+  // (m may be a rounded sum.)
+  const double less = (p.hull_radius() + q.hull_radius() + m) * bound_above * scale + motion.rounding;
   if (!(b.smallest(0.0) - a.largest(0.0) - less > 0.0)) return {};
   const double second = (motion.points + motion.first_unit * a.radius + motion.second_unit * b.radius) * bound_above;
   const double bend = 0.5 * second * half * half;

@@ -84,7 +84,7 @@ struct Triangle {
     const double near = reach, far = near * sum_above + 0x1p-1000;
     if (Boxes(p, q).apart(far)) return false;
     if (!is_finite(near)) return true;
-    const Corners x = p.corners(), y = q.corners();
+    const Corners x = p.hull(), y = q.hull();
     const detail::TrianglePair pair(x, y);
     if (pair.in_window()) {
       if (pair.planes_apart(far)) return false;
