@@ -22,6 +22,7 @@
 #include "hinge/motion/check_sampled.hpp"
 #include "hinge/motion/displacements.hpp"
 #include "hinge/motion/group_rates.hpp"
+#include "hinge/motion/near_links.hpp"
 #include "hinge/motion/relative_motion.hpp"
 #include "hinge/policy/different_links.hpp"
 #include "hinge/policy/pair_filter.hpp"
@@ -287,6 +288,40 @@ TEST(CertifiedPath, MovesABaseThatFliesFreely) {
   }
 }
 
+/// A sphere of triangles around a point.
+std::vector<Triangle> ball(const Vec3& centre, double radius, int around, int along) {
+  const auto corner = [&](int i, int j) {
+    const double a = 2 * pi * (i % around) / around, b = pi * j / along;
+    return Vec3(centre + radius * Vec3(std::sin(b) * std::cos(a), std::sin(b) * std::sin(a), std::cos(b)));
+  };
+  std::vector<Triangle> triangles;
+  for (int j = 0; j < along; ++j)
+    for (int i = 0; i < around; ++i) {
+      triangles.push_back({corner(i, j), corner(i + 1, j), corner(i + 1, j + 1)});
+      triangles.push_back({corner(i, j), corner(i + 1, j + 1), corner(i, j + 1)});
+    }
+  return triangles;
+}
+
+TEST(CertifiedPath, ProvesLinksOfManyTrianglesAsWholes) {
+  // One ball rolls and slides along another, closer than their triangles are long: many pairs are near at once.
+  for (const double gap : {-0.2, -0.02, 1e-3, 0.05, 0.3}) {
+    SCOPED_TRACE(gap);
+    ModelBuilder<Triangle> build;
+    for (const Triangle& t : ball(Vec3::Zero(), 1.0, 10, 5)) build.add_primitive(world, t);
+    const LinkId slide = build.add_link(world, Prismatic{Vec3::UnitX(), {}, {}});
+    build.add_link(slide, Revolute{Vec3(0.2, 1, 0.1), Vec3(0, 0, 2.0 + gap), {}, {}},
+                   ball(Vec3(0, 0, 2.0 + gap), 1.0, 10, 5));
+    Bodies<Triangle> plain = bodies(build.finish(), 0.0);
+    CertifiedPath certified(plain);
+    const std::vector from{-0.6, -0.4}, to{0.7, 0.5};
+    const PathAnswer answer = certified.check(from, to);
+    const PathAnswer sampled = check_sampled(plain, from, to, 0.01);
+    EXPECT_EQ(answer.verdict, sampled.verdict);
+    EXPECT_TRUE(std::abs(gap + 0.05) < 0.05 || answer.is_free() == (gap > 0.0));  // the balls have flat sides
+  }
+}
+
 TEST(CertifiedPath, AnswersTheSameOnEveryEngine) {
   int free = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
@@ -393,8 +428,9 @@ TEST(RelativeMotion, BoundsHowTurningChanges) {
   EXPECT_EQ(change.point, 2.0 * 5.0 * change.turning);
 }
 
-TEST(Displacements, BoundHowCloseGroupsCome) {
-  double tightest = 0.0;
+TEST(Displacements, BoundHowCloseGroupsAndPairsOfThemCome) {
+  double tightest = 0.0, tightest_pair = 0.0;
+  RelativeMotions motions;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed + 9000);
@@ -411,6 +447,7 @@ TEST(Displacements, BoundHowCloseGroupsCome) {
     displacements.begin(rates.groups());
     const double half = random.uniform(0.001, 0.3);
     displacements.find(rates.groups(), half);
+    motions.forget();
     const auto placed = plain.placed();
     const std::vector<Point> middle(placed.begin(), placed.end());
     for (double t = 0.5 - half; t <= 0.5 + half; t += half / 5) {
@@ -424,10 +461,18 @@ TEST(Displacements, BoundHowCloseGroupsCome) {
           const double closer = distance(middle[i], middle[j]) - distance(now[i], now[j]);
           ASSERT_LE(closer, of(i) + of(j) + 1e-12) << i << ' ' << j;
           tightest = std::max(tightest, closer / (of(i) + of(j) + 1e-12));
+          const std::size_t g = index(model.group_of(id<PrimitiveId>(i))),
+                            h = index(model.group_of(id<PrimitiveId>(j)));
+          const RelativeMotion& motion =
+              motions(rates.groups(), static_cast<std::uint32_t>(g), static_cast<std::uint32_t>(h), half);
+          const double bound = approach(motion, rates.groups()[g], rates.groups()[h], half) / rates.scale();
+          ASSERT_LE(closer, bound + 1e-12) << i << ' ' << j;
+          tightest_pair = std::max(tightest_pair, closer / (bound + 1e-12));
         }
     }
   }
   EXPECT_GT(tightest, 0.7);
+  EXPECT_GT(tightest_pair, 0.7);
 }
 
 TEST(SampledPath, LooksNoFartherApartThanItSays) {
