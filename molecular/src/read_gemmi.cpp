@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -85,7 +86,8 @@ void check_whole_numbers(const gemmi::cif::Document& document) {
       const bool is_loop = item.type == gemmi::cif::ItemType::Loop, is_pair = item.type == gemmi::cif::ItemType::Pair;
       if ((!is_loop && !is_pair) || (is_loop && item.loop.tags.empty())) continue;
       const std::string& first = is_loop ? item.loop.tags.front() : item.pair[0];
-      if (std::ranges::none_of(categories, [&](std::string_view c) { return first.starts_with(c); })) continue;
+      const auto is_of = [&](std::string_view category) { return first.compare(0, category.size(), category) == 0; };
+      if (std::none_of(std::begin(categories), std::end(categories), is_of)) continue;
       if (is_pair) check(item.pair[0], item.pair[1]);
       for (std::size_t k = 0; is_loop && k < item.loop.values.size(); ++k)
         check(item.loop.tags[k % item.loop.tags.size()], item.loop.values[k]);
