@@ -59,7 +59,7 @@ class CertifiedPath {
   static constexpr bool by_links = KeepsTrees<P>;
   // Displacements up to this share of the model are listed for; larger ones make long lists, smaller ones many. Near
   // the best for proteins and robots (bench/paths.cpp); answers do not depend on it.
-  static constexpr double list_share = by_links ? 1.0 / 80.0 : 1.0 / 40.0;
+  static constexpr double list_share = by_links ? 1.0 / 160.0 : 1.0 / 40.0;
   // Pairs of two links that are judged one by one; when more are near, halving the segment is cheaper.
   static constexpr std::size_t most_near = 32;
 
