@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -111,9 +112,12 @@ inline double Displacements::find(std::span<const GroupRate> groups, double half
     if (!group.has_primitives || (held_ == 0 && group.stands)) continue;
     const Moving& moving = moving_[g];
     const double second = moving.change.point + moving.change.unit() * group.radius;
-    const double rounding = share_of_rounding * (1.0 + half * moving.summed) *
-                            (group.rounding + groups[held_].rounding) * (group.reach + groups[held_].reach);
+    const double turns = 1.0 + half * moving.summed;
+    const double rounding = share_of_rounding * turns * turns * (group.rounding + groups[held_].rounding) *
+                            (group.reach + groups[held_].reach);
     of_groups_[g] = (half * group.largest_speed(moving.twist) + 0.5 * half * half * second) * bound_above + rounding;
+    // Speeds that overflow may end as no number.
+    if (!(of_groups_[g] >= 0.0)) of_groups_[g] = std::numeric_limits<double>::infinity();
     largest = std::max(largest, of_groups_[g]);
   }
   return largest;

@@ -102,7 +102,8 @@ inline void FindRelativeMotion::operator()(std::span<const GroupRate> groups, st
   motion.first_unit = change_first.unit() * bound_above;
   motion.second_unit = change_second.unit() * bound_above;
   motion.points = (change_first.point + change_second.point) * bound_above;
-  motion.rounding = share_of_rounding * (1.0 + half * turning) * share * (groups[first].reach + groups[second].reach);
+  const double turns = 1.0 + half * turning;
+  motion.rounding = share_of_rounding * turns * turns * share * (groups[first].reach + groups[second].reach);
 }
 
 /// Those of one segment, the latest of them kept: pairs of primitives come in the order of their groups.
