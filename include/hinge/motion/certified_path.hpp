@@ -26,6 +26,7 @@
 #include "hinge/motion/straight_path.hpp"
 #include "hinge/primitive/leaf.hpp"
 #include "hinge/query/link_pair_hits.hpp"
+#include "hinge/query/pair_rules.hpp"
 
 namespace hinge {
 

@@ -28,12 +28,12 @@ namespace detail {
 
 /// Corners of a primitive along a direction: at(s) = value + s rate, and how far they are from a reference point.
 template <std::size_t N>
-struct Corners1 {
+struct CornersAlong {
   std::array<double, N> value, rate;
   double radius = 0.0;
 
-  Corners1(const std::array<Vec3, N>& hull, double scale, const Vec3& along, const Vec3& reference,
-           const Twist& twist) noexcept {
+  CornersAlong(const std::array<Vec3, N>& hull, double scale, const Vec3& along, const Vec3& reference,
+               const Twist& twist) noexcept {
     for (std::size_t k = 0; k < N; ++k) {
       const Vec3 x = hull[k] * scale;
       value[k] = dot(along, x);
@@ -56,8 +56,7 @@ struct Corners1 {
 }  // namespace detail
 
 /// p and q are at least m apart, as placed by whoever places them, for every parameter within these radii of the
-/// middle, at which p and q are given; at most `half`. All
-/// comparisons fail for NaN, which proves nothing.
+/// middle, at which p and q are given; at most `half`. All comparisons fail for NaN, which proves nothing.
 template <Certifiable P>
 ProvedRadii prove_apart(const P& p, const P& q, double m, const RelativeMotion& motion, double half,
                         double scale) noexcept {
@@ -73,7 +72,7 @@ ProvedRadii prove_apart(const P& p, const P& q, double m, const RelativeMotion& 
   const double length = norm(along);
   if (!(length > 0.0)) return {};
   along /= length;
-  const detail::Corners1<n> a(x, scale, along, motion.first_point, motion.first),
+  const detail::CornersAlong<n> a(x, scale, along, motion.first_point, motion.first),
       b(y, scale, along, motion.second_point, motion.second);
   // (m may be a rounded sum.)
   const double less = (p.hull_radius() + q.hull_radius() + m) * bound_above * scale + motion.rounding;
