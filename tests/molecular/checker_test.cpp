@@ -337,7 +337,8 @@ TEST(Verdicts, AgreeBetweenModesAtTies) {
   const auto differences = ties();
   const test::TemporaryFile file(carbons(differences, 0));
   const auto molecule = std::make_shared<const Molecule>(read_structure(file.path()));
-  Checker checker(molecule, molecule->select({}), {});
+  const CheckOptions options;  // (a temporary makes g++ 12 warn about its members)
+  Checker checker(molecule, molecule->select({}), options);
   auto moved = molecule->structure().models.front();
   for (Vec3& x : moved) x += Vec3(0.0001, 0.0001, 0.0001);  // off the grid: the doubles decide
   std::size_t told_apart = 0;
