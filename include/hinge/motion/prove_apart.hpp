@@ -75,7 +75,7 @@ ProvedRadii prove_apart(const P& p, const P& q, double m, const RelativeMotion& 
   const detail::CornersAlong<n> a(x, scale, along, motion.first_point, motion.first),
       b(y, scale, along, motion.second_point, motion.second);
   // (m may be a rounded sum.)
-  const double less = (p.hull_radius() + q.hull_radius() + m) * bound_above * scale + motion.rounding;
+  const double less = (p.hull_radius() + q.hull_radius() + m) * (1.0 + 0x1p-50) * scale + motion.rounding;
   if (!(b.smallest(0.0) - a.largest(0.0) - less > 0.0)) return {};
   const double second = (motion.points + motion.first_unit * a.radius + motion.second_unit * b.radius) * bound_above;
   const double bend = 0.5 * second * half * half;
