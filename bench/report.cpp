@@ -88,8 +88,9 @@ std::string times(const Found& found, bool loops) {
 }
 
 std::string trade(const Found& found) {
-  std::string out = "\n" + header({"decided", "conformations", "yes/no µs", "all µs", "within 1 Å µs", "false accepts",
-                                   "false rejects", "pairs", "missed", "added", "undecided", "largest error Å"});
+  std::string out = "\n";
+  out += header({"decided", "conformations", "yes/no µs", "all µs", "within 1 Å µs", "false accepts", "false rejects",
+                 "pairs", "missed", "added", "undecided", "largest error Å"});
   for (const Json& row : found.rows("trade precision")) {
     Strings cells = {Found::text(row, "precision"), Found::text(row, "sampling")};
     for (const char* key : {"any_us", "all_us", "within_us"}) cells.push_back(number(Found::value(row, key)));
