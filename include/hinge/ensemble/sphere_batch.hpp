@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
-#include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
+#include "hinge/ensemble/configuration_block.hpp"
 #include "hinge/ensemble/lane_kinematics.hpp"
 #include "hinge/ensemble/sphere_bodies.hpp"
 #include "hinge/model/model.hpp"
@@ -45,7 +45,7 @@ class SphereBatch {
       : SphereBatch(std::make_shared<const SelectedModel<Sphere>>(checked(model, filter), selection), filter) {}
 
   // --- a block is 1 to 16 configurations, one after the other, dof_count() values each (rad or model length unit).
-  // ConfigurationError: another length, or a value that is not finite ---
+  // ConfigurationError: as check_block ---
 
   /// Does any configuration of the block collide? Stops at the first hit.
   bool any(std::span<const double> block) {
@@ -102,7 +102,6 @@ class SphereBatch {
   }
 
   simd::Bits place(std::span<const double> block);
-  void check(std::span<const double> block) const;
   void place_balls(std::size_t body) noexcept;
   std::size_t find_near(const SphereBody& body, std::size_t other, simd::Bits& lanes, Survivor* to) const noexcept;
   template <bool first_only>
@@ -129,23 +128,9 @@ class SphereBatch {
   std::vector<Survivor> near_a_, near_b_;      // scratch
 };
 
-inline void SphereBatch::check(std::span<const double> block) const {
-  const std::size_t dof = dof_count();
-  if (dof == 0 ? !block.empty() : block.empty() || block.size() % dof != 0 || block.size() > size * dof)
-    throw ConfigurationError("a block of " + std::to_string(block.size()) + " values, expected 1 to " +
-                             std::to_string(size) + " configurations of " + std::to_string(dof));
-  bool finite = true;
-  for (const double value : block) finite &= is_finite(value);
-  for (std::size_t k = 0; !finite && k < block.size(); ++k)
-    if (!is_finite(block[k]))
-      throw ConfigurationError("configuration " + std::to_string(k / dof) + " of the block, value " +
-                               std::to_string(k % dof) + " is " + std::to_string(block[k]) +
-                               ", expected a finite number");
-}
-
 /// Returns the lanes that hold a configuration.
 inline simd::Bits SphereBatch::place(std::span<const double> block) {
-  check(block);
+  const std::size_t count = check_block(block, dof_count(), *exact_.model().groups());
   block_ = block;
   exact_lane_ = size;
   LaneKinematics& kinematics = bodies_.kinematics();
@@ -156,7 +141,6 @@ inline simd::Bits SphereBatch::place(std::span<const double> block) {
     is_placed_[k] = 0;
     enclosing_centres_[k] = bodies[k].ball.placed_by(kinematics[bodies[k].group]);
   }
-  const std::size_t count = dof_count() == 0 ? 1 : block.size() / dof_count();
   return (simd::Bits{1} << count) - 1;
 }
 

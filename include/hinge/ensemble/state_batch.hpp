@@ -18,6 +18,7 @@
 #include "hinge/ensemble/list_allowance.hpp"
 #include "hinge/ensemble/near_list.hpp"
 #include "hinge/hierarchy.hpp"
+#include "hinge/policy/largest_threshold.hpp"
 #include "hinge/simd/lanes.hpp"
 
 namespace hinge {
@@ -51,10 +52,8 @@ class StateBatch {
         travel_(single_.model()),
         near_(model.size()),
         allowed_(single_.model().groups()->size(), 0.0),
-        usual_(allowed_) {
-    for (std::size_t i = 0; i < model.size(); ++i)
-      largest_reach_ = std::max(largest_reach_, single_.matrix().reach(id<PrimitiveId>(i)));
-  }
+        usual_(allowed_),
+        largest_threshold_(LargestThreshold<D>(single_.matrix(), model.size()).within()) {}
 
   // --- a block is 1 to 16 configurations, one after the other, dof_count() values each (rad or model length unit).
   // ConfigurationError: as check_block ---
@@ -144,7 +143,7 @@ class StateBatch {
   /// What a list must allow a group.
   double needed(std::size_t g) const noexcept {
     // Thresholds and clearances are added up in double by the engine.
-    return travel_.bound(id<GroupId>(g)) * (1.0 + 0x1p-20) + 0x1p-50 * largest_reach_;
+    return travel_.bound(id<GroupId>(g)) * (1.0 + 0x1p-20) + 0x1p-51 * largest_threshold_;
   }
   bool covers() const noexcept {
     for (std::size_t g = 1; g < allowed_.size(); ++g)
@@ -156,11 +155,11 @@ class StateBatch {
   FrameLanes frames_;
   LaneTravel travel_;
   List near_;
-  double largest_reach_ = 0.0;
   std::span<const double> block_{};  // of the present query
   bool has_list_ = false;
   std::vector<double> allowed_;  // per group: the way the list was made for
   std::vector<double> usual_;    // per group: the way of late
+  double largest_threshold_;
   ListAllowance allowance_;
   std::uint64_t tests_ = 0;                                 // made for the list
   std::vector<std::pair<PrimitiveId, PrimitiveId>> found_;  // scratch
