@@ -104,12 +104,12 @@ class Wide {
     if (u < layout.units.size() && !collector.done()) {
       search_.place(layout, placement_, matrix_, options.clearance);
       const auto placed = placement_.placed();
+      const SelfVerdicts rest{collector, rules, [&](PrimitiveId first, PrimitiveId second) {
+                                return !lister_.progress.passed(layout, first, second) && rules.admits(first, second);
+                              }};
       search_.within([&] { return collector.cutoff(); },
                      [&](PrimitiveId i, PrimitiveId j) {
-                       const PrimitiveId first = std::min(i, j), second = std::max(i, j);
-                       offer(collector, first, second, placed[index(first)], placed[index(second)],
-                             rules.threshold(first, second),
-                             [&] { return !lister_.progress.passed(layout, i, j) && rules.admits(first, second); });
+                       rest(i, j, placed[index(i)], placed[index(j)]);
                        return !collector.done();
                      },
                      effort.searched);
