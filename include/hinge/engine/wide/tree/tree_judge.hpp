@@ -3,11 +3,11 @@
 #pragma once
 
 #include "hinge/core/id.hpp"
+#include "hinge/engine/wide/verdicts.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/policy/distance_matrix.hpp"
 #include "hinge/policy/pair_filter.hpp"
 #include "hinge/policy/primitive.hpp"
-#include "hinge/query/offer.hpp"
 #include "hinge/query/pair_rules.hpp"
 
 namespace hinge {
@@ -28,12 +28,7 @@ TreeJudge(Decide, Threshold, Admits, AdmitsPairs) -> TreeJudge<Decide, Threshold
 template <Collector C, Primitive P, PairFilter F, DistanceMatrix D>
 auto tree_judge(C& collector, const SelfRules<P, F, D>& rules) {
   const auto in_order = [](PrimitiveId i, PrimitiveId j, const auto& say) { return j < i ? say(j, i) : say(i, j); };
-  return TreeJudge{[&](PrimitiveId i, PrimitiveId j, const P& p, const P& q) {
-                     const bool turned = j < i;
-                     const PrimitiveId first = turned ? j : i, second = turned ? i : j;
-                     offer(collector, first, second, turned ? q : p, turned ? p : q, rules.threshold(first, second),
-                           [&] { return rules.admits(first, second); });
-                   },
+  return TreeJudge{SelfVerdicts{collector, rules, [&rules](auto i, auto j) { return rules.admits(i, j); }},
                    [&rules, in_order](PrimitiveId i, PrimitiveId j) {
                      return in_order(i, j, [&](auto k, auto l) { return rules.threshold(k, l); });
                    },
@@ -44,9 +39,7 @@ auto tree_judge(C& collector, const SelfRules<P, F, D>& rules) {
 }
 template <Collector C, Primitive P, PairFilter G, CrossMatrix D>
 auto tree_judge(C& collector, const CrossRules<P, G, D>& rules) {
-  return TreeJudge{[&](PrimitiveId i, PrimitiveId j, const P& p, const P& q) {
-                     offer(collector, i, j, p, q, rules.threshold(i, j), [&] { return rules.admits(i, j); });
-                   },
+  return TreeJudge{CrossVerdicts{collector, rules},
                    [&rules](PrimitiveId i, PrimitiveId j) { return rules.threshold(i, j); },
                    [&rules](PrimitiveId i, PrimitiveId j) { return rules.admits(i, j); },
                    [&](LinkId a, LinkId b) {
