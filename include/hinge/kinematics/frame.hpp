@@ -17,11 +17,21 @@ struct alignas(32) Frame {
   std::array<double, 16> column{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0};
 
   Frame() = default;
+  /// (Written as wide as it is read: narrower writes would have to reach the cache before they can be read.)
   explicit Frame(const Pose& pose) noexcept {
-    for (std::size_t k = 0; k < 3; ++k) {
-      std::copy_n(pose.rotation.data() + 3 * k, 3, column.data() + 4 * k);
-    }
-    std::copy_n(pose.translation.data(), 3, column.data() + 12);
+    const auto put = [this](std::size_t k, const double* from) {
+      simd::Double4::of(from[0], from[1], from[2], 0.0).store(column.data() + 4 * k);
+    };
+    for (std::size_t k = 0; k < 3; ++k) put(k, pose.rotation.data() + 3 * k);
+    put(3, pose.translation.data());
+  }
+  /// The same numbers? (Without branches: it is asked about many, most of which differ.)
+  bool is(const Pose& pose) const noexcept {
+    bool same = true;
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t r = 0; r < 3; ++r) same &= column[4 * k + r] == pose.rotation.data()[3 * k + r];
+    for (std::size_t r = 0; r < 3; ++r) same &= column[12 + r] == pose.translation.data()[r];
+    return same;
   }
   Pose pose() const noexcept {
     Pose pose;

@@ -191,10 +191,9 @@ inline void PoseSource::set_poses(std::span<const Pose> poses) {
                                (g == 0 ? ": the world's must be the identity" : ": not a rigid placement"));
   compute_through(groups_->size() - 1);
   for (std::size_t g = 1; g < poses.size(); ++g) {
-    const Frame frame(poses[g]);
-    moved_[g] = forgotten_ || frame.column != frames_[g].column;
+    moved_[g] = forgotten_ || !frames_[g].is(poses[g]);
     component_[g] = moved_[g] != 0 ? g : 0;
-    frames_[g] = frame;
+    std::construct_at(&frames_[g], poses[g]);  // in place: an assignment would read it wider than it was just written
   }
   moved_[0] = false;
   component_[0] = 0;
