@@ -15,7 +15,10 @@
 #include "engine/side_by_side.hpp"
 #include "hinge/engine/wide/tree/earlier_parts.hpp"
 #include "hinge/engine/wide/tree/static_tree.hpp"
+#include "hinge/engine/wide/tree/tree_parts.hpp"
 #include "hinge/hierarchy.hpp"
+#include "hinge/kinematics/dof_selection.hpp"
+#include "hinge/kinematics/rigid_groups.hpp"
 #include "hinge/policy/different_links.hpp"
 #include "hinge/primitive/triangle.hpp"
 #include "hinge/query/link_pair_hits.hpp"
@@ -133,8 +136,10 @@ TEST(EarlierParts, KeepWhatIsLeftOutInMemoryForThatAlone) {
   EXPECT_LE(chain.bytes(), 100 * n);
 }
 
-/// Links of many triangles: bumpy balls around the link's origin, every other one a quarter as large and as fine.
-Model<Triangle> bumpy_chain(Random& random, std::size_t links, std::size_t triangles, double size) {
+/// Links of many triangles: bumpy balls around the link's origin, every other one a quarter as large and as fine; one
+/// link in `fixed_in` is fixed to the one before it.
+Model<Triangle> bumpy_chain(Random& random, std::size_t links, std::size_t triangles, double size,
+                            std::size_t fixed_in = 4) {
   ModelBuilder<Triangle> builder;
   LinkId parent = world;
   for (std::size_t l = 0; l < links; ++l) {
@@ -147,7 +152,7 @@ Model<Triangle> bumpy_chain(Random& random, std::size_t links, std::size_t trian
     Pose origin = random.pose(size);
     Joint joint = Revolute{Vec3(random.vector(1.0).normalized()), Vec3::Zero(), origin, {}};
     if (random.one_in(4)) joint = Prismatic{Vec3(random.vector(1.0).normalized()), origin, {}};
-    if (random.one_in(4)) joint = Fixed{origin};
+    if (random.one_in(fixed_in)) joint = Fixed{origin};
     parent = builder.add_link(parent, joint, mesh);
   }
   return builder.finish();
@@ -200,6 +205,44 @@ TEST(TreeQueries, EqualBruteForceWithoutThresholds) {
     }
     if (HasFailure()) return;
   }
+}
+
+/// Links of a group are walked as one where they are tested with the same links, and only there.
+TEST(TreeQueries, EqualBruteForceWhereLinksOfAGroupAreTestedWithOthers) {
+  int collides = 0, apart = 0, merged = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const std::size_t count = 6 + random.below(34);
+    const auto model = bumpy_chain(random, count, 1 + random.below(40), 0.4, 2);
+    const RigidGroups groups(model.tree(), DofSelection::all(model.tree()));
+    std::vector<std::pair<LinkId, LinkId>> ignored;
+    for (std::size_t a = 1; a <= count; ++a)
+      for (std::size_t b = 1; b < a; ++b)
+        if (index(groups.group_of(id<LinkId>(a))) <= index(groups.group_of(id<LinkId>(b))) + 1 ||
+            random.one_in(seed % 2 == 0 ? 200 : 8))
+          ignored.emplace_back(id<LinkId>(a), id<LinkId>(b));
+    const DifferentLinks filter({model.links().begin(), model.links().end()}, ignored);
+    Hierarchy<Triangle, DifferentLinks, UniformClearance, Wide> tested(model, filter, UniformClearance(0.0));
+    Hierarchy<Triangle, DifferentLinks, UniformClearance, Brute> reference(model, filter, UniformClearance(0.0));
+    const TreeParts<Triangle> parts(tested.model(), filter, UniformClearance(0.0));
+    merged += parts.alike.size() == 0 ? 0 : 1;
+    std::vector<double> q(tested.dof_count());
+    for (int step = 0; step < 8; ++step) {
+      for (double& value : q) value = random.uniform(-1.5, 1.5);
+      tested.update(q);
+      if (seed % 4 < 2) tested.learn_order();
+      reference.update(q);
+      const auto all = reference.self_collisions();
+      (all.empty() ? apart : collides) += 1;
+      EXPECT_EQ(tested.self_collides(), !all.empty());
+      test::expect_same(tested.self_collisions(), all);
+    }
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(collides, 20);
+  EXPECT_GT(apart, 20);
+  EXPECT_GT(merged, 8);
 }
 
 class Refuses {

@@ -30,15 +30,11 @@ class EarlierParts {
     first_run_.back() = static_cast<std::uint32_t>(runs_.size());
   }
 
+  /// What one part is tested with.
+  class Row;
+  Row of(std::size_t p) const noexcept;
   /// Bits of the parts 16 row ... 16 row + 15 that part p is tested with.
-  simd::Bits get(std::size_t p, std::size_t row) const noexcept {
-    simd::Bits bits = before(end_[p], row);
-    for (std::uint32_t r = first_run_[p]; r < first_run_[p + 1]; ++r) {
-      const std::size_t k = row - runs_[r].first;  // wraps for rows before the run
-      if (k < runs_[r].count) bits &= bits_[runs_[r].start + k];
-    }
-    return bits;
-  }
+  simd::Bits get(std::size_t p, std::size_t row) const noexcept;
 
   std::size_t bytes() const noexcept {
     return runs_.size() * sizeof(Run) + bits_.size() * sizeof(std::uint16_t) +
@@ -54,17 +50,44 @@ class EarlierParts {
   /// Rows that are kept although they leave nothing out, so that a robot's link has one run: as many bytes as a run.
   static constexpr std::uint32_t longest_gap = 8;
 
-  /// All parts before `end`.
-  static simd::Bits before(std::size_t end, std::size_t row) noexcept {
-    const std::size_t first = row * simd::width;
-    if (end >= first + simd::width) return simd::all_bits;
-    return end > first ? (simd::Bits{1} << (end - first)) - 1 : 0;
-  }
-
   std::vector<std::uint32_t> end_;           // per part
   std::vector<std::uint32_t> first_run_{0};  // per part, and one more
   std::vector<Run> runs_;
   std::vector<std::uint16_t> bits_;
 };
+
+class EarlierParts::Row {
+ public:
+  Row(const EarlierParts& all, std::size_t p) noexcept
+      : end_(all.end_[p]),
+        first_(all.runs_.data() + all.first_run_[p]),
+        last_(all.runs_.data() + all.first_run_[p + 1]),
+        bits_(all.bits_.data()) {}
+
+  /// Bits of the parts 16 row ... 16 row + 15.
+  [[gnu::always_inline]] simd::Bits get(std::size_t row) const noexcept {
+    simd::Bits bits = before(row);
+    for (const Run* run = first_; run != last_; ++run) {
+      const std::size_t k = row - run->first;  // wraps for rows before the run
+      if (k < run->count) bits &= bits_[run->start + k];
+    }
+    return bits;
+  }
+
+ private:
+  /// All parts before the end.
+  simd::Bits before(std::size_t row) const noexcept {
+    const std::size_t first = row * simd::width;
+    if (end_ >= first + simd::width) return simd::all_bits;
+    return end_ > first ? (simd::Bits{1} << (end_ - first)) - 1 : 0;
+  }
+
+  std::size_t end_;
+  const Run *first_, *last_;
+  const std::uint16_t* bits_;
+};
+
+inline EarlierParts::Row EarlierParts::of(std::size_t p) const noexcept { return {*this, p}; }
+inline simd::Bits EarlierParts::get(std::size_t p, std::size_t row) const noexcept { return of(p).get(row); }
 
 }  // namespace hinge

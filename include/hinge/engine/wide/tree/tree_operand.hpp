@@ -25,7 +25,8 @@ struct TreeOperand {
   Placement<P>& placement;
   std::span<const double> clearance;
 
-  const TreePart& part(std::size_t p) const noexcept { return state.parts().parts[p]; }
+  /// A link's.
+  const TreePart& part(std::size_t p) const noexcept { return state.parts().links.parts[p]; }
   double clearance_at(const TreePart& part) const noexcept { return clearance_of(clearance, id<GroupId>(part.group)); }
   double clearance_at(std::size_t p) const noexcept { return clearance_at(part(p)); }
   double largest_clearance() const noexcept {
