@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -21,13 +22,19 @@ namespace hinge {
 
 /// A cycle of the mechanism: two links that the spanning tree does not join must agree on two points of a line (the
 /// hinge or bond that closes the cycle). Points in the frames of the two links, model length unit.
+/// With `lengths`, less is asked: points 0 are the ends of a bond and points 1 their neighbours, and only the distances
+/// 0-0, 0-1 and 1-0 (first link - second link) are kept: the bond's length and its two angles, none of its torsions.
 struct Closure {
   LinkId first{};
   LinkId second{};
   std::array<Vec3, 2> in_first{};
   std::array<Vec3, 2> in_second{};
   std::string name{};
+  std::optional<std::array<double, 3>> lengths{};
 };
+
+/// The points whose distances a closure with lengths keeps: of the first link and of the second.
+inline constexpr std::array<std::array<std::size_t, 2>, 3> kept_lengths{{{0, 0}, {0, 1}, {1, 0}}};
 
 /// Link 0 is the world; every other link hangs on an earlier one by one joint. Degrees of freedom are numbered in the
 /// order their links were added. A configuration is one value per DOF: rad (revolute) or model length unit (prismatic).
@@ -41,7 +48,7 @@ class KinematicTree {
   /// The link add_link would add, with its axis at unit length; the same refusals.
   Joint checked(LinkId parent, Joint joint) const;
 
-  /// Adds a closure. ModelError: unknown or equal links, points that are no lengths.
+  /// Adds a closure. ModelError: unknown or equal links, points that are no lengths, lengths not above 0.
   void add_closure(Closure closure);
 
   std::size_t link_count() const noexcept { return parent_.size(); }
@@ -62,9 +69,16 @@ class KinematicTree {
 };
 
 /// Largest distance (model length unit) between the two positions a closure's points have, given the poses of its
-/// links.
+/// links; of a closure with lengths, the largest departure from one of them.
 inline double closure_residual(const Closure& closure, const Pose& first, const Pose& second) noexcept {
   double worst = 0.0;
+  if (closure.lengths) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 apart = first * closure.in_first[kept_lengths[k][0]] - second * closure.in_second[kept_lengths[k][1]];
+      worst = std::max(worst, std::abs(norm(apart) - (*closure.lengths)[k]));
+    }
+    return worst;
+  }
   for (std::size_t k = 0; k < 2; ++k) {
     const Vec3 apart = first * closure.in_first[k] - second * closure.in_second[k];
     worst = std::max(worst, std::sqrt(squared_norm(apart)));
@@ -111,6 +125,10 @@ inline void KinematicTree::add_closure(Closure closure) {
   for (std::size_t k = 0; k < 2; ++k)
     if (!is_length(closure.in_first[k]) || !is_length(closure.in_second[k]))
       throw ModelError(who + ": a point is not finite, or beyond 2^1000");
+  for (std::size_t k = 0; closure.lengths && k < 3; ++k)
+    if (const double length = (*closure.lengths)[k]; !(length > 0.0) || !is_length(length))
+      throw ModelError(who + ": kept length " + std::to_string(k) + " is " + std::to_string(length) +
+                       ", expected a finite length above 0");
   closures_.push_back(std::move(closure));
 }
 
