@@ -159,10 +159,11 @@ Verdict Checker::check(std::span<const double> q, const Mode& mode) {
       [&](auto& hierarchy) {
         hierarchy.update(q);
         Verdict verdict = ask(hierarchy, Rule{}, mode);
-        for (const Closure& closure : molecule_->model().tree().closures())
-          verdict.closure_residual = std::max(
-              verdict.closure_residual,
+        for (const Closure& closure : molecule_->model().tree().closures()) {
+          verdict.closure_residuals.push_back(
               closure_residual(closure, hierarchy.link_pose(closure.first), hierarchy.link_pose(closure.second)));
+          verdict.closure_residual = std::max(verdict.closure_residual, verdict.closure_residuals.back());
+        }
         return verdict;
       },
       *hierarchy_);

@@ -9,6 +9,8 @@
 #include <set>
 #include <utility>
 
+#include "close_cycles.hpp"
+#include "hinge/core/error.hpp"
 #include "hinge/kinematics/joint.hpp"
 
 namespace hinge::molecular {
@@ -28,15 +30,21 @@ bool is_cross_link(const Structure& s, const Bond& bond) {
 /// One use: builds the links and joints of a Molecule.
 class MoleculeBuilder {
  public:
-  explicit MoleculeBuilder(Molecule& molecule)
-      : molecule_(molecule), s_(molecule.structure_), rigid_(s_.atoms.size()), link_(s_.atoms.size(), none) {}
+  MoleculeBuilder(Molecule& molecule, const MoleculeOptions& options)
+      : molecule_(molecule),
+        options_(options),
+        s_(molecule.structure_),
+        rigid_(s_.atoms.size()),
+        link_(s_.atoms.size(), none) {}
 
   void build() {
+    find_cuts();
     split_bonds();
     find_fragments();
-    for (const std::uint32_t root : roots()) grow(root);
+    for (const std::uint32_t root : roots())
+      if (!reached_.contains(root)) grow(root);  // around a cyclic backbone both sides of a cut are one part
+    close_open_cycles();
     add_atoms();
-    for (const Bond& bond : cross_links_) close_cycle(bond);
     molecule_.model_ = model_.finish();
     order_torsions();
   }
@@ -69,7 +77,27 @@ class MoleculeBuilder {
 
   const Vec3& at(std::uint32_t atom) const { return s_.models.front()[atom]; }
 
-  /// Cross-links that would close a cycle are set aside; all other bonds make the graph the tree is taken from.
+  /// The torsions loops are cut at: psi of their last residue.
+  void find_cuts() {
+    for (const Loop& loop : options_.loops) {
+      const auto& all = molecule_.torsions_;
+      const auto psi = std::find_if(all.begin(), all.end(), [&](const Torsion& torsion) {
+        return torsion.residue == loop.last && torsion.name == "psi";
+      });
+      if (psi == all.end())
+        throw ModelError("loop '" + label(s_, loop) + "': psi of its last residue is undefined, expected N, CA, C");
+      cuts_.push_back(static_cast<std::uint32_t>(psi - all.begin()));
+    }
+  }
+  bool in_loop(std::uint32_t atom) const {
+    return std::any_of(options_.loops.begin(), options_.loops.end(), [&](const Loop& loop) {
+      return loop.first <= s_.atoms[atom].residue && s_.atoms[atom].residue <= loop.last;
+    });
+  }
+  bool is_cut(std::uint32_t torsion) const { return std::find(cuts_.begin(), cuts_.end(), torsion) != cuts_.end(); }
+
+  /// Cross-links that would close a cycle are set aside, and disulphides of loops, on which nothing shall hang; all
+  /// other bonds make the graph the tree is taken from.
   void split_bonds() {
     Fragments whole(s_.atoms.size());
     for (const Bond& bond : s_.bonds)
@@ -77,9 +105,22 @@ class MoleculeBuilder {
         whole.join(bond.first, bond.second);
         bonds_.push_back(bond);
       }
-    for (const Bond& bond : s_.bonds)
-      if (is_cross_link(s_, bond)) (whole.join(bond.first, bond.second) ? bonds_ : cross_links_).push_back(bond);
-    whole_ = std::move(whole);
+    for (const Bond& bond : s_.bonds) {
+      if (!is_cross_link(s_, bond)) continue;
+      const bool of_loop = bond.origin == BondOrigin::disulphide && (in_loop(bond.first) || in_loop(bond.second));
+      (!of_loop && whole.join(bond.first, bond.second) ? bonds_ : cross_links_).push_back(bond);
+    }
+    if (cuts_.empty()) {
+      whole_ = std::move(whole);
+      return;
+    }
+    whole_ = Fragments(s_.atoms.size());
+    for (const Bond& bond : bonds_)
+      if (std::none_of(cuts_.begin(), cuts_.end(), [&](std::uint32_t t) {
+            const auto& a = molecule_.torsions_[t].atoms;
+            return std::pair(bond.first, bond.second) == std::pair(std::min(a[1], a[2]), std::max(a[1], a[2]));
+          }))
+        whole_.join(bond.first, bond.second);
   }
 
   /// Atoms joined by bonds that do not turn. A torsion whose two ends stay joined lies in a ring and is no DOF.
@@ -102,12 +143,20 @@ class MoleculeBuilder {
     }
   }
 
-  /// One fragment per connected part: the one that holds its middle atom, which halves the longest lever arm.
+  /// One fragment per connected part: the one that holds its middle atom, which halves the longest lever arm; or, in
+  /// front of a loop, the one the loop starts from, which stands still.
   std::vector<std::uint32_t> roots() {
     std::map<std::uint32_t, std::vector<std::uint32_t>> parts;
     for (std::uint32_t atom = 0; atom < s_.atoms.size(); ++atom) parts[whole_.find(atom)].push_back(atom);
     std::vector<std::uint32_t> roots;
-    for (const auto& [part, atoms] : parts) roots.push_back(rigid_.find(atoms[atoms.size() / 2]));
+    std::map<std::uint32_t, std::uint32_t> starts;  // part -> N of a loop's first residue
+    for (const Loop& loop : options_.loops)
+      for (std::uint32_t i = s_.residues[loop.first].first_atom; i < s_.residues[loop.first].last_atom; ++i)
+        if (s_.atoms[i].name == "N") starts.emplace(whole_.find(i), i);
+    for (const auto& [part, atoms] : parts) {
+      const auto start = starts.find(part);
+      roots.push_back(rigid_.find(start != starts.end() ? start->second : atoms[atoms.size() / 2]));
+    }
     return roots;
   }
 
@@ -127,10 +176,11 @@ class MoleculeBuilder {
       for (const Hinge& hinge : hinges_[tree[k].fragment]) {
         const std::uint32_t next = rigid_.find(hinge.to);
         if (!done_.insert({hinge.torsion, {}}).second) continue;
+        if (is_cut(hinge.torsion)) continue;
         if (reached_.insert(next).second)
           tree.push_back({next, k, hinge});
         else
-          note(hinge.torsion, "closes a cycle of torsions and stays at its reference");
+          closing_.push_back(hinge.torsion);
       }
     for (std::size_t k = tree.size(); k-- > 1;) {
       tree[tree[k].parent].size += tree[k].size;
@@ -170,16 +220,23 @@ class MoleculeBuilder {
     model_.set_basic_groups(basic_groups(s_));
   }
 
-  void close_cycle(const Bond& bond) {
-    const std::uint32_t a = link_[rigid_.find(bond.first)], b = link_[rigid_.find(bond.second)];
-    if (a == b) return;  // inside one rigid fragment: nothing can open it
-    Closure closure;
-    closure.first = id<LinkId>(a);
-    closure.second = id<LinkId>(b);
-    closure.in_first = closure.in_second = {at(bond.first), at(bond.second)};
-    closure.name = label(s_, bond.first) + " - " + label(s_, bond.second);
-    molecule_.notes_.push_back("closure: the bond " + closure.name + " closes a cycle");
-    model_.add_closure(std::move(closure));
+  void close_open_cycles() {
+    for (const std::uint32_t t : cuts_) {
+      const auto& a = molecule_.torsions_[t].atoms;
+      on_axis_[a[1]] = link_[rigid_.find(a[2])];  // the end of a loop stands still
+    }
+    const auto is_hinge = [&](const Bond& bond) {  // a joint, or closed with the torsions
+      const std::vector<Hinge>& near = hinges_[rigid_.find(bond.first)];
+      return std::any_of(near.begin(), near.end(), [&](const Hinge& h) {
+        return std::minmax(h.from, h.to) == std::minmax(bond.first, bond.second);
+      });
+    };
+    std::erase_if(cross_links_, is_hinge);
+    std::vector<std::uint32_t> link_of_atom;
+    for (std::uint32_t atom = 0; atom < s_.atoms.size(); ++atom) link_of_atom.push_back(link_[rigid_.find(atom)]);
+    const OpenCycles cycles{cuts_, closing_, cross_links_, options_.keep_hydrogen_bonds};
+    for (Closure& closure : close_cycles(s_, molecule_.torsions_, cycles, link_of_atom, molecule_.notes_))
+      model_.add_closure(std::move(closure));
   }
 
   void note(std::uint32_t torsion, const char* what) {
@@ -203,6 +260,7 @@ class MoleculeBuilder {
   std::size_t model_dof_count() const { return molecule_.model_->tree().dof_count(); }
 
   Molecule& molecule_;
+  const MoleculeOptions& options_;
   const Structure& s_;
   ModelBuilder<Point> model_;
   std::vector<Bond> bonds_;
@@ -214,11 +272,12 @@ class MoleculeBuilder {
   std::set<std::uint32_t> reached_;                     // fragments
   std::map<std::uint32_t, std::uint32_t> on_axis_;      // atom -> link of the near side
   std::map<std::uint32_t, std::optional<DofId>> done_;  // torsion -> its DOF, if it got one
+  std::vector<std::uint32_t> cuts_, closing_;           // torsions that are no joints of the tree
 };
 
-Molecule::Molecule(Structure structure)
-    : structure_(std::move(structure)), torsions_(find_torsions(structure_, notes_)) {
-  MoleculeBuilder(*this).build();
+Molecule::Molecule(Structure structure, const MoleculeOptions& options)
+    : structure_(std::move(structure)), loops_(options.loops), torsions_(find_torsions(structure_, notes_)) {
+  MoleculeBuilder(*this, options).build();
 }
 
 DofSelection Molecule::select(std::span<const std::size_t> torsions) const {

@@ -50,8 +50,9 @@ struct Contact {
 struct Verdict {
   bool collides = false;
   std::vector<Contact> pairs;
-  std::optional<Contact> closest;  ///< a pair that collides, where one does
-  double closure_residual = 0.0;   ///< worst over the molecule's closures, angstrom; 0 for coordinates given
+  std::optional<Contact> closest;           ///< a pair that collides, where one does
+  double closure_residual = 0.0;            ///< worst over the molecule's closures, angstrom; 0 for coordinates given
+  std::vector<double> closure_residuals{};  ///< of each closure of the molecule's tree; none for coordinates given
 };
 
 /// One per thread; copies share everything constant.
