@@ -25,7 +25,14 @@ constexpr const char* footer =
 
 void add_model_options(CLI::App& command, Options& o) {
   command.add_option("FILE", o.file, "PDB or mmCIF file, plain or .gz")->required();
-  command.add_option("--free", o.free, "torsions that are free")->capture_default_str();
+  CLI::Option* free = command.add_option("--free", o.free, "torsions that are free (with --loop: side chains only)")
+                          ->capture_default_str();
+  command.add_option("--loop", o.loop, "loops A:40-52,...: free with both ends held, all else stands still");
+  command.parse_complete_callback([&o, free] {
+    if (!o.loop.empty() && free->count() == 0) o.free = "none";
+  });
+  command.add_flag("--keep-hbonds", o.keep_hydrogen_bonds,
+                   "hydrogen bonds of the backbone (Kabsch & Sander) are closures");
   command.add_flag("--omega", o.omega, "free omega too");
   command.add_option("--radii", o.check.thresholds.radii, "radii set: bondi, probe, probe-united, amber")
       ->capture_default_str();
@@ -110,6 +117,15 @@ Exit run(int argc, char** argv) {
   sample->add_option("--seed", o.seed, "seed; conformation k is a function of (seed, k) alone")->capture_default_str();
   sample->add_option("--sigma", o.sigma_degrees, "Gaussian about the reference, degrees (default: full range)")
       ->check(CLI::PositiveNumber);
+  sample
+      ->add_option_function<std::string>(
+          "--closures", [&o](const std::string& text) { o.keep_closures = text == "keep"; },
+          "cycles through disulphides and other bonds: open (default) or keep; loops are always kept")
+      ->check(CLI::IsMember({"open", "keep"}));
+  sample->add_flag("--collision-free", o.collision_free, "of closed conformations only those that do not collide");
+  sample->add_option("--tries", o.most_tries, "starts for each closed conformation at most")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   sample->add_option("--out", o.out, "write the conformations as a multi-model PDB file");
   sample->callback([&] { command = biocd::run_sample; });
 

@@ -2,6 +2,7 @@
 // From options to a molecule that can be asked, and the explanation of one pair.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <memory>
 #include <string_view>
@@ -9,6 +10,8 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
+#include "hinge/molecular/closed_sampler.hpp"
+#include "hinge/molecular/loop.hpp"
 #include "hinge/molecular/selection.hpp"
 #include "hinge/primitive/grid_point.hpp"
 #include "hinge/primitive/point.hpp"
@@ -19,10 +22,21 @@ namespace biocd {
 using namespace hinge::molecular;
 
 Job load(const Options& options) {
-  auto molecule = std::make_shared<const Molecule>(read_structure(options.file, options.read));
-  const auto torsions = select_torsions(*molecule, options.free, options.omega);
-  Checker checker(molecule, molecule->select(torsions), options.check);
-  return {std::move(molecule), std::move(checker)};
+  Structure structure = read_structure(options.file, options.read);
+  MoleculeOptions cycles;
+  if (!options.loop.empty()) cycles.loops = find_loops(structure, options.loop);
+  cycles.keep_hydrogen_bonds = options.keep_hydrogen_bonds;
+  auto molecule = std::make_shared<const Molecule>(std::move(structure), cycles);
+  const bool loops = !options.loop.empty();
+  auto torsions = loops ? select_loop_torsions(*molecule, options.free, options.omega)
+                        : select_torsions(*molecule, options.free, options.omega);
+  // A loop of six turns is held as well, but has other conformations to jump to.
+  std::vector<std::size_t> held;
+  if (options.keep_closures && !loops) held = find_held_torsions(*molecule, torsions);
+  std::erase_if(torsions, [&](std::size_t k) { return std::binary_search(held.begin(), held.end(), k); });
+  hinge::DofSelection selection = molecule->select(torsions);
+  Checker checker(molecule, selection, options.check);
+  return {std::move(molecule), std::move(checker), std::move(selection), std::move(held)};
 }
 
 namespace {

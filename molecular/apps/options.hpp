@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "hinge/molecular/checker.hpp"
 #include "hinge/molecular/molecule.hpp"
@@ -24,6 +25,11 @@ struct Options {
   hinge::molecular::CheckOptions check;
   std::string free = "all";
   bool omega = false;
+  std::string loop;  // residues of loops; empty: none
+  bool keep_hydrogen_bonds = false;
+  bool keep_closures = false;      // sample: closed conformations only; loops are always closed
+  bool collision_free = false;     // sample: only those that do not collide
+  std::uint64_t most_tries = 100;  // sample: starts for each closed conformation
   std::string mode = "all";
   Output output = Output::table;
   std::string explain;         // "i,j"; empty: nothing to explain
@@ -39,6 +45,8 @@ struct Options {
 struct Job {
   std::shared_ptr<const hinge::molecular::Molecule> molecule;
   hinge::molecular::Checker checker;
+  hinge::DofSelection selection;
+  std::vector<std::size_t> held;  // torsions selected that closed cycles hold at the reference, and so not free
 };
 
 Job load(const Options& options);

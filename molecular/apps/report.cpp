@@ -41,6 +41,8 @@ Json model_json(const Options& options, const Job& job) {
               {"dof", checker.dof_count()},
               {"rigid_groups", checker.rigid_group_count()},
               {"closures", job.molecule->model().tree().closures().size()},
+              {"loops", options.loop},
+              {"held_torsions", job.held.size()},
               {"excluded_pairs", checker.exclusions().excluded_pairs()},
               {"exempt_reference", options.check.exempt_reference},
               {"radii", std::string(thresholds.set->name)},
@@ -67,6 +69,13 @@ Json constant_contacts_json(const Job& job) {
   Json list = Json::array();
   for (const hinge::Hit& hit : job.checker.constant_contacts())
     list.push_back(pair_json(job.molecule->structure(), {hit, true}));
+  return list;
+}
+
+Json closures_json(const Job& job, const std::vector<double>& residuals) {
+  Json list = Json::array();
+  for (std::size_t k = 0; k < residuals.size(); ++k)
+    list.push_back({{"bond", job.molecule->model().tree().closures()[k].name}, {"residual", residuals[k]}});
   return list;
 }
 
@@ -109,12 +118,12 @@ std::string heading(const Options& options, const Job& job) {
   const Checker& checker = job.checker;
   const auto& thresholds = checker.thresholds();
   std::string text = fmt::format(
-      "{}: {} atoms, {} residues, {} chains, {} bonds\nselection {}{}: {} DOF, {} rigid groups, {} closures\n"
+      "{}: {} atoms, {} residues, {} chains, {} bonds\nselection {}{}{}: {} DOF, {} rigid groups, {} closures\n"
       "rule: d < {} * ({} v{} radii), pairs at least {} bonds apart, hydrogen-bond rule {}{}\n",
       options.file, s.atoms.size(), s.residues.size(), s.chains.size(), s.bonds.size(), options.free,
-      options.omega ? " with omega" : "", checker.dof_count(), checker.rigid_group_count(),
-      job.molecule->model().tree().closures().size(), thresholds.rho, thresholds.set->name, thresholds.set->version,
-      checker.min_bonds(), thresholds.hydrogen_bonds ? "on" : "off",
+      options.omega ? " with omega" : "", options.loop.empty() ? "" : " and loop " + options.loop, checker.dof_count(),
+      checker.rigid_group_count(), job.molecule->model().tree().closures().size(), thresholds.rho, thresholds.set->name,
+      thresholds.set->version, checker.min_bonds(), thresholds.hydrogen_bonds ? "on" : "off",
       options.check.exempt_reference ? ", reference collisions exempt" : "");
   text += fmt::format("reference: {} colliding pairs; constant contacts under this selection: {}\n",
                       checker.reference_collisions().size(), checker.constant_contacts().size());
@@ -130,6 +139,11 @@ void print_constant_contacts(const Job& job) {
 void print_notes(const Job& job) {
   for (const std::string& note : job.molecule->structure().notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   for (const std::string& note : job.molecule->notes()) std::fprintf(stderr, "note: %s\n", note.c_str());
+  for (const std::size_t k : job.held) {
+    const auto& torsion = job.molecule->torsions()[k];
+    std::fprintf(stderr, "note: torsion %s of %s: held by closed cycles, stays at its reference\n",
+                 torsion.name.c_str(), label(job.molecule->structure(), torsion.atoms[1]).c_str());
+  }
 }
 
 }  // namespace biocd

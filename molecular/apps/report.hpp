@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "hinge/molecular/checker.hpp"
 #include "hinge/policy/collector.hpp"
@@ -19,6 +20,8 @@ using Json = nlohmann::ordered_json;
 Json model_json(const Options& options, const Job& job);
 Json pair_json(const hinge::molecular::Structure& structure, const hinge::molecular::Contact& pair);
 Json constant_contacts_json(const Job& job);
+/// Each closure of the molecule by name, with its residual (angstrom); empty without residuals.
+Json closures_json(const Job& job, const std::vector<double>& residuals);
 Json verdict_json(const hinge::molecular::Structure& structure, std::uint64_t index,
                   const hinge::molecular::Verdict& verdict, const hinge::molecular::Mode& mode);
 

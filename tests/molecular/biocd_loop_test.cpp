@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// biocd sample --loop and --closures from outside: what is written, what is reported, what is refused.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "hinge/simd/instruction_set.hpp"
+#include "molecular/run_biocd.hpp"
+#include "molecular/test_files.hpp"
+
+namespace hinge::molecular {
+namespace {
+
+using Json = nlohmann::json;
+using test::run_biocd;
+
+std::string file() { return test::ubiquitin().string(); }
+
+/// Name, residue and coordinates of each atom, as the columns say, model by model.
+std::vector<std::map<std::string, std::string>> models_of(const std::filesystem::path& path) {
+  std::ifstream stream(path);
+  std::vector<std::map<std::string, std::string>> models(1);
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with("ENDMDL")) models.emplace_back();
+    if (line.starts_with("ATOM")) models.back()[line.substr(12, 15)] = line.substr(30, 24);
+  }
+  if (models.back().empty()) models.pop_back();
+  return models;
+}
+
+TEST(BiocdLoop, MovesTheLoopAndNothingElse) {
+  const test::TemporaryFile out("");
+  const auto said =
+      run_biocd("sample " + file() + " --loop A:7-11 -n 20 --json --out " + out.path().string() + " 2>&1");
+  ASSERT_TRUE(said.status == 0 || said.status == 1) << said.out;
+  const auto reference = models_of(file()).front();
+  const auto models = models_of(out.path());
+  ASSERT_EQ(models.size(), 20U);
+  std::set<std::string> moved;
+  for (const auto& model : models)
+    for (const auto& [atom, x] : model)
+      if (x != reference.at(atom)) moved.insert(atom.substr(10, 5));  // residue number with its insertion code
+  for (const std::string& residue : moved) {
+    const int number = std::stoi(residue);
+    EXPECT_GE(number, 7);
+    EXPECT_LE(number, 11);
+  }
+  EXPECT_EQ(moved.size(), 5U);
+}
+
+TEST(BiocdLoop, ReportsEachClosureByName) {
+  const auto said = run_biocd("sample " + file() + " --loop A:7-11,A:45-50 -n 10 --json 2>/dev/null");
+  const Json json = Json::parse(said.out);
+  EXPECT_EQ(json.at("model").at("closures"), 2);
+  EXPECT_EQ(json.at("model").at("loops"), "A:7-11,A:45-50");
+  EXPECT_EQ(json.at("model").at("free"), "none");
+  ASSERT_EQ(json.at("conformations").size(), 10U);
+  for (const Json& row : json.at("conformations")) {
+    ASSERT_EQ(row.at("closures").size(), 2U);
+    EXPECT_EQ(row.at("closures")[0].at("bond"), "A:LYS11:CA - A:LYS11:C");
+    for (const Json& closure : row.at("closures")) EXPECT_LE(closure.at("residual").get<double>(), 1e-6);
+  }
+  const Json& end = json.at("summary");
+  EXPECT_EQ(end.at("missing"), 0);
+  EXPECT_EQ(end.at("closed_refused"), 0);
+  EXPECT_GE(end.at("starts_unclosed").get<int>(), 0);
+  EXPECT_EQ(end.at("checked"), 10);
+}
+
+TEST(BiocdLoop, LeavesOutWhatDidNotCloseAndSaysSo) {
+  // One start each: some of them fail, and none of those may look like a sample.
+  const test::TemporaryFile out("");
+  const auto said = run_biocd("sample " + file() + " --loop A:8-11 -n 60 --tries 1 --json --out " +
+                              out.path().string() + " 2>/dev/null");
+  const Json json = Json::parse(said.out);
+  const auto missing = json.at("summary").at("missing").get<std::size_t>();
+  ASSERT_GT(missing, 0U);
+  ASSERT_LT(missing, 60U);
+  EXPECT_EQ(json.at("summary").at("starts_unclosed"), missing);
+  EXPECT_EQ(json.at("conformations").size(), 60 - missing);
+  EXPECT_EQ(models_of(out.path()).size(), 60 - missing);
+  std::set<int> indices;
+  for (const Json& row : json.at("conformations")) indices.insert(row.at("index").get<int>());
+  EXPECT_EQ(indices.size(), 60 - missing);
+  const auto note = run_biocd("sample " + file() + " --loop A:8-11 -n 60 --tries 1 2>&1 >/dev/null");
+  EXPECT_NE(note.out.find(std::to_string(missing) + " of 60 samples are missing: none of 1 starts closed"),
+            std::string::npos)
+      << note.out;
+}
+
+TEST(BiocdLoop, GivesCollisionFreeOnesOnRequest) {
+  const auto said = run_biocd(
+      "sample " + file() + " --loop A:7-11 --collision-free --tries 500 -n 10 --exempt-reference --json 2>/dev/null");
+  EXPECT_EQ(said.status, 0);
+  const Json json = Json::parse(said.out);
+  ASSERT_EQ(json.at("conformations").size(), 10U);
+  for (const Json& row : json.at("conformations")) EXPECT_FALSE(row.at("collides").get<bool>());
+  EXPECT_GT(json.at("summary").at("closed_refused").get<int>(), 0);
+}
+
+TEST(BiocdLoop, RefusesWhatIsNoLoop) {
+  const auto refused = [](const std::string& arguments) {
+    const auto said = run_biocd("sample " + file() + " " + arguments + " 2>&1");
+    EXPECT_EQ(said.status, 2) << said.out;
+    return said.out;
+  };
+  EXPECT_NE(refused("--loop A:1-8").find("MET1 is the first residue of its chain"), std::string::npos);
+  EXPECT_NE(refused("--loop A:70-76").find("GLY76 is the last residue of its chain"), std::string::npos);
+  EXPECT_NE(refused("--loop A:36-38").find("has 4 turns, expected at least 6"), std::string::npos);
+  EXPECT_NE(refused("--loop A:10-20,A:15-25").find("shares residues with loop A:GLY10-SER20"), std::string::npos);
+  EXPECT_NE(refused("--loop A:10-20 --free backbone").find("only side chains"), std::string::npos);
+  EXPECT_NE(refused("--loop A:10").find("turns"), std::string::npos);
+  EXPECT_NE(refused("--loop nonsense").find("CHAIN:10-20"), std::string::npos);
+  EXPECT_NE(refused("--collision-free").find("expected --loop or --closures keep"), std::string::npos);
+  refused("--closures maybe");
+  refused("--loop A:10-20 --tries 0");
+}
+
+TEST(BiocdLoop, GivesTheSameBytesEverywhere) {
+  const std::string question =
+      "sample " + file() + " --loop A:7-11 --free A:7-11:chi -n 10 --collision-free --exempt-reference --json";
+  const auto expected = run_biocd(question + " 2>/dev/null", "HINGE_ISA=baseline");
+  ASSERT_FALSE(expected.out.empty());
+  for (const char* more : {" --threads 2", " --threads 8", " --engine brute"})
+    EXPECT_TRUE(run_biocd(question + more + " 2>/dev/null").out == expected.out) << more;
+  for (const simd::InstructionSet set : {simd::InstructionSet::avx2, simd::InstructionSet::avx512}) {
+    const std::string name(simd::name(set)), environment = "HINGE_ISA=" + name;
+    if (set > simd::of_this_cpu() ||
+        run_biocd("--version", environment).out.find("(" + name + ")") == std::string::npos)
+      continue;
+    EXPECT_TRUE(run_biocd(question + " 2>/dev/null", environment).out == expected.out) << name;
+  }
+}
+
+TEST(BiocdClosures, AreKeptOnRequest) {
+  const auto pti = test::shared_molecules() / "5pti.pdb";
+  if (!std::filesystem::exists(pti)) GTEST_SKIP() << "shared data not found";
+  const auto run = [&](const std::string& more) {
+    return Json::parse(run_biocd("sample " + pti.string() + " -n 10 --sigma 5 --json " + more + " 2>/dev/null").out);
+  };
+  const Json open = run(""), kept = run("--closures keep"), bonded = run("--closures keep --keep-hbonds");
+  EXPECT_GT(open.at("summary").at("worst_closure_residual").get<double>(), 0.1);
+  EXPECT_FALSE(open.at("summary").contains("missing"));
+  EXPECT_LE(kept.at("summary").at("worst_closure_residual").get<double>(), 1e-6);
+  EXPECT_EQ(kept.at("summary").at("checked"), 10);
+  EXPECT_EQ(open.at("summary").at("closures").size(), 3U);
+  EXPECT_EQ(open.at("model").at("held_torsions"), 0);
+  EXPECT_GT(bonded.at("model").at("held_torsions").get<int>(), 0);
+  EXPECT_LT(bonded.at("model").at("rigid_groups").get<int>(), kept.at("model").at("rigid_groups").get<int>());
+  EXPECT_LE(bonded.at("summary").at("worst_closure_residual").get<double>(), 1e-6);
+}
+
+}  // namespace
+}  // namespace hinge::molecular
