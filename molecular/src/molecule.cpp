@@ -132,6 +132,12 @@ class MoleculeBuilder {
     }
     for (const Bond& bond : bonds_)
       if (!turning.contains({bond.first, bond.second})) rigid_.join(bond.first, bond.second);
+    // A torsion about a bond that was set aside is no hinge: the tree would open the cycle somewhere else.
+    for (const Bond& bond : cross_links_)
+      if (const auto set_aside = turning.find({bond.first, bond.second}); set_aside != turning.end()) {
+        note(set_aside->second, "closes a cycle and is no degree of freedom");
+        turning.erase(set_aside);
+      }
     for (const auto& [bond, t] : turning) {
       const auto [a, b] = bond;
       if (rigid_.find(a) == rigid_.find(b)) {
