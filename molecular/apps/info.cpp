@@ -19,8 +19,10 @@ const char* origin_name(BondOrigin origin) {
   switch (origin) {
     case BondOrigin::residue_template: return "residue template";
     case BondOrigin::peptide: return "peptide";
+    case BondOrigin::phosphodiester: return "phosphodiester";
     case BondOrigin::disulphide: return "disulphide";
     case BondOrigin::record: return "record";
+    case BondOrigin::component: return "component";
     case BondOrigin::covalent_radii: break;
   }
   return "covalent radii";

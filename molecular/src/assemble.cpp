@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From raw records to a Structure: one conformer, equal models, records resolved.
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 
 #include "hinge/core/error.hpp"
@@ -36,6 +39,7 @@ class Assembler {
       throw LoadError(path_ + ": no atoms left (" + std::to_string(s_.waters_dropped) + " waters and " +
                       std::to_string(s_.hetero_dropped) + " hetero atoms left out; hetero atoms are kept on request)");
     resolve_records();
+    resolve_conect();
     say_repairs();
     return std::move(s_);
   }
@@ -126,7 +130,10 @@ class Assembler {
     Residue residue{raw.name, raw.number, raw.insertion_code, 0, static_cast<std::uint32_t>(s_.atoms.size()), 0, kind};
     std::map<std::string, int> seen;
     for (const RawAtom& atom : raw.atoms) {
-      if (atom.altloc != '\0' && atom.altloc != altloc) continue;
+      if (atom.altloc != '\0' && atom.altloc != altloc) {
+        if (first && ++altlocs_dropped_ == 1) first_altloc_ = name_of(raw) + ":" + atom.name + " at " + atom.altloc;
+        continue;
+      }
       const std::string where = path_ + ": " + name_of(raw) + ":" + atom.name;
       if (!is_finite(atom.position)) throw LoadError(where + ": a coordinate is missing or not finite");
       const std::string element = element_of(atom, raw, where, first);
@@ -171,6 +178,9 @@ class Assembler {
   }
 
   void say_repairs() {
+    if (altlocs_dropped_ > 0)
+      s_.notes.push_back("alternative locations: " + std::to_string(altlocs_dropped_) +
+                         " atoms left out (first: " + first_altloc_ + ")");
     if (repaired_ > 0)
       s_.notes.push_back("elements of " + std::to_string(repaired_) +
                          " atoms taken from their names (first: " + first_repair_ + ")");
@@ -198,7 +208,7 @@ class Assembler {
     for (const RawLink& link : raw_.links) {
       const auto a = atom(link.first), b = atom(link.second);
       if (a && b && *a != *b)
-        s_.links.push_back({std::min(*a, *b), std::max(*a, *b), link.disulphide});
+        s_.links.push_back({std::min(*a, *b), std::max(*a, *b), link.disulphide, false, BondOrder::unknown});
       else
         ++dangling;
     }
@@ -213,11 +223,33 @@ class Assembler {
     }
   }
 
+  /// CONECT names serial numbers; one that several atoms have names none. Links that other records have are not
+  /// repeated.
+  void resolve_conect() {
+    if (raw_.conect.empty()) return;
+    constexpr std::uint32_t several = std::numeric_limits<std::uint32_t>::max();
+    std::unordered_map<int, std::uint32_t> atoms;
+    for (std::uint32_t i = 0; i < s_.atoms.size(); ++i)
+      if (const auto [at, is_new] = atoms.emplace(s_.atoms[i].serial, i); !is_new) at->second = several;
+    std::set<std::pair<std::uint32_t, std::uint32_t>> known;
+    for (const Link& link : s_.links) known.emplace(link.first, link.second);
+    for (const RawConnection& pair : raw_.conect) {
+      const auto a = atoms.find(pair.first), b = atoms.find(pair.second);
+      if (a == atoms.end() || b == atoms.end() || a->second == several || b->second == several) continue;
+      const auto [i, j] = std::minmax(a->second, b->second);
+      if (!known.emplace(i, j).second) continue;
+      const bool disulphide = s_.atoms[i].name == "SG" && s_.atoms[j].name == "SG";
+      s_.links.push_back({i, j, disulphide, true, pair.repeated ? BondOrder::multiple : BondOrder::unknown});
+    }
+  }
+
   RawFile raw_;
   const std::string& path_;
   const ReadOptions& options_;
   Structure s_;
   std::string difference_;  ///< first atom of the model being added that the first model does not have there
+  std::size_t altlocs_dropped_ = 0;
+  std::string first_altloc_;
   std::size_t repaired_ = 0;
   std::string first_repair_;
 };

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "hinge/molecular/nucleotide_table.hpp"
 #include "hinge/molecular/residue_table.hpp"
 #include "read_file.hpp"
 
@@ -15,9 +16,10 @@ namespace {
 /// C-N of a peptide is 1.33 angstrom and O3'-P 1.61; no unbonded contact of these atoms comes below 2.4.
 constexpr double polymer_bond_max = 2.0;
 
+/// By the name of today: is_nucleotide_atom changes no name of an amino acid's atoms.
 const RawAtom* find(const RawResidue& residue, std::string_view name) {
-  const auto found =
-      std::find_if(residue.atoms.begin(), residue.atoms.end(), [&](const RawAtom& a) { return a.name == name; });
+  const auto found = std::find_if(residue.atoms.begin(), residue.atoms.end(),
+                                  [&](const RawAtom& a) { return is_nucleotide_atom(a.name, name); });
   return found == residue.atoms.end() ? nullptr : &*found;
 }
 
@@ -39,18 +41,15 @@ bool is_in_polymer(const std::vector<RawResidue>& residues, std::size_t r) {
   if (r > 0 && follows(residues[r - 1], residue)) return true;
   if (r + 1 < residues.size() && follows(residue, residues[r + 1])) return true;
   for (std::size_t k = r + 1; k < residues.size() && residues[k].chain == residue.chain; ++k)
-    if (!residues[k].hetero && find_residue_template(residues[k].name) != nullptr) return true;
+    if (!residues[k].hetero &&
+        (find_residue_template(residues[k].name) != nullptr || find_nucleotide_template(residues[k].name) != nullptr))
+      return true;
   return false;
 }
 
 /// CHARMM's names of monatomic ions, whose first letters are those of other elements.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 5> charmm_ions{
     {{"CLA", "Cl"}, {"SOD", "Na"}, {"POT", "K"}, {"CAL", "Ca"}, {"CES", "Cs"}}};
-
-bool is_standard_nucleotide(std::string_view name) {
-  constexpr std::array<std::string_view, 9> names{"A", "C", "G", "U", "DA", "DC", "DG", "DT", "DU"};
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
 
 }  // namespace
 
@@ -63,7 +62,8 @@ ResidueKind residue_kind(const std::vector<RawResidue>& residues, std::size_t r)
   if (find_residue_template(residue.name) != nullptr ||
       (has(residue, "N") && has(residue, "CA") && has(residue, "C") && has(residue, "O")))
     kind = ResidueKind::amino_acid;
-  else if (residue.kind == ResidueKind::nucleotide || (sugar && has(residue, "P")))
+  else if (residue.kind == ResidueKind::nucleotide ||
+           (sugar && (has(residue, "P") || find_nucleotide_template(residue.name) != nullptr)))
     kind = ResidueKind::nucleotide;
   return kind == ResidueKind::other || is_in_polymer(residues, r) ? kind : ResidueKind::other;
 }
@@ -81,7 +81,7 @@ std::string element_by_name(const RawAtom& atom, const RawResidue& residue) {
     if (name == ion && residue.name == ion) return std::string(element);
   const std::size_t letter = name.find_first_not_of("0123456789");
   const char c = letter == std::string_view::npos ? '\0' : name[letter];
-  if (find_residue_template(residue.name) != nullptr || is_standard_nucleotide(residue.name)) {
+  if (find_residue_template(residue.name) != nullptr || find_nucleotide_template(residue.name) != nullptr) {
     if (residue.name == "MSE" && name == "SE") return "Se";
     if (std::string_view("CNOSHP").find(c) != std::string_view::npos) return {c};
   }

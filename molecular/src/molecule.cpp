@@ -19,10 +19,11 @@ namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
+/// Bonds between residues, but for those of a backbone from one residue to the next.
 bool is_cross_link(const Structure& s, const Bond& bond) {
-  if (bond.origin == BondOrigin::disulphide || bond.origin == BondOrigin::record) return true;
   const std::uint32_t r = s.atoms[bond.first].residue, t = s.atoms[bond.second].residue;
-  return (r < t ? t - r : r - t) > 1;  // the bond that closes a cyclic backbone, or one perceived between far residues
+  const bool backbone = bond.origin == BondOrigin::peptide || bond.origin == BondOrigin::phosphodiester;
+  return r != t && (!backbone || (r < t ? t - r : r - t) > 1);  // far apart: the bond that closes a cyclic backbone
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hinge/molecular/components.hpp"
 #include "hinge/molecular/read_structure.hpp"
 #include "hinge/molecular/structure.hpp"
 
@@ -55,6 +56,12 @@ struct RawLink {
   bool disulphide = false;
 };
 
+/// Two atoms a CONECT record joins, by serial number; repeated: more often than once, as double bonds are.
+struct RawConnection {
+  int first = 0, second = 0;
+  bool repeated = false;
+};
+
 struct RawElement {
   SecondaryStructure::Kind kind{};
   RawAddress first, last;
@@ -64,12 +71,22 @@ struct RawFile {
   std::string name;
   std::vector<RawModel> models;
   std::vector<RawLink> links;
+  std::vector<RawConnection> conect;
+  std::vector<Component> components;  ///< that an mmCIF file brings along
   std::vector<RawElement> elements;
   std::vector<std::string> notes;
 };
 
 /// Parses the bytes with gemmi (PDB or mmCIF). LoadError carries the parser's message.
 RawFile parse_with_gemmi(const std::string& bytes, const std::string& path, bool cif);
+
+/// The CONECT records of a PDB file, each pair once, first < second. A field that is no serial number ends its record:
+/// these records are hints, and programs put other things there.
+std::vector<RawConnection> read_conect(const std::string& text);
+
+/// Every component with bonds in a CIF file. LoadError: no CIF, a bond of fewer than two different atoms or of an
+/// unknown order.
+std::vector<Component> parse_components(const std::string& bytes, const std::string& path);
 
 /// Kind of residues[r], by its name, else by the backbone atoms it has. A HETATM residue that could be a polymer's but
 /// is bonded to no neighbour and has no ATOM residue behind it in its chain (SAH, AMP) is a ligand: other.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The only file that includes gemmi, which takes long to compile.
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <exception>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -116,10 +118,62 @@ std::string without_bond_lengths(const std::string& text) {
   return kept;
 }
 
-gemmi::Structure parse(const std::string& bytes, const std::string& path, bool cif, std::vector<std::string>& notes) {
+/// wwPDB's value_order or the type of a refinement dictionary; both in words of which the first letters count.
+BondOrder bond_order(std::string word, bool aromatic) {
+  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (aromatic) return BondOrder::multiple;
+  if (word.rfind("sing", 0) == 0) return BondOrder::single;
+  if (word.rfind("metal", 0) == 0) return BondOrder::coordination;
+  for (const char* multiple : {"doub", "trip", "quad", "arom", "delo", "pi", "1.5"})
+    if (word.rfind(multiple, 0) == 0) return BondOrder::multiple;
+  if (word.empty() || word == "poly" || word == "coval") return BondOrder::unknown;
+  throw std::runtime_error("chem_comp_bond of order '" + word + "', expected single, double, triple, aromatic, deloc");
+}
+
+std::string trimmed(const std::string& value) {
+  const std::string text = gemmi::cif::as_string(value);
+  const std::size_t first = text.find_first_not_of(' ');
+  return first == std::string::npos ? std::string() : text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
+std::vector<Component> components_of(gemmi::cif::Document& document, const std::string& source) {
+  std::map<std::string, Component> found;
+  for (gemmi::cif::Block& block : document.blocks) {
+    const std::string category = "_chem_comp_bond.";
+    gemmi::cif::Table table = block.find(
+        category, {"comp_id", "atom_id_1", "atom_id_2", "?type", "?value_order", "?pdbx_aromatic_flag", "?aromatic"});
+    for (const auto& row : table) {
+      const std::string name = trimmed(row[0]);
+      ComponentBond bond{trimmed(row[1]), trimmed(row[2]), BondOrder::unknown};
+      if (name.empty() || bond.first.empty() || bond.second.empty() || bond.first == bond.second)
+        throw std::runtime_error("chem_comp_bond of '" + name + "' between '" + bond.first + "' and '" + bond.second +
+                                 "', expected two different atoms");
+      const auto value = [&](std::size_t column) { return row.has2(column) ? trimmed(row[column]) : std::string(); };
+      const auto yes = [&](std::size_t column) { return value(column) == "Y" || value(column) == "y"; };
+      bond.order = bond_order(value(3).empty() ? value(4) : value(3), yes(5) || yes(6));
+      Component& component = found[name];
+      component.name = name;
+      component.source = source;
+      component.bonds.push_back(std::move(bond));
+    }
+  }
+  std::vector<Component> components;
+  for (auto& [name, component] : found) components.push_back(std::move(component));
+  return components;
+}
+
+/// A message on one line that names the file.
+[[noreturn]] void refuse(const std::exception& error, const std::string& path) {
+  std::string what = error.what();
+  std::replace(what.begin(), what.end(), '\n', ' ');  // some messages quote a line with its end
+  throw LoadError(what.find(path) != std::string::npos ? what : path + ": " + what);
+}
+
+gemmi::Structure parse(const std::string& bytes, const std::string& path, bool cif, RawFile& raw) {
   if (cif) {
     gemmi::cif::Document document = gemmi::cif::read_memory(bytes.data(), bytes.size(), path.c_str());
     check_whole_numbers(document);
+    raw.components = components_of(document, path);
     return gemmi::make_structure(std::move(document));
   }
   const std::string text = without_bond_lengths(bytes);
@@ -132,7 +186,7 @@ gemmi::Structure parse(const std::string& bytes, const std::string& path, bool c
     options.max_line_length = 72;
     try {
       gemmi::Structure st = gemmi::read_pdb_from_memory(text.data(), text.size(), path, options);
-      notes.emplace_back("old PDB format: columns 73-80 ignored, elements taken from atom names");
+      raw.notes.emplace_back("old PDB format: columns 73-80 ignored, elements taken from atom names");
       return st;
     } catch (const std::exception&) {
       throw std::runtime_error(first.what());
@@ -142,15 +196,22 @@ gemmi::Structure parse(const std::string& bytes, const std::string& path, bool c
 
 }  // namespace
 
+std::vector<Component> parse_components(const std::string& bytes, const std::string& path) {
+  try {
+    gemmi::cif::Document document = gemmi::cif::read_memory(bytes.data(), bytes.size(), path.c_str());
+    return components_of(document, path);
+  } catch (const std::exception& error) {
+    refuse(error, path);
+  }
+}
+
 RawFile parse_with_gemmi(const std::string& bytes, const std::string& path, bool cif) {
   RawFile raw;
   gemmi::Structure st;
   try {
-    st = parse(bytes, path, cif, raw.notes);
+    st = parse(bytes, path, cif, raw);
   } catch (const std::exception& error) {
-    std::string what = error.what();
-    std::replace(what.begin(), what.end(), '\n', ' ');  // some messages quote a line with its end
-    throw LoadError(what.find(path) != std::string::npos ? what : path + ": " + what);
+    refuse(error, path);
   }
   st.merge_chain_parts();
   raw.name = st.name;

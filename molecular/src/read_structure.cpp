@@ -78,9 +78,13 @@ Structure read_structure(const std::filesystem::path& path, const ReadOptions& o
   const bool cif = looks_like_cif(bytes);
   if (!cif) check_pdb(bytes, path.string());
   RawFile raw = parse_with_gemmi(bytes, path.string(), cif);
+  if (!cif) raw.conect = read_conect(bytes);
+  ComponentLibrary components(options.dictionary);
+  for (const std::filesystem::path& file : options.components) components.add_file(file);
+  for (Component& component : raw.components) components.add(std::move(component));
   if (raw.name.empty() || raw.name == path.string()) raw.name = stem(path);
   Structure structure = assemble(std::move(raw), path.string(), options);
-  perceive_bonds(structure);
+  perceive_bonds(structure, std::move(components));
   return structure;
 }
 

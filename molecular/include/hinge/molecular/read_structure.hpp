@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "hinge/molecular/structure.hpp"
 
@@ -14,6 +15,8 @@ struct ReadOptions {
   std::optional<char> altloc;  ///< none: per residue the one of highest occupancy, then the first
   bool hetero = false;         ///< keep ligands, ions and sugars; waters are always left out and counted
   bool keep_hydrogens = true;
+  std::vector<std::filesystem::path> components = {};  ///< CIF files; before the structure's own and the dictionary
+  std::filesystem::path dictionary = {};               ///< of monomers (ComponentLibrary); empty: none
 };
 
 /// Atoms, coordinates (angstrom) and bonds. LoadError names file, line (or entity), what was found and expected: files

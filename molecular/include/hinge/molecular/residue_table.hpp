@@ -16,7 +16,10 @@ struct ResidueTemplate {
 };
 
 /// Backbone bonds of every amino acid, terminal atoms in PDB and CHARMM names included.
-inline constexpr std::string_view backbone_bonds = "N-CA CA-C C-O C-OXT C-OT1 C-OT2 C-O1 C-O2";
+inline constexpr std::string_view backbone_bonds = "N-CA CA-C C-O C-OXT C-OT1 C-OT2";
+
+/// GROMOS' terminal oxygens, which take the place of O: beside it these names are other atoms', as of sulphotyrosine.
+inline constexpr std::string_view gromos_terminal_bonds = "C-O1 C-O2";
 
 /// The template of a residue name, protonation variants, D and modified residues included; null when there is none.
 /// A modified residue has atoms beyond its template.

@@ -41,25 +41,41 @@ struct Chain {
 
 /// Where a bond comes from; the output says so for everything but templates and peptides.
 enum class BondOrigin : std::uint8_t {
-  residue_template,  ///< our own residue table
+  residue_template,  ///< our own residue tables
   peptide,           ///< C(i)-N(i+1)
+  phosphodiester,    ///< O3'(i)-P(i+1)
   disulphide,        ///< SSBOND, struct_conn or SG-SG by distance
   record,            ///< LINK, CONECT or struct_conn
+  component,         ///< a chemical component's definition
   covalent_radii     ///< perceived from distance
 };
+
+/// What is known of a bond's order. Multiple: double, triple, aromatic or delocalised. A metal's bonds are
+/// coordination.
+enum class BondOrder : std::uint8_t { unknown, single, multiple, coordination };
 
 /// first < second, positions in Structure::atoms.
 struct Bond {
   std::uint32_t first = 0;
   std::uint32_t second = 0;
   BondOrigin origin = BondOrigin::residue_template;
+  BondOrder order = BondOrder::unknown;
 };
 
-/// A bond the file records (SSBOND, LINK, struct_conn) between two kept atoms.
+/// A bond the file records (SSBOND, LINK, struct_conn, CONECT) between two kept atoms.
 struct Link {
   std::uint32_t first = 0;
   std::uint32_t second = 0;
   bool disulphide = false;
+  bool conect = false;                   ///< by CONECT alone, which lists the bonds inside residues too
+  BondOrder order = BondOrder::unknown;  ///< where CONECT repeats partners
+};
+
+/// Where the bonds inside residues of one name come from; residues of one heavy atom have none.
+struct BondSource {
+  std::string residue;
+  std::string source;  ///< "residue table", "covalent radii", a file
+  std::size_t count = 0;
 };
 
 /// A helix or strand from HELIX/SHEET records: residues [first, last] of one chain, positions in Structure::residues.
@@ -75,8 +91,9 @@ struct Structure {
   std::vector<Atom> atoms;
   std::vector<Residue> residues;
   std::vector<Chain> chains;
-  std::vector<Link> links;  ///< as recorded; bonds says which of them hold
-  std::vector<Bond> bonds;  ///< sorted, unique
+  std::vector<Link> links;               ///< as recorded; bonds says which of them hold
+  std::vector<Bond> bonds;               ///< sorted, unique
+  std::vector<BondSource> bond_sources;  ///< sorted by residue and source
   std::vector<SecondaryStructure> secondary_structure;
   std::vector<std::vector<Vec3>> models;  ///< models[m][atom]; at least one
   std::vector<int> model_numbers;         ///< as in the file, one per model
