@@ -8,6 +8,7 @@
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/radii.hpp"
 #include "hinge/molecular/structure.hpp"
+#include "rotatable_bonds.hpp"
 
 namespace hinge::molecular {
 
@@ -31,8 +32,13 @@ AtomClass classify_oxygen(const Structure& s, const Neighbours& near, std::uint3
   for (const std::uint32_t j : near[i])
     if (s.atoms[j].element == "H") return AtomClass::oxygen_hydroxyl;
   const std::string_view residue = s.residues[s.atoms[i].residue].name, atom = s.atoms[i].name;
-  const bool hydroxyl =
+  bool hydroxyl =
       (residue == "SER" && atom == "OG") || (residue == "THR" && atom == "OG1") || (residue == "TYR" && atom == "OH");
+  // Hydrogens that the file leaves out: the oxygens of sugars, and terminal ones as far from carbon as single bonds.
+  const ResidueKind kind = s.residues[s.atoms[i].residue].kind;
+  if (kind == ResidueKind::nucleotide && near[i].size() == 1) hydroxyl = atom.ends_with('\'') || atom.ends_with('*');
+  if (kind == ResidueKind::other && near[i].size() == 1 && s.atoms[near[i].front()].element == "C")
+    hydroxyl = (s.models.front()[i] - s.models.front()[near[i].front()]).norm() > single_carbon_oxygen;
   return hydroxyl ? AtomClass::oxygen_hydroxyl : AtomClass::oxygen;
 }
 

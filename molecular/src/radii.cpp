@@ -134,11 +134,11 @@ std::string type_name(AtomClass c, const std::string& element) {
 const std::vector<RadiiSet>& radii_sets() {
   static const std::vector<RadiiSet> sets{
       {"bondi", "1", "Bondi, J. Phys. Chem. 68:441 (1964); Mantina et al. (2009)", 4, bondi},
-      {"probe", "2", "Probe, explicit hydrogens, electron-cloud positions", 4, probe_explicit},
+      {"probe", "3", "Probe, explicit hydrogens, electron-cloud positions", 4, probe_explicit},
       // United atoms and AMBER's Rmin overlap at four bonds in every native structure (O(i)...C(i+1) above all), so
       // there pairs count from five bonds on.
       {"probe-united", "1", "Probe, implicit hydrogens", 5, probe_united},
-      {"amber", "1", "AMBER ff99SB-ILDN Rmin/2", 5, amber},
+      {"amber", "2", "AMBER ff99SB-ILDN Rmin/2", 5, amber},
   };
   return sets;
 }

@@ -3,6 +3,7 @@
 #include "hinge/molecular/selection.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdint>
 #include <string>
@@ -25,7 +26,7 @@ class Selector {
   Selector(const Molecule& molecule, bool omega)
       : molecule_(molecule), s_(molecule.structure()), omega_(omega), chosen_(molecule.torsions().size(), false) {
     for (std::uint32_t r = 0; r < s_.residues.size(); ++r)
-      if (s_.residues[r].kind == ResidueKind::amino_acid) amino_acids_.push_back(r);
+      if (in_polymer(r)) polymer_.push_back(r);
   }
 
   void add(std::string_view word) {
@@ -46,23 +47,42 @@ class Selector {
   }
 
  private:
+  bool in_polymer(std::uint32_t r) const {
+    return s_.residues[r].kind == ResidueKind::amino_acid || s_.residues[r].kind == ResidueKind::nucleotide;
+  }
+
+  /// "C5-C6", either way round.
+  static bool is_bond(const Structure& s, const Torsion& torsion, std::string_view word) {
+    const std::string &a = s.atoms[torsion.atoms[1]].name, &b = s.atoms[torsion.atoms[2]].name;
+    return word.size() == a.size() + b.size() + 1 && (word == a + "-" + b || word == b + "-" + a);
+  }
+
   /// Frees the torsions of residues for which `in` holds whose name falls under `names`.
   template <class InResidues>
   void choose(const InResidues& in, std::string_view names, std::string_view word) {
-    const bool known = names == "all" || names == "backbone" || names == "phi" || names == "psi" || names == "omega" ||
-                       names == "chi" ||
-                       (names.size() == 4 && names.starts_with("chi") && names[3] >= '1' && names[3] <= '5');
-    if (!known)
-      refuse(word, "all, none, backbone, chi, loops, every:N, count:K, a torsion name or CHAIN:RESIDUES[:NAME]");
+    static constexpr std::array<std::string_view, 18> words{"all",  "backbone", "ligands", "phi",   "psi",  "omega",
+                                                            "chi",  "chi1",     "chi2",    "chi3",  "chi4", "chi5",
+                                                            "beta", "gamma",    "epsilon", "alpha", "zeta", "kappa"};
+    if (names == "delta") refuse(word, "a torsion that turns; delta lies in the ring of the sugar, which is rigid");
+    const bool by_atoms = names.find('-') != std::string_view::npos;
+    if (!by_atoms && std::find(words.begin(), words.end(), names) == words.end())
+      refuse(word,
+             "all, none, backbone, chi, ligands, loops, every:N, count:K, a torsion name or CHAIN:RESIDUES[:NAME]");
+    bool found = false;
     for (std::size_t k = 0; k < chosen_.size(); ++k) {
       const Torsion& torsion = molecule_.torsions()[k];
       if (!in(torsion.residue)) continue;
       const std::string_view name = torsion.name;
-      const bool chi = name.starts_with("chi");
-      bool wanted = name == names || (names == "chi" && chi);
-      if (names == "all" || (names == "backbone" && !chi)) wanted = name != "omega" || omega_;
+      const bool polymer = in_polymer(torsion.residue), bond = name.find('-') != std::string_view::npos;
+      const bool side_chain = polymer && (name.starts_with("chi") || name == "kappa" || bond);
+      bool wanted = by_atoms ? is_bond(s_, torsion, names) : name == names;
+      if (names == "chi") wanted = side_chain;
+      if (names == "ligands") wanted = !polymer;
+      if (names == "all" || (names == "backbone" && polymer && !side_chain)) wanted = name != "omega" || omega_;
+      found = found || wanted;
       if (wanted) chosen_[k] = true;
     }
+    if (by_atoms && !found) refuse(word, "the two atoms of a bond that turns there");
   }
 
   void add_loops(std::string_view word) {
@@ -75,15 +95,15 @@ class Selector {
 
   void add_every(std::string_view word, std::size_t n) {
     std::vector<std::uint32_t> residues;
-    for (std::size_t k = n; k <= amino_acids_.size(); k += n) residues.push_back(amino_acids_[k - 1]);
+    for (std::size_t k = n; k <= polymer_.size(); k += n) residues.push_back(polymer_[k - 1]);
     choose_residues(residues, word);
   }
 
   void add_count(std::string_view word, std::size_t count) {
-    const std::size_t n = amino_acids_.size();
-    if (count > n) refuse(word, "at most the " + std::to_string(n) + " amino acids there are");
+    const std::size_t n = polymer_.size();
+    if (count > n) refuse(word, "at most the " + std::to_string(n) + " amino acids and nucleotides there are");
     std::vector<std::uint32_t> residues;
-    for (std::size_t i = 0; i < count; ++i) residues.push_back(amino_acids_[(2 * i + 1) * n / (2 * count)]);
+    for (std::size_t i = 0; i < count; ++i) residues.push_back(polymer_[(2 * i + 1) * n / (2 * count)]);
     choose_residues(residues, word);
   }
 
@@ -101,7 +121,7 @@ class Selector {
   const Structure& s_;
   bool omega_;
   std::vector<bool> chosen_;
-  std::vector<std::uint32_t> amino_acids_;
+  std::vector<std::uint32_t> polymer_;
 };
 
 }  // namespace

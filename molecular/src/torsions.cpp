@@ -4,11 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <utility>
 
+#include "hinge/molecular/bond_exclusions.hpp"
+#include "hinge/molecular/bonds.hpp"
+#include "hinge/molecular/nucleotide_table.hpp"
 #include "hinge/molecular/residue_table.hpp"
+#include "rotatable_bonds.hpp"
 
 namespace hinge::molecular {
 
@@ -30,38 +36,53 @@ class Finder {
   Finder(const Structure& structure, std::vector<std::string>& notes) : s_(structure), notes_(notes) {}
 
   std::vector<Torsion> run() {
-    find_peptide_bonds();
-    for (std::uint32_t r = 0; r < s_.residues.size(); ++r)
-      if (s_.residues[r].kind == ResidueKind::amino_acid) add_residue(r);
+    find_neighbours();
+    for (std::uint32_t r = 0; r < s_.residues.size(); ++r) {
+      if (s_.residues[r].kind == ResidueKind::amino_acid) add_amino_acid(r);
+      if (s_.residues[r].kind == ResidueKind::nucleotide) add_nucleotide(r);
+    }
+    add_bonds();
     return std::move(torsions_);
   }
 
  private:
   using Atom = std::optional<std::uint32_t>;
 
-  /// previous_[r] and next_[r]: residues joined to r by a peptide bond.
-  void find_peptide_bonds() {
+  /// previous_[r] and next_[r]: residues joined to r by a bond of the backbone.
+  void find_neighbours() {
     previous_.resize(s_.residues.size());
     next_.resize(s_.residues.size());
     for (const Bond& bond : s_.bonds) {
-      if (bond.origin != BondOrigin::peptide) continue;
-      const bool first_is_c = s_.atoms[bond.first].name == "C";
-      const std::uint32_t c = s_.atoms[first_is_c ? bond.first : bond.second].residue;
-      const std::uint32_t n = s_.atoms[first_is_c ? bond.second : bond.first].residue;
-      next_[c] = n;
-      previous_[n] = c;
+      const bool peptide = bond.origin == BondOrigin::peptide;
+      if (!peptide && bond.origin != BondOrigin::phosphodiester) continue;
+      const std::string& first = s_.atoms[bond.first].name;
+      const bool in_order = peptide ? first == "C" : is_nucleotide_atom(first, "O3'");
+      const std::uint32_t before = s_.atoms[in_order ? bond.first : bond.second].residue;
+      const std::uint32_t behind = s_.atoms[in_order ? bond.second : bond.first].residue;
+      next_[before] = behind;
+      previous_[behind] = before;
     }
   }
 
   Atom find(std::optional<std::uint32_t> residue, std::string_view name) const {
     if (!residue) return std::nullopt;
-    for (std::uint32_t i = s_.residues[*residue].first_atom; i < s_.residues[*residue].last_atom; ++i)
-      if (s_.atoms[i].name == name) return i;
+    const Residue& r = s_.residues[*residue];
+    const bool nucleotide = r.kind == ResidueKind::nucleotide;
+    for (std::uint32_t i = r.first_atom; i < r.last_atom; ++i)
+      if (nucleotide ? is_nucleotide_atom(s_.atoms[i].name, name) : s_.atoms[i].name == name) return i;
     return std::nullopt;
+  }
+  /// The first of these names that the residue has.
+  Atom find_any(std::uint32_t residue, std::initializer_list<std::string_view> names) const {
+    Atom found;
+    for (const std::string_view name : names)
+      if (!found) found = find(residue, name);
+    return found;
   }
 
   void add(std::uint32_t residue, std::string name, Atom a, Atom b, Atom c, Atom d) {
     if (!a || !b || !c || !d) return;
+    named_.insert(std::minmax(*b, *c));
     const auto& x = s_.models.front();
     const double angle = dihedral(x[*a], x[*b], x[*c], x[*d]);
     if (std::isnan(angle)) {
@@ -71,7 +92,7 @@ class Finder {
     torsions_.push_back({residue, std::move(name), {*a, *b, *c, *d}, angle});
   }
 
-  void add_residue(std::uint32_t r) {
+  void add_amino_acid(std::uint32_t r) {
     const ResidueTemplate* known = find_residue_template(s_.residues[r].name);
     const Atom n = find(r, "N"), ca = find(r, "CA"), c = find(r, "C");
     const bool proline = known != nullptr && known->letter == 'P';
@@ -98,8 +119,63 @@ class Finder {
     }
   }
 
+  void add_nucleotide(std::uint32_t r) {
+    const Atom p = find(r, "P"), o5 = find(r, "O5'"), c5 = find(r, "C5'"), c4 = find(r, "C4'"), c3 = find(r, "C3'");
+    const Atom o3 = find(r, "O3'"), c2 = find(r, "C2'"), c1 = find(r, "C1'"), o4 = find(r, "O4'");
+    const auto or_else = [](Atom first, Atom second) { return first ? first : second; };
+    const Atom before = find(previous_[r], "O3'"), behind = find(next_[r], "P");
+    add(r, "alpha", or_else(before, find_any(r, {"OP3", "OP1"})), p, o5, c5);
+    add(r, "beta", or_else(p, find_any(r, {"HO5'", "H5T"})), o5, c5, c4);
+    add(r, "gamma", o5, c5, c4, c3);
+    add(r, "epsilon", c4, c3, o3, or_else(behind, find_any(r, {"HO3'", "H3T"})));
+    add(r, "zeta", c3, o3, behind, find(next_[r], "O5'"));
+    add_glycosidic(r, o4, c1);
+    add(r, "kappa", c1, c2, find(r, "O2'"), find_any(r, {"HO2'", "HO'2", "2HO'"}));
+  }
+
+  /// chi: O4' C1' N9 C4 of purines, O4' C1' N1 C2 of pyrimidines, O4' C1' C5 C4 of pseudouridine.
+  void add_glycosidic(std::uint32_t r, Atom o4, Atom c1) {
+    if (!c1) return;
+    for (const auto& [joined, next] : {std::pair("N9", "C4"), std::pair("N1", "C2"), std::pair("C5", "C4")}) {
+      const Atom base = find(r, joined);
+      if (base && bonded(*c1, *base)) return add(r, "chi", o4, c1, base, find(r, next));
+    }
+  }
+
+  bool bonded(std::uint32_t i, std::uint32_t j) const {
+    const std::pair<std::uint32_t, std::uint32_t> wanted = std::minmax(i, j);
+    const auto at = std::lower_bound(s_.bonds.begin(), s_.bonds.end(), wanted, [](const Bond& bond, const auto& pair) {
+      return std::pair(bond.first, bond.second) < pair;
+    });
+    return at != s_.bonds.end() && std::pair(at->first, at->second) == wanted;
+  }
+
+  /// Rotatable bonds without a name: they are called by their atoms, "C5-C6", and belong to the residue outside of
+  /// the polymer, else to the later one.
+  void add_bonds() {
+    const std::vector<Bond> bonds = rotatable_bonds(s_, named_);
+    if (bonds.empty()) return;
+    const auto neighbours = bonded_neighbours(s_);
+    for (const Bond& bond : bonds) {
+      const std::uint32_t r = s_.atoms[bond.first].residue, t = s_.atoms[bond.second].residue;
+      const bool first = s_.residues[r].kind == ResidueKind::other && s_.residues[t].kind != ResidueKind::other;
+      const auto far = [&](std::uint32_t atom, std::uint32_t across) {
+        const auto& list = neighbours[atom];
+        const auto found = std::find_if(list.begin(), list.end(), [&](std::uint32_t i) {
+          return i != across && s_.atoms[i].element != "H" && !is_metal(s_.atoms[i].element);
+        });
+        return found == list.end() ? Atom() : Atom(*found);
+      };
+      add(first ? r : t, s_.atoms[bond.first].name + "-" + s_.atoms[bond.second].name, far(bond.first, bond.second),
+          bond.first, bond.second, far(bond.second, bond.first));
+    }
+    std::stable_sort(torsions_.begin(), torsions_.end(),
+                     [](const Torsion& a, const Torsion& b) { return a.residue < b.residue; });
+  }
+
   const Structure& s_;
   std::vector<std::string>& notes_;
+  AtomPairs named_;
   std::vector<std::optional<std::uint32_t>> previous_, next_;
   std::vector<Torsion> torsions_;
 };
