@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 
+#include "hinge/molecular/components.hpp"
 #include "hinge/simd/instruction_set.hpp"
 #include "hinge/tool/pick_instruction_set.hpp"
 #include "hinge/tool/run_tool.hpp"
@@ -19,9 +20,11 @@ using biocd::Options;
 
 constexpr const char* footer =
     "Exit status: 0 free, 1 collision found, 2 usage, 3 bad input.\n"
-    "Selections (--free): all none loops every:N count:K backbone chi phi psi omega chi1..., A:45, A:10-20, "
-    "A:45:chi1,\n"
-    "joined by commas. omega stays at its reference unless --omega is given or it is named.";
+    "Selections (--free): all none loops every:N count:K backbone chi ligands, a torsion's name (phi psi omega "
+    "chi1...,\n"
+    "alpha beta gamma epsilon zeta chi kappa), A:45, A:10-20, A:45:chi1, a ligand's bond B:401:C5-C6; joined by "
+    "commas.\n"
+    "omega stays at its reference unless --omega is given or it is named.";
 
 void add_model_options(CLI::App& command, Options& o) {
   command.add_option("FILE", o.file, "PDB or mmCIF file, plain or .gz")->required();
@@ -66,6 +69,15 @@ void add_model_options(CLI::App& command, Options& o) {
       },
       "alternative location to use (default: highest occupancy, then first)");
   command.add_flag("--hetero", o.read.hetero, "keep ligands, ions and sugars");
+  command
+      .add_option("--components", o.read.components,
+                  "CIF file with chemical components: bonds of residues by name (may be given more than once)")
+      ->allow_extra_args(false);
+  command
+      .add_option_function<std::string>(
+          "--dictionary", [&o](const std::string& text) { o.read.dictionary = text == "none" ? std::string() : text; },
+          "folder of a monomer dictionary, or none (default: $CLIBD_MON, else Debian's refmac-dictionary)")
+      ->default_str(o.read.dictionary.string());
   command.add_flag("--exempt-reference", o.check.exempt_reference,
                    "pairs that collide in the file's (first) model do not count");
   command.add_option("--engine", o.check.engine, "wide, lazy (the paper's) or brute")->capture_default_str();
@@ -92,6 +104,7 @@ void add_check_options(CLI::App& command, Options& o) {
 
 Exit run(int argc, char** argv) {
   Options o;
+  o.read.dictionary = hinge::molecular::installed_dictionary();
   std::function<Exit(const Options&)> command;
   CLI::App app{"biocd: self-collision of proteins and other molecules as articulated mechanisms"};
   app.footer(footer);

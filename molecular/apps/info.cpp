@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "hinge/molecular/summary.hpp"
 #include "options.hpp"
 #include "report.hpp"
 
@@ -73,13 +74,19 @@ void print_table(const Options& options, const Job& job) {
   fmt::print("{}", heading(options, job));
   fmt::print("models: {}; waters left out: {}; hetero atoms left out: {}\n", s.models.size(), s.waters_dropped,
              s.hetero_dropped);
+  for (const auto& [name, of_class] : residues_by_class(s)) {
+    fmt::print("{}: {} residues, chains", name, of_class.residues);
+    for (const auto& [chain, count] : of_class.chains) fmt::print(" {}", chain);
+    const bool polymer = name == "protein" || name == "DNA" || name == "RNA";
+    for (const auto& [residue, count] : of_class.names)
+      if (!polymer) fmt::print("{} {} x{}", residue == of_class.names.begin()->first ? ";" : ",", residue, count);
+    fmt::print("\n");
+  }
   std::map<BondOrigin, std::size_t> origins;
   for (const Bond& bond : s.bonds) ++origins[bond.origin];
   for (const auto& [origin, count] : origins) fmt::print("bonds from {}: {}\n", origin_name(origin), count);
-  std::map<std::string, std::size_t> names;
-  for (const Torsion& torsion : job.molecule->torsions()) ++names[torsion.name];
   fmt::print("torsions:");
-  for (const auto& [name, count] : names) fmt::print(" {} {}", name, count);
+  for (const auto& [name, count] : torsions_by_kind(s, job.molecule->torsions())) fmt::print(" {} {}", name, count);
   fmt::print("\nexcluded pairs: {}; secondary structure elements: {}\n", job.checker.exclusions().excluded_pairs(),
              s.secondary_structure.size());
   for (const hinge::Hit& hit : job.checker.reference_collisions())
@@ -98,6 +105,13 @@ Exit run_info(const Options& options) {
     Json json{{"tool", "biocd"}, {"command", "info"}, {"model", model_json(options, job)}};
     json["notes"] = s.notes;
     for (const std::string& note : job.molecule->notes()) json["notes"].push_back(note);
+    for (const auto& [name, of_class] : residues_by_class(s))
+      json["residue_classes"][name] = {
+          {"residues", of_class.residues}, {"chains", of_class.chains}, {"names", of_class.names}};
+    json["torsions"] = torsions_by_kind(s, job.molecule->torsions());
+    json["bond_sources"] = Json::array();
+    for (const BondSource& source : s.bond_sources)
+      json["bond_sources"].push_back({{"residue", source.residue}, {"source", source.source}, {"count", source.count}});
     json["constant_contacts"] = constant_contacts_json(job);
     if (options.atoms) {
       json["atoms"] = atoms_json(job);
