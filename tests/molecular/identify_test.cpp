@@ -20,6 +20,7 @@
 #include "hinge/molecular/ideal_protein.hpp"
 #include "hinge/molecular/residue_table.hpp"
 #include "hinge/molecular/torsions.hpp"
+#include "molecular/dictionary_bonds.hpp"
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
@@ -169,33 +170,12 @@ TEST(Models, ThatDifferAreNamedWithBothCounts) {
   }
 }
 
-/// Heavy-atom bonds of a monomer in the dictionary's CIF.
-std::set<std::set<std::string>> dictionary_bonds(const std::filesystem::path& path) {
-  std::set<std::string> hydrogens;
-  std::set<std::set<std::string>> bonds;
-  std::ifstream in(path);
-  std::string line, category;
-  while (std::getline(in, line)) {
-    if (line.starts_with("loop_")) category.clear();
-    if (line.starts_with("_")) category = line.substr(0, line.find('.'));
-    std::istringstream words(line);
-    std::string residue, a, b;
-    words >> residue >> a >> b;
-    if (line.empty() || line[0] == '_' || line[0] == '#' || line.starts_with("loop_")) continue;
-    if (category == "_chem_comp_atom" && b == "H") hydrogens.insert(a);
-    if (category == "_chem_comp_bond" && !hydrogens.contains(a) && !hydrogens.contains(b)) bonds.insert({a, b});
-  }
-  return bonds;
-}
-
 TEST(ResidueTable, HasTheBondsOfTheMonomerDictionary) {
-  const std::filesystem::path dictionary = "/usr/share/refmac/monomers";
-  if (!std::filesystem::exists(dictionary)) GTEST_SKIP() << "refmac-dictionary is not installed";
+  if (!std::filesystem::exists(test::dictionary)) GTEST_SKIP() << "refmac-dictionary is not installed";
   for (const char c : std::string_view("ARNDCQEGHILKMFPSTWYV")) {
     const ResidueTemplate& known = *find_residue_template(c);
     std::set<std::set<std::string>> expected, own;
-    for (const auto& bond : dictionary_bonds(dictionary / std::string(1, static_cast<char>(known.name[0] - 'A' + 'a')) /
-                                             (std::string(known.name) + ".cif")))
+    for (const auto& bond : test::dictionary_bonds(std::string(known.name)))
       if (!bond.contains("OXT")) expected.insert(bond);
     ASSERT_FALSE(expected.empty()) << known.name;
     const auto add = [&](std::string_view a, std::string_view b) { own.insert({std::string(a), std::string(b)}); };
