@@ -69,7 +69,8 @@ void check_primitive(std::span<const P> samples, std::span<const Pose> poses) {
     }
 }
 
-/// Symmetric, repeatable; lists of exclusions sorted, symmetric and in agreement with admits. For n primitives.
+/// Symmetric, repeatable; lists of exclusions (and the scope) sorted, symmetric and in agreement with admits. For n
+/// primitives.
 template <PairFilter F>
 void check_pair_filter(const F& filter, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i)
@@ -80,7 +81,9 @@ void check_pair_filter(const F& filter, std::size_t n) {
       if constexpr (ListsExclusions<F>) {
         const std::span<const PrimitiveId> list = filter.excluded(a);
         EXPECT_TRUE(std::is_sorted(list.begin(), list.end()));
-        EXPECT_EQ(filter.admits(a, b), std::find(list.begin(), list.end(), b) == list.end()) << i << " " << j;
+        bool admitted = std::find(list.begin(), list.end(), b) == list.end();
+        if constexpr (ScopesPairs<F>) admitted = admitted && filter.in_scope(a, b);
+        EXPECT_EQ(filter.admits(a, b), admitted) << i << " " << j;
         EXPECT_EQ(std::find(list.begin(), list.end(), a), list.end());
       }
     }

@@ -25,6 +25,14 @@ concept ListsExclusions = PairFilter<F> && requires(const F& filter, PrimitiveId
   noexcept->std::convertible_to<std::span<const PrimitiveId>>;
 };
 
+/// Optional refinement of filters that list exclusions: refuses further pairs, too many to list, by a rule that is
+/// cheap to ask. admits(i, j) is then in_scope(i, j) and that j is not listed with i.
+template <class F>
+concept ScopesPairs = ListsExclusions<F> && requires(const F& filter, PrimitiveId i, PrimitiveId j) {
+  { filter.in_scope(i, j) }
+  noexcept->std::same_as<bool>;
+};
+
 /// Optional refinement: can refuse all pairs of two links at once; where it does not, pairs are still asked for.
 template <class F>
 concept AdmitsLinks = PairFilter<F> && requires(const F& filter, LinkId a, LinkId b) {
