@@ -25,17 +25,19 @@ inline std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
   return counter;
 }
 
-/// The random numbers of one sample: a pure function of (seed, index), drawn in order. Built of + - * / and sqrt alone,
+/// The random numbers of one sample: a pure function of (seed, index), drawn in order; of several independent streams,
+/// so that how many one part of a sample draws is no matter to the others. Built of + - * / and sqrt alone,
 /// so that the numbers are the same bits on every CPU.
 class SampleStream {
  public:
-  SampleStream(std::uint64_t seed, std::uint64_t index) noexcept
+  SampleStream(std::uint64_t seed, std::uint64_t index, std::uint32_t stream = 0) noexcept
       : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)},
-        index_{static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32)} {}
+        index_{static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32)},
+        stream_(stream) {}
 
   std::uint64_t bits() noexcept {
     if (used_ == 2) {
-      const auto words = philox({block_++, 0U, index_[0], index_[1]}, key_);
+      const auto words = philox({block_++, stream_, index_[0], index_[1]}, key_);
       for (std::size_t k = 0; k < 2; ++k) ready_[k] = std::uint64_t{words[2 * k]} << 32 | words[2 * k + 1];
       used_ = 0;
     }
@@ -71,6 +73,7 @@ class SampleStream {
 
   std::array<std::uint32_t, 2> key_;
   std::array<std::uint32_t, 2> index_;
+  std::uint32_t stream_;
   std::array<std::uint64_t, 2> ready_{};
   std::size_t used_ = 2;
   std::uint32_t block_ = 0;
