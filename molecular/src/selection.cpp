@@ -112,9 +112,23 @@ class Selector {
   }
 
   void add_residues(std::string_view word) {
+    // No residue's number starts with a lower-case letter: torsions of a whole chain.
+    if (const std::size_t colon = word.find(':');
+        colon + 1 < word.size() && word[colon + 1] >= 'a' && word[colon + 1] <= 'z')
+      return add_chain(word.substr(0, colon), word.substr(colon + 1), word);
     const ResidueRange range = read_residue_range(s_, word);
     const std::string_view name = range.rest.empty() ? "all" : range.rest.substr(1);
     choose([&](std::uint32_t r) { return range.first <= r && r <= range.last; }, name, word);
+  }
+
+  void add_chain(std::string_view chain, std::string_view names, std::string_view word) {
+    const auto is_in = [&](std::uint32_t r) {
+      return s_.chains[s_.residues[r].chain].name == (chain == "_" ? std::string_view() : chain);
+    };
+    bool seen = false;
+    for (std::uint32_t r = 0; r < s_.residues.size(); ++r) seen = seen || is_in(r);
+    if (!seen) refuse(word, "a chain of the file; there is no chain '" + std::string(chain) + "'");
+    choose(is_in, names, word);
   }
 
   const Molecule& molecule_;

@@ -21,6 +21,7 @@ namespace hinge::molecular {
 ///   count:K    K of them at regular intervals: number floor((i + 1/2) n / K) of n, i = 0 ... K - 1
 ///   A:45  A:10-20  A:45:chi1  A:10-20:backbone  B:401:C5-C6    residues of a chain ("_" for a blank name; insertion
 ///   codes as in 60A)
+///   A:all  A:chi  A:phi ...    the same of a whole chain
 /// omega is freed only when `omega` is set or it is named. ModelError names the word and what was expected.
 std::vector<std::size_t> select_torsions(const Molecule& molecule, std::string_view spec, bool omega);
 
