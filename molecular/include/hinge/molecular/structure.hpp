@@ -37,6 +37,7 @@ struct Chain {
   std::string name;
   std::uint32_t first_residue = 0;
   std::uint32_t last_residue = 0;
+  std::uint32_t file = 0;  ///< position among the files that were joined
 };
 
 /// Where a bond comes from; the output says so for everything but templates and peptides.
