@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "hinge/core/error.hpp"
 
@@ -55,7 +56,8 @@ int bond_distance(const Structure& structure, std::uint32_t i, std::uint32_t j, 
 }
 
 BondExclusions::BondExclusions(const Structure& structure, int min_bonds,
-                               std::span<const std::pair<PrimitiveId, PrimitiveId>> exempt) {
+                               std::span<const std::pair<PrimitiveId, PrimitiveId>> exempt, PairScope scope)
+    : scope_(std::move(scope)) {
   // Beyond 16 bonds a list per atom is the wrong tool: it would hold a large part of the molecule.
   if (min_bonds < 1 || min_bonds > 16)
     throw ModelError("minimal bond distance " + std::to_string(min_bonds) + ": expected 1 to 16");

@@ -103,7 +103,8 @@ Checker::Checker(std::shared_ptr<const Molecule> molecule, DofSelection selectio
     : molecule_(std::move(molecule)) {
   thresholds_ = std::make_shared<const Thresholds>(make_thresholds(molecule_->structure(), options.thresholds));
   min_bonds_ = options.min_bonds.value_or(thresholds_->set->default_min_bonds);
-  exclusions_ = std::make_shared<const BondExclusions>(molecule_->structure(), min_bonds_);
+  exclusions_ =
+      std::make_shared<const BondExclusions>(BondExclusions(molecule_->structure(), min_bonds_, {}, options.scope));
 
   MolecularHierarchy<Wide> rigid(molecule_->model(), molecule_->select({}), *exclusions_, thresholds_->matrix);
   rigid.update_placed(as_points(molecule_->structure().models.front()));
@@ -111,7 +112,8 @@ Checker::Checker(std::shared_ptr<const Molecule> molecule, DofSelection selectio
   for (const Contact& contact : contacts(rigid, as_written(*thresholds_), 0.0)) reference.push_back(contact.hit);
   reference_ = std::make_shared<const std::vector<Hit>>(std::move(reference));
   if (options.exempt_reference)
-    exclusions_ = std::make_shared<const BondExclusions>(molecule_->structure(), min_bonds_, pairs_of(*reference_));
+    exclusions_ = std::make_shared<const BondExclusions>(molecule_->structure(), min_bonds_, pairs_of(*reference_),
+                                                         options.scope);
 
   hierarchy_.emplace(make(options.engine, std::move(selection)));
   std::vector<Hit> constant;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// BondExclusions: the pair filter of molecules, TopDist(i, j) >= min_bonds (BioCD eq. (1)), plus pairs exempted by
-// hand.
+// BondExclusions: the pair filter of molecules, TopDist(i, j) >= min_bonds (BioCD eq. (1)), less pairs exempted by hand
+// and those nobody asks about.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "hinge/core/id.hpp"
+#include "hinge/molecular/pair_scope.hpp"
 #include "hinge/molecular/structure.hpp"
 #include "hinge/policy/pair_filter.hpp"
 
@@ -22,21 +23,22 @@ namespace hinge::molecular {
 /// admitted.
 class BondExclusions {
  public:
-  /// min_bonds: 1 ... 16, else ModelError. exempt: further pairs that never count.
+  /// min_bonds: 1 ... 16, else ModelError. exempt: further pairs that never count. scope: made for the structure.
   BondExclusions(const Structure& structure, int min_bonds,
-                 std::span<const std::pair<PrimitiveId, PrimitiveId>> exempt = {});
+                 std::span<const std::pair<PrimitiveId, PrimitiveId>> exempt = {}, PairScope scope = {});
 
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept {
     const auto list = excluded(i);
-    return !std::binary_search(list.begin(), list.end(), j);
+    return in_scope(i, j) && !std::binary_search(list.begin(), list.end(), j);
   }
+  bool in_scope(PrimitiveId i, PrimitiveId j) const noexcept { return scope_.holds(i, j); }
   /// Sorted, without i.
   std::span<const PrimitiveId> excluded(PrimitiveId i) const noexcept {
     return std::span(data_->excluded)
         .subspan(data_->start[index(i)], data_->start[index(i) + 1] - data_->start[index(i)]);
   }
   std::size_t size() const noexcept { return data_->start.size() - 1; }
-  /// Number of unordered pairs that are not admitted.
+  /// Number of unordered pairs that are listed: too few bonds apart, or exempted.
   std::size_t excluded_pairs() const noexcept { return data_->excluded.size() / 2; }
 
  private:
@@ -45,9 +47,10 @@ class BondExclusions {
     std::vector<PrimitiveId> excluded;
   };
   std::shared_ptr<const Data> data_;  // shared by the copies that engines and threads hold
+  PairScope scope_;
 };
 
-static_assert(ListsExclusions<BondExclusions>);
+static_assert(ScopesPairs<BondExclusions>);
 
 /// Neighbours of every atom in the bond graph, sorted.
 std::vector<std::vector<std::uint32_t>> bonded_neighbours(const Structure& structure);

@@ -17,6 +17,7 @@
 #include "hinge/hierarchy.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/molecule.hpp"
+#include "hinge/molecular/pair_scope.hpp"
 #include "hinge/molecular/radii.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/primitive/point.hpp"
@@ -33,7 +34,8 @@ struct CheckOptions {
   ThresholdOptions thresholds;
   std::optional<int> min_bonds;   ///< pairs count from this bond distance on; none: the radii set's default
   bool exempt_reference = false;  ///< pairs that collide in the reference never count
-  std::string engine = "wide";    ///< "wide", "lazy" (the paper's) or "brute"
+  PairScope scope{};            ///< which pairs are asked about, made for the molecule's structure; none else is named
+  std::string engine = "wide";  ///< "wide", "lazy" (the paper's) or "brute"
 };
 
 /// A pair and whether it collides, which its rounded distance cannot say.
