@@ -12,6 +12,7 @@
 #include "close_cycles.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/kinematics/joint.hpp"
+#include "place_parts.hpp"
 
 namespace hinge::molecular {
 
@@ -36,7 +37,8 @@ class MoleculeBuilder {
         options_(options),
         s_(molecule.structure_),
         rigid_(s_.atoms.size()),
-        link_(s_.atoms.size(), none) {}
+        link_(s_.atoms.size(), none),
+        placer_(s_, molecule.placed_) {}
 
   void build() {
     find_cuts();
@@ -198,7 +200,7 @@ class MoleculeBuilder {
       Branch& branch = tree[stack.back()];
       stack.pop_back();
       if (branch.fragment == root)
-        link_[root] = static_cast<std::uint32_t>(index(model_.add_link(world, Fixed{})));
+        link_[root] = static_cast<std::uint32_t>(index(model_.add_link(placer_.base_of(root, model_), Fixed{})));
       else
         add_joint(branch.fragment, link_[tree[branch.parent].fragment], branch.hinge);
       std::stable_sort(branch.children.begin(), branch.children.end(),
@@ -254,7 +256,7 @@ class MoleculeBuilder {
   /// Keeps the torsions that became joints.
   void order_torsions() {
     std::vector<Torsion> kept;
-    molecule_.torsion_of_.resize(model_dof_count());
+    molecule_.torsion_of_.assign(model_dof_count(), Molecule::no_torsion);
     for (std::uint32_t t = 0; t < molecule_.torsions_.size(); ++t) {
       const auto found = done_.find(t);
       if (found == done_.end() || !found->second) continue;
@@ -276,6 +278,7 @@ class MoleculeBuilder {
   Fragments rigid_;
   std::map<std::uint32_t, std::vector<Hinge>> hinges_;  // by fragment
   std::vector<std::uint32_t> link_;                     // by fragment
+  PartPlacer placer_;
   std::set<std::uint32_t> reached_;                     // fragments
   std::map<std::uint32_t, std::uint32_t> on_axis_;      // atom -> link of the near side
   std::map<std::uint32_t, std::optional<DofId>> done_;  // torsion -> its DOF, if it got one
@@ -284,12 +287,20 @@ class MoleculeBuilder {
 
 Molecule::Molecule(Structure structure, const MoleculeOptions& options)
     : structure_(std::move(structure)), loops_(options.loops), torsions_(find_torsions(structure_, notes_)) {
+  for (const Part& part : options.placed) placed_.push_back({part});
   MoleculeBuilder(*this, options).build();
 }
 
 DofSelection Molecule::select(std::span<const std::size_t> torsions) const {
   std::vector<DofId> free;
   for (const std::size_t k : torsions) free.push_back(dof_.at(k));
+  return {model_->tree(), std::move(free)};
+}
+
+DofSelection Molecule::select_placed(std::span<const std::size_t> torsions) const {
+  const DofSelection turning = select(torsions);
+  std::vector<DofId> free(turning.dofs().begin(), turning.dofs().end());
+  for (const PlacedPart& placed : placed_) free.insert(free.end(), placed.dofs.begin(), placed.dofs.end());
   return {model_->tree(), std::move(free)};
 }
 
