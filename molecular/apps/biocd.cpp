@@ -22,12 +22,16 @@ constexpr const char* footer =
     "Exit status: 0 free, 1 collision found, 2 usage, 3 bad input.\n"
     "Selections (--free): all none loops every:N count:K backbone chi ligands, a torsion's name (phi psi omega "
     "chi1...,\n"
-    "alpha beta gamma epsilon zeta chi kappa), A:45, A:10-20, A:45:chi1, a ligand's bond B:401:C5-C6; joined by "
+    "alpha beta gamma epsilon zeta chi kappa), A:45, A:10-20, A:45:chi1, A:chi, a ligand's bond B:401:C5-C6; joined by "
     "commas.\n"
-    "omega stays at its reference unless --omega is given or it is named.";
+    "omega stays at its reference unless --omega is given or it is named.\n"
+    "Parts (--place, --between, --inside): a chain (A), a ligand (KNI), residues (A:10-20), a file (file:2), joined by "
+    "+.";
 
 void add_model_options(CLI::App& command, Options& o) {
   command.add_option("FILE", o.file, "PDB or mmCIF file, plain or .gz")->required();
+  command.add_option("--with", o.with, "one more file beside FILE, kept whole but for its waters (repeatable)")
+      ->allow_extra_args(false);
   CLI::Option* free = command.add_option("--free", o.free, "torsions that are free (with --loop: side chains only)")
                           ->capture_default_str();
   command.add_option("--loop", o.loop, "loops A:40-52,...: free with both ends held, all else stands still");
@@ -36,6 +40,14 @@ void add_model_options(CLI::App& command, Options& o) {
   });
   command.add_flag("--keep-hbonds", o.keep_hydrogen_bonds,
                    "hydrogen bonds of the backbone (Kabsch & Sander) are closures");
+  command
+      .add_option("--place", o.place,
+                  "PART[=DISTANCE[,DEGREES]]: a chain, ligand or file that moves and turns as one against the rest, in "
+                  "samples by up to so many angstrom and degrees (default 10,180; repeatable)")
+      ->allow_extra_args(false);
+  command.add_option("--between", o.between, "PART PART: only pairs of an atom of each count ('rest': of all others)");
+  command.add_option("--inside", o.inside, "PART: only pairs inside it count, and those of --between (repeatable)")
+      ->allow_extra_args(false);
   command.add_flag("--omega", o.omega, "free omega too");
   command.add_option("--radii", o.check.thresholds.radii, "radii set: bondi, probe, probe-united, amber")
       ->capture_default_str();

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <charconv>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
@@ -16,27 +18,40 @@
 #include "hinge/primitive/grid_point.hpp"
 #include "hinge/primitive/point.hpp"
 #include "options.hpp"
+#include "scene.hpp"
 
 namespace biocd {
 
 using namespace hinge::molecular;
 
 Job load(const Options& options) {
-  Structure structure = read_structure(options.file, options.read);
-  MoleculeOptions cycles;
-  if (!options.loop.empty()) cycles.loops = find_loops(structure, options.loop);
-  cycles.keep_hydrogen_bonds = options.keep_hydrogen_bonds;
-  auto molecule = std::make_shared<const Molecule>(std::move(structure), cycles);
+  if (!options.place.empty() && (!options.loop.empty() || options.keep_closures))
+    throw hinge::ModelError(
+        "--place with --loop or --closures keep: expected one of them, what closes cycles does not "
+        "move parts");
+  Structure structure = read_files(options);
+  MoleculeOptions made;
+  std::vector<PlacementRange> ranges;
+  for (const std::string& word : options.place) {
+    const auto [part, range] = read_placement(word);
+    made.placed.push_back(find_part(structure, part, ResidueNames::only));
+    ranges.push_back(range);
+  }
+  CheckOptions rules = options.check;
+  rules.scope = read_scope(options, structure);
   const bool loops = !options.loop.empty();
+  if (loops) made.loops = find_loops(structure, options.loop);
+  made.keep_hydrogen_bonds = options.keep_hydrogen_bonds;
+  auto molecule = std::make_shared<const Molecule>(std::move(structure), made);
   auto torsions = loops ? select_loop_torsions(*molecule, options.free, options.omega)
                         : select_torsions(*molecule, options.free, options.omega);
   // A loop of six turns is held as well, but has other conformations to jump to.
   std::vector<std::size_t> held;
   if (options.keep_closures && !loops) held = find_held_torsions(*molecule, torsions);
   std::erase_if(torsions, [&](std::size_t k) { return std::binary_search(held.begin(), held.end(), k); });
-  hinge::DofSelection selection = molecule->select(torsions);
-  Checker checker(molecule, selection, options.check);
-  return {std::move(molecule), std::move(checker), std::move(selection), std::move(held)};
+  hinge::DofSelection selection = molecule->select_placed(torsions);
+  Checker checker(molecule, selection, rules);
+  return {std::move(molecule), std::move(checker), std::move(selection), std::move(held), std::move(ranges)};
 }
 
 namespace {
@@ -74,6 +89,8 @@ void explain(const Options& options, const Job& job) {
   const int bonds = bond_distance(s, i, j, checker.min_bonds() - 1);
   if (bonds >= 0)
     fmt::print("  dropped      {} bonds apart, pairs count from {} on\n", bonds, checker.min_bonds());
+  else if (!checker.exclusions().in_scope(a, b))
+    fmt::print("  dropped      no --between or --inside asks about it\n");
   else if (!checker.exclusions().admits(a, b))
     fmt::print("  dropped      collides in the reference, exempted\n");
   else if (checker.constant(i, j))

@@ -6,11 +6,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hinge/molecular/checker.hpp"
 #include "hinge/molecular/molecule.hpp"
 #include "hinge/molecular/read_structure.hpp"
+#include "hinge/molecular/sampler.hpp"
 #include "hinge/tool/run_tool.hpp"
 
 namespace biocd {
@@ -21,6 +23,10 @@ enum class Output : std::uint8_t { table, json, csv };
 
 struct Options {
   std::string file;
+  std::vector<std::string> with;                             // further files
+  std::vector<std::string> place;                            // "PART" or "PART=DISTANCE,DEGREES"
+  std::vector<std::pair<std::string, std::string>> between;  // parts
+  std::vector<std::string> inside;                           // parts
   hinge::molecular::ReadOptions read;
   hinge::molecular::CheckOptions check;
   std::string free = "all";
@@ -47,6 +53,7 @@ struct Job {
   hinge::molecular::Checker checker;
   hinge::DofSelection selection;
   std::vector<std::size_t> held;  // torsions selected that closed cycles hold at the reference, and so not free
+  std::vector<hinge::molecular::PlacementRange> ranges;  // per placed part
 };
 
 Job load(const Options& options);

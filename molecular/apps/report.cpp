@@ -9,6 +9,7 @@
 
 #include "hinge/core/id.hpp"
 #include "hinge/tool/csv_field.hpp"
+#include "scene.hpp"
 
 namespace biocd {
 
@@ -51,7 +52,11 @@ Json model_json(const Options& options, const Job& job) {
               {"min_bonds", checker.min_bonds()},
               {"hydrogen_bonds", thresholds.hydrogen_bonds},
               {"hydrogen_bond_allowance", options.check.thresholds.hydrogen_bond_allowance},
-              {"reference_collisions", checker.reference_collisions().size()}};
+              {"reference_collisions", checker.reference_collisions().size()},
+              {"with", options.with},
+              {"placed", placed_json(job)},
+              {"between", options.between},
+              {"inside", options.inside}};
 }
 
 Json pair_json(const Structure& structure, const Contact& pair) {
@@ -91,7 +96,9 @@ Json verdict_json(const Structure& structure, std::uint64_t index, const Verdict
   return json;
 }
 
-std::string csv_header() { return "index,collides,i,j,label_i,label_j,distance,threshold,pair_collides\n"; }
+std::string csv_header(const std::string& more) {
+  return "index,collides,i,j,label_i,label_j,distance,threshold,pair_collides" + more + "\n";
+}
 
 std::string csv_rows(const Structure& structure, std::uint64_t index, const Verdict& verdict) {
   std::string rows;
@@ -125,6 +132,7 @@ std::string heading(const Options& options, const Job& job) {
       checker.rigid_group_count(), job.molecule->model().tree().closures().size(), thresholds.rho, thresholds.set->name,
       thresholds.set->version, checker.min_bonds(), thresholds.hydrogen_bonds ? "on" : "off",
       options.check.exempt_reference ? ", reference collisions exempt" : "");
+  text += scene_lines(options, job);
   text += fmt::format("reference: {} colliding pairs; constant contacts under this selection: {}\n",
                       checker.reference_collisions().size(), checker.constant_contacts().size());
   for (const hinge::Hit& hit : checker.constant_contacts()) text += pair_line(s, {hit, true}) + "  (constant)\n";

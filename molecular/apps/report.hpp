@@ -26,7 +26,8 @@ Json verdict_json(const hinge::molecular::Structure& structure, std::uint64_t in
                   const hinge::molecular::Verdict& verdict, const hinge::molecular::Mode& mode);
 
 /// "index,collides,i,j,label_i,label_j,distance,threshold,pair_collides": a row per pair, or one without a pair.
-std::string csv_header();
+/// more: further columns, each after a comma.
+std::string csv_header(const std::string& more = "");
 std::string csv_rows(const hinge::molecular::Structure& structure, std::uint64_t index,
                      const hinge::molecular::Verdict& verdict);
 

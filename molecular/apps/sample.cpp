@@ -22,6 +22,7 @@
 #include "hinge/tool/progress_bar.hpp"
 #include "options.hpp"
 #include "report.hpp"
+#include "scene.hpp"
 
 namespace biocd {
 
@@ -34,6 +35,7 @@ struct Sample {
   std::vector<hinge::Vec3> positions;  // only when they are to be written
   bool found = true;                   // false: no start closed (or none was free, where that was asked for)
   std::uint64_t unclosed = 0, refused = 0;
+  Placements placements{};
 };
 
 /// One per thread.
@@ -42,9 +44,14 @@ struct Worker {
   std::optional<ClosedSampler> closed;
 };
 
-Sample draw(Worker& worker, const Sampling& sampling, std::size_t k, const Mode& mode, bool collision_free) {
-  if (!worker.closed)
-    return {worker.checker.check(sample_configuration(sampling, k, worker.checker.dof_count()), mode), {}};
+Sample draw(Worker& worker, const Job& job, const Sampling& sampling, std::size_t k, const Mode& mode,
+            bool collision_free) {
+  if (!worker.closed) {
+    const std::vector<double> q = sample_configuration(sampling, k, *job.molecule, job.selection, job.ranges);
+    Sample sample{worker.checker.check(q, mode), {}};
+    sample.placements = placements_of(job, q);
+    return sample;
+  }
   const auto accept = [&](std::span<const double> q) {
     return !collision_free || !worker.checker.check(q, Mode::parse("any")).collides;
   };
@@ -165,7 +172,7 @@ Exit run_sample(const Options& options) {
   }
   if (options.output == Output::csv) {
     print_constant_contacts(job);
-    fmt::print("{}", csv_header());
+    fmt::print("{}", csv_header(placements_header(job)));
   }
   if (options.output == Output::table) fmt::print("{}", heading(options, job));
 
@@ -175,7 +182,7 @@ Exit run_sample(const Options& options) {
   Worker worker{job.checker, {}};
   if (closed) worker.closed.emplace(*job.molecule, job.selection, sampling, options.most_tries);
   const auto judge = [&](Worker& mine, std::size_t k) {
-    Sample sample = draw(mine, sampling, k, mode, options.collision_free);
+    Sample sample = draw(mine, job, sampling, k, mode, options.collision_free);
     if (file.wanted() && sample.found) sample.positions = mine.checker.positions();
     return sample;
   };
@@ -187,9 +194,11 @@ Exit run_sample(const Options& options) {
       Json row = verdict_json(s, k, sample.verdict, mode);
       if (!sample.verdict.closure_residuals.empty())
         row["closures"] = closures_json(job, sample.verdict.closure_residuals);
+      if (!sample.placements.empty()) row["placements"] = placements_json(job, sample.placements);
       fmt::print("{}\n{}", summary.checked == 1 ? "" : ",", row.dump());
     }
-    if (options.output == Output::csv) fmt::print("{}", csv_rows(s, k, sample.verdict));
+    if (options.output == Output::csv)
+      fmt::print("{}", with_placements(csv_rows(s, k, sample.verdict), sample.placements));
     if (file.wanted()) write_pdb_model(file.stream(), s, sample.positions, static_cast<int>(k) + 1);
   };
   hinge::Ensemble(worker, options.threads).run(static_cast<std::size_t>(options.count), judge, report);
