@@ -155,6 +155,7 @@ class Hierarchy {
   std::span<const Frame> frames() noexcept {
     return placement().frames_through(id<GroupId>(model().groups()->size() - 1));
   }
+  const F& filter() const noexcept { return filter_; }
   const D& matrix() const noexcept { return matrix_; }
   /// World pose of a link at the current configuration or poses. ModelError: no such link.
   Pose link_pose(LinkId link) {

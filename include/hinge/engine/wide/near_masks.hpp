@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "hinge/core/id.hpp"
@@ -29,6 +30,10 @@ class NearMasks {
   const simd::Bits* find(std::uint32_t b, std::uint32_t a) const noexcept { return Partners(*this, b).find(a); }
   /// Rows of b with itself; only when self_lanes(b) is not empty.
   const simd::Bits* self_rows(std::uint32_t b) const noexcept { return rows_.data() + row_[start_[b + 1] - 1]; }
+  /// The near blocks of b up to b itself, which ends them.
+  std::span<const std::uint32_t> partners(std::uint32_t b) const noexcept {
+    return std::span(partner_).subspan(start_[b], start_[b + 1] - start_[b]);
+  }
   /// Those of its rows that admit anything.
   simd::Bits self_lanes(std::uint32_t b) const noexcept { return self_lanes_[b]; }
 

@@ -9,7 +9,7 @@
 #include "hinge/bounds/float_box.hpp"
 #include "hinge/engine/wide/into.hpp"
 #include "hinge/engine/wide/tasks.hpp"
-#include "hinge/engine/wide/wide_side.hpp"
+#include "hinge/engine/wide/threshold_classes.hpp"
 #include "hinge/primitive/batch.hpp"
 #include "hinge/simd/gather_bits.hpp"
 
@@ -45,13 +45,13 @@ class Thresholds16 {
 
 /// Calls visit(position of the one, position of the sixteen, lanes, squared distances) for every task that floats
 /// cannot rule out; visit may lower the thresholds and answers false to stop. First all tasks are held against the
-/// largest threshold of their one; what is left, lane by lane against its own.
-template <Primitive P, class Convert, class Visit>
-void run_tasks(Tasks& tasks, const WideSide<P>& one, const WideSide<P>& sixteen, const Convert& convert,
+/// largest threshold of their one; what is left, lane by lane against its own. Side: WideSide, or what else holds
+/// floats of P under threshold classes.
+template <Primitive P, class Side, class Convert, class Visit>
+void run_tasks(Tasks& tasks, const Side& one, const Side& sixteen, const Convert& convert,
                const Thresholds16& thresholds, const Visit& visit) {
-  const float *single = one.state().packed(0), *packed = sixteen.state().packed(0);
-  const std::uint8_t *single_class = one.parts().position_class.data(),
-                     *classes = sixteen.parts().position_class.data();
+  const float *single = one.packed(), *packed = sixteen.packed();
+  const std::uint8_t *single_class = one.position_class(), *classes = sixteen.position_class();
   const std::uint32_t *ones = tasks.ones(), *sixteens = tasks.sixteens();
   const simd::Bits* masks = tasks.masks();
   const auto squared_distances = [&](std::size_t t) __attribute__((always_inline)) {

@@ -45,6 +45,15 @@ class UnitBoxes {
     }
   }
 
+  /// Brings the boxes around the row of a unit up to date; to be called for one unit of each row that was set out of
+  /// order.
+  void cover(std::size_t u) noexcept {
+    for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
+      u /= simd::width;
+      levels_[l + 1][u / simd::width].set(u % simd::width, levels_[l][u].hull());
+    }
+  }
+
   /// The units before `end` whose boxes share a point with `box`, in order; valid until the next sweep.
   std::span<const std::uint32_t> sweep(const FloatBox& box, std::size_t end, QueryCounts& counts) noexcept {
     const BoxLanes probe(box);

@@ -244,7 +244,7 @@ class Wide {
     if (may_measure && decide.rules.options.precision != Precision::exact)
       measure = Measure(one, sixteen, table, thresholds_, convert, collector.cutoff());
     effort.counts.pairs_tested += lister_.tasks.size();
-    run_tasks(
+    run_tasks<P>(
         lister_.tasks, one, sixteen, convert, thresholds_,
         [&](std::uint32_t at_one, std::uint32_t at_sixteen, simd::Bits bits, const simd::Float16& squared)
             __attribute__((always_inline)) {

@@ -71,6 +71,10 @@ class WideSide {
       }
   }
 
+  /// Floats of all blocks, and the threshold classes of the primitives that start there.
+  const float* packed() const noexcept { return state_.packed(0); }
+  const std::uint8_t* position_class() const noexcept { return parts().position_class.data(); }
+
   bool has_extra() const noexcept { return !extra_.empty(); }
   float extra(std::uint32_t block) const noexcept { return extra_.empty() ? 0.0F : extra_[block]; }
   float largest_extra() const noexcept { return largest_extra_; }
