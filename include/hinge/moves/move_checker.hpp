@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// MoveChecker: Monte Carlo moves of a few DOF: tried, then accepted or rejected, each with the verdict of a full query.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "hinge/core/id.hpp"
+#include "hinge/hierarchy.hpp"
+#include "hinge/kinematics/frame.hpp"
+#include "hinge/moves/asked_hierarchy.hpp"
+#include "hinge/moves/block_moves.hpp"
+#include "hinge/moves/known_pairs.hpp"
+#include "hinge/moves/move_counts.hpp"
+#include "hinge/moves/move_cut.hpp"
+#include "hinge/moves/placing_bounds.hpp"
+#include "hinge/primitive/leaf.hpp"
+
+namespace hinge {
+
+/// A state, and one move away from it. Verdicts and pairs are those of Hierarchy's queries at the configuration after
+/// the move, and frames those that forward kinematics gives there, to the bit: nothing adds up over moves. One per
+/// thread. docs/explanation/moves.md says how.
+template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf = Wide>
+class MoveChecker {
+ public:
+  /// Starts at the reference, every value 0.
+  explicit MoveChecker(Hierarchy<P, F, D, EngineOf> hierarchy)
+      : hierarchy_(std::move(hierarchy)),
+        cut_(*model().groups(), hierarchy_.get().dof_count()),
+        rounding_(model()),
+        q_(hierarchy_.get().dof_count(), 0.0) {
+    if constexpr (by_blocks) blocks_.emplace(model(), hierarchy_.get().filter(), matrix(), parts());
+    set(std::vector<double>(q_));
+  }
+
+  /// The state is q: one value per selected DOF, rad or model length unit. It may collide. A pending move is dropped.
+  /// ConfigurationError: see Hierarchy::update; nothing changes.
+  void set(std::span<const double> q);
+
+  /// Is the state free after these changes? They are pending then, until accepted, rejected, or the next ones are
+  /// tried. ConfigurationError: see MoveCut::check; nothing changes.
+  bool try_move(std::span<const DofChange> changes) { return !attempt(changes, false); }
+  /// All pairs that collide after the changes, sorted by (first, second); valid until the next call.
+  const std::vector<Hit>& try_move_listed(std::span<const DofChange> changes) {
+    attempt(changes, true);
+    return list_collisions(tried_known_, hits_);
+  }
+  /// The pending move becomes the state, colliding or not. ConfigurationError: none is pending.
+  void accept();
+  /// The pending move, if any, is dropped.
+  void reject() noexcept {
+    if constexpr (by_blocks)
+      if (pending_ == Pending::blocks) blocks_->reject();
+    pending_ = Pending::none;
+    hierarchy_.rejected();
+  }
+
+  // --- the state, without the pending move ---
+
+  std::span<const double> configuration() const noexcept { return q_; }
+  bool collides() const noexcept { return any_collides(known_); }
+  /// All colliding pairs, sorted; valid until the next call.
+  const std::vector<Hit>& collisions() { return list_collisions(known_, hits_); }
+  /// World frame of a rigid group; valid until the next call.
+  const Frame& frame(GroupId group);
+  /// World coordinates of a primitive.
+  P placed(PrimitiveId i) { return place(i, frame(model().group_of(i))); }
+
+  const SelectedModel<P>& model() const noexcept { return hierarchy_.get().model(); }
+  std::size_t dof_count() const noexcept { return q_.size(); }
+  const MoveCounts& counts() const noexcept { return counts_; }
+
+ private:
+  // Other primitives, and those that engines keep in trees, are asked for with queries for what moved.
+  static constexpr bool by_blocks = TurnsBatch<P> && !KeepsTrees<P>;
+  // With fewer blocks than this to a changed joint the full query wins, which looks near the root first: most blocks
+  // are cut then. The share of blocks that move does not matter (bench/moves.cpp).
+  static constexpr std::size_t least_blocks_per_joint = 4;
+
+  enum class Pending : std::uint8_t { none, blocks, query };
+
+  bool attempt(std::span<const DofChange> changes, bool all);
+
+  const D& matrix() const noexcept { return hierarchy_.get().matrix(); }
+  const MovingParts& parts() const noexcept { return cut_.parts(); }
+  std::uint32_t part_of(PrimitiveId i) const noexcept { return parts().part_of(model().group_of(i)); }
+  P place(PrimitiveId i, const Frame& frame) const noexcept {
+    const P& local = model().primitives()[index(i)];
+    return model().group_of(i) == GroupId{0} ? local : local.placed(frame.pose());
+  }
+  /// After the pending move.
+  P tried(PrimitiveId i) {
+    if constexpr (by_blocks)
+      if (pending_ == Pending::blocks)
+        return place(i, blocks_->frames().tried(parts().place(model().group_of(i)), parts()));
+    return hierarchy_.placed(i);
+  }
+  /// Finds the known pairs of the state.
+  void collect() {
+    hierarchy_.go_to_state(q_);
+    known_.clear();
+    hierarchy_.ask(rounding_.tolerance(), false, true, known_, nullptr);
+  }
+
+  /// Brings blocks_ to the state.
+  void catch_up() {
+    if constexpr (by_blocks) {
+      if (all_behind_) {
+        blocks_->set(q_, parts());
+      } else if (!behind_.empty()) {
+        // Each DOF once, with its present value.
+        std::ranges::sort(behind_, {}, &DofChange::dof);
+        const auto same = [](const DofChange& a, const DofChange& b) { return a.dof == b.dof; };
+        behind_.erase(std::unique(behind_.begin(), behind_.end(), same), behind_.end());
+        for (DofChange& change : behind_) change.value = q_[change.dof];
+        cut_.cut(behind_);
+        blocks_->jump(cut_.values(), parts());
+      }
+      behind_.clear();
+      all_behind_ = false;
+    }
+  }
+
+  /// Pairs that a part takes along stay as they are but for rounding, so they are asked again; is one of them
+  /// colliding?
+  bool recheck(bool all) {
+    complete_ = true;
+    bool collides = false;
+    for (const KnownPair& pair : known_) {
+      const PrimitiveId i = pair.hit.first, j = pair.hit.second;
+      const std::uint32_t part = part_of(i);
+      if (part != part_of(j)) continue;
+      if (part == 0) {
+        tried_known_.push_back(pair);
+        collides = collides || pair.collides;
+      } else if (judge(i, j, tried(i), tried(j), matrix(), rounding_.tolerance(), tried_known_)) {
+        collides = true;
+      }
+      if (collides && !all) {
+        complete_ = false;
+        return true;
+      }
+    }
+    return collides;
+  }
+
+  /// Judges a pair that floats could not rule out; go on?
+  bool find_near(PrimitiveId i, PrimitiveId j, bool all) {
+    if constexpr (by_blocks) {
+      const std::uint32_t a = part_of(i), b = part_of(j);
+      if (a == b || model().constant(i, j)) return true;
+      if constexpr (!ListsExclusions<F>)
+        if (!hierarchy_.get().filter().admits(i, j)) return true;
+      // Where the parts' motions take the two, in double: that decides nearly always.
+      const P p = place(i, blocks_->frames().moved(parts().place(model().group_of(i)), a));
+      const P q = place(j, blocks_->frames().moved(parts().place(model().group_of(j)), b));
+      const double m = matrix().threshold(i, j), off = rounding_.pair_error(m);
+      if (!closer_than(p, q, m + (off + rounding_.tolerance()))) return true;
+      if (!all && m > off && closer_than(p, q, m - off)) {
+        tried_known_.push_back({{i, j, 0.0, m}, true});
+        complete_ = false;
+        return false;
+      }
+      if (!judge(i, j, tried(i), tried(j), matrix(), rounding_.tolerance(), tried_known_) || all) return true;
+      complete_ = false;
+      return false;
+    }
+    return false;
+  }
+
+  /// Answers by blocks, in tried_known_; false when the full query is to be asked.
+  bool try_blocks(bool all) {
+    if constexpr (by_blocks) {
+      if (!rounding_.is_small() || least_blocks_per_joint * changes_.size() > blocks_->block_count()) return false;
+      catch_up();
+      cut_.cut(changes_);
+      if (!blocks_->holds() || parts().depth() > MoveRounding::most_nested) return false;
+      counts_.blocks_turned += blocks_->begin(cut_.values(), parts());
+      pending_ = Pending::blocks;
+      if (recheck(all) && !all) return true;
+      const auto visit = [&](PrimitiveId i, PrimitiveId j) { return find_near(std::min(i, j), std::max(i, j), all); };
+      if (blocks_->search(rounding_.tolerance(), rounding_.motion_error(), counts_.query, visit)) return true;
+      reject();
+    }
+    return false;
+  }
+
+  AskedHierarchy<Hierarchy<P, F, D, EngineOf>> hierarchy_;
+  MoveCut cut_;
+  MoveRounding rounding_;
+  std::vector<double> q_;
+  std::vector<KnownPair> known_, tried_known_;
+  std::vector<Hit> hits_;
+  std::vector<DofChange> changes_;  // of the pending move: those that change a value
+  Pending pending_ = Pending::none;
+  bool complete_ = false;  // tried_known_ holds all pairs
+  std::optional<std::conditional_t<by_blocks, BlockMoves<P>, std::monostate>> blocks_;
+  std::vector<DofChange> behind_;  // accepted, and not known to blocks_
+  bool all_behind_ = true;
+  MoveCounts counts_;
+};
+
+template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
+void MoveChecker<P, F, D, EngineOf>::set(std::span<const double> q) {
+  hierarchy_.set(q);
+  reject();
+  std::copy(q.begin(), q.end(), q_.begin());
+  double slide = 0.0;
+  for (std::size_t k = 0; k < q_.size(); ++k)
+    if (cut_.is_slide(k)) slide = std::max(slide, std::abs(q_[k]));
+  all_behind_ = true;
+  rounding_.set_slides(model(), slide);
+  collect();
+}
+
+template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
+bool MoveChecker<P, F, D, EngineOf>::attempt(std::span<const DofChange> changes, bool all) {
+  cut_.check(changes);
+  reject();
+  ++counts_.tried;
+  changes_.clear();
+  tried_known_.clear();
+  double slide = 0.0;
+  for (const DofChange& change : changes) {
+    if (std::bit_cast<std::uint64_t>(change.value) == std::bit_cast<std::uint64_t>(q_[change.dof])) continue;
+    changes_.push_back(change);
+    if (cut_.is_slide(change.dof)) slide = std::max(slide, std::abs(change.value));
+  }
+  if (slide > rounding_.longest_slide()) {
+    rounding_.set_slides(model(), slide);
+    collect();
+  }
+  if (try_blocks(all)) return any_collides(tried_known_);
+  tried_known_.clear();
+  pending_ = Pending::query;
+  const double tolerance = rounding_.tolerance();
+  if (by_blocks || !rounding_.is_small()) {
+    ++counts_.full_queries;
+    hierarchy_.go_to_move(q_, changes_);
+    complete_ = hierarchy_.ask(tolerance, false, all, tried_known_, nullptr);
+  } else {
+    hierarchy_.go_to_state(q_);
+    hierarchy_.go_to_move(q_, changes_);
+    cut_.cut(changes_);
+    if (!recheck(all) || all) complete_ = hierarchy_.ask(tolerance, true, all, tried_known_, &counts_.query);
+  }
+  return any_collides(tried_known_);
+}
+
+template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
+void MoveChecker<P, F, D, EngineOf>::accept() {
+  if (pending_ == Pending::none) throw ConfigurationError("there is no pending move to accept");
+  if (!complete_) {
+    // Not all of its collisions are known.
+    return set(hierarchy_.after(q_, changes_));
+  }
+  for (const DofChange& change : changes_) q_[change.dof] = change.value;
+  known_.swap(tried_known_);
+  if constexpr (by_blocks) {
+    if (pending_ == Pending::blocks) {
+      blocks_->accept(parts());
+    } else {
+      behind_.insert(behind_.end(), changes_.begin(), changes_.end());
+      all_behind_ = all_behind_ || behind_.size() > q_.size();
+      if (all_behind_) behind_.clear();
+    }
+  }
+  pending_ = Pending::none;
+  hierarchy_.accepted();
+}
+
+template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
+const Frame& MoveChecker<P, F, D, EngineOf>::frame(GroupId group) {
+  if constexpr (by_blocks) {
+    catch_up();  // not behind while a move by blocks, which needs its cut, is pending
+    return blocks_->frames().frame(parts().place(group));
+  }
+  hierarchy_.go_to_state(q_);
+  return hierarchy_.frames()[index(group)];
+}
+
+}  // namespace hinge
