@@ -13,6 +13,7 @@
 #include "batch.hpp"
 #include "contestant.hpp"
 #include "hinge/engine/brute/brute.hpp"
+#include "moves.hpp"
 #include "reference.hpp"
 #include "results.hpp"
 #include "robots/run_robots.hpp"
@@ -178,11 +179,12 @@ int main(int argc, char** argv) {
                {"differences", checked.differences},
                {"timed_differences", timed_differences}});
   results.add({{"kind", "mean"}, {"torsions_fcl", torsions.value()}, {"floor", floor}, {"floor_dof", floor_dof}});
-  const std::size_t wrong_blocks = print_batches();
+  const std::size_t wrong_blocks = print_batches(), wrong_moves = print_walks();
   RobotRatios robots;
   const int robot_differences = run_robots({200, robot_seconds, false, 0}, robots, results);
   robots.print("fcl-best", results);
   robots.print("fcl-unshared", results);
   results.write(arguments.json);
-  return wrong_blocks == 0 && checked.differences + timed_differences + robot_differences == 0 ? 0 : 1;
+  return wrong_blocks == 0 && wrong_moves == 0 && checked.differences + timed_differences + robot_differences == 0 ? 0
+                                                                                                                   : 1;
 }

@@ -51,7 +51,7 @@ class ChainSearch {
       points_.group[i] = in.group[i];
     }
     for (std::size_t count = (in.n + leaf_size - 1) / leaf_size; count != 0; count = count == 1 ? 0 : (count + 1) / 2) {
-      levels_.push_back({group_.size(), count, {}, {}});
+      levels_.push_back({group_.size(), count, {}, {}, {}});
       for (std::size_t k = 0; k < count; ++k) group_.push_back(common_group(levels_.size() - 1, k));
     }
     volumes_.resize(group_.size());
@@ -74,6 +74,67 @@ class ChainSearch {
     extent_ = volumes_.back().extent();
   }
 
+  // --- Monte Carlo moves: only nodes above moved points are refitted, pairs of nodes that moved as one body are
+  // skipped, and a rejected move is taken back. update() first; no other search afterwards. ---
+
+  /// What the next move does: per point, the body it moves with, 0 for what stands still. Not timed: a chain knows it
+  /// from the places of its changed joints.
+  void prepare_move(std::span<const std::uint32_t> body) {
+    part_.resize(group_.size());
+    for (std::size_t level = 0; level < levels_.size(); ++level) {
+      levels_[level].changed.clear();
+      for (std::uint32_t k = 0; k < levels_[level].count; ++k) {
+        std::uint32_t& part = part_[node(level, k)];
+        if (level == 0) {
+          const std::size_t begin = k * leaf_size, end = std::min(begin + leaf_size, points_.size);
+          part = body[begin];
+          for (std::size_t i = begin; i < end; ++i)
+            if (body[i] != part) part = mixed;
+        } else {
+          const std::size_t left = node(level - 1, 2 * k),
+                            right = 2 * k + 1 < levels_[level - 1].count ? left + 1 : left;
+          part = part_[left] == part_[right] ? part_[left] : mixed;
+        }
+        if (part != 0) levels_[level].changed.push_back(k);
+      }
+    }
+  }
+  /// xyz: after the move.
+  bool move_collides(std::span<const double> xyz) {
+    xyz_ = xyz;
+    saved_.clear();
+    saved_points_.clear();
+    for (std::size_t level = 0; level < levels_.size(); ++level)
+      for (const std::uint32_t k : levels_[level].changed) {
+        saved_.push_back(volumes_[node(level, k)]);
+        if (level == 0)
+          for (std::size_t i = k * leaf_size; i < std::min((k + 1) * leaf_size, points_.size); ++i)
+            saved_points_.push_back({points_.x[i], points_.y[i], points_.z[i]});
+        refit(level, k);
+      }
+    if (volumes_.back().extent() > move_extent_) {
+      move_extent_ = extent_ = 1.5 * volumes_.back().extent();  // thresholds are set rarely
+      rules_.set_margin(0.0, extent_);
+    }
+    AnyPair answer;
+    tasks_.clear();
+    if (!self(levels_.size() - 1, 0, answer)) flush(answer);
+    return answer.found;
+  }
+  void take_back() {
+    std::size_t v = 0, p = 0;
+    for (std::size_t level = 0; level < levels_.size(); ++level)
+      for (const std::uint32_t k : levels_[level].changed) {
+        volumes_[node(level, k)] = saved_[v++];
+        if (level == 0)
+          for (std::size_t i = k * leaf_size; i < std::min((k + 1) * leaf_size, points_.size); ++i, ++p) {
+            points_.x[i] = saved_points_[p][0];
+            points_.y[i] = saved_points_[p][1];
+            points_.z[i] = saved_points_[p][2];
+          }
+      }
+  }
+
   double everything() const { return 4.0 * extent_ + 1.0; }
 
   template <class Answer>
@@ -91,6 +152,7 @@ class ChainSearch {
   struct Level {
     std::size_t first, count;                  // of its nodes; leaves are level 0
     std::vector<std::uint32_t> every, moving;  // places of its nodes; of those with a point that moves
+    std::vector<std::uint32_t> changed{};      // of those that the present move refits
   };
   struct Pair {
     std::uint32_t a, b;  // places in one level
@@ -130,7 +192,7 @@ class ChainSearch {
   /// Pairs within a subtree, those nearest along the chain first; true when the answer wants no more.
   template <class Answer>
   bool self(std::size_t level, std::size_t k, Answer& answer) {
-    if (group_[node(level, k)] != mixed) return false;
+    if (group_[node(level, k)] != mixed || moves_as_one(node(level, k), node(level, k))) return false;
     if (level == 0) {
       test_leaf(k);
     } else {
@@ -165,8 +227,12 @@ class ChainSearch {
   bool near(std::size_t level, std::size_t a, std::size_t b) const {
     const std::size_t first = levels_[level].first;
     const std::uint32_t group = group_[first + a];
-    if (group == group_[first + b] && group != mixed) return false;
+    if ((group == group_[first + b] && group != mixed) || moves_as_one(first + a, first + b)) return false;
     return volumes_[first + a].near(volumes_[first + b], rules_.cutoff());
+  }
+
+  bool moves_as_one(std::size_t a, std::size_t b) const {
+    return !part_.empty() && part_[a] == part_[b] && part_[a] != mixed;
   }
 
   void test_leaf(std::size_t leaf) {
@@ -231,6 +297,10 @@ class ChainSearch {
   std::vector<Level> levels_;
   std::vector<std::uint32_t> group_;  // per node
   std::vector<Volume> volumes_;       // per node
+  std::vector<std::uint32_t> part_;   // per node: the body it moves with in the present move, or `mixed`; empty: none
+  std::vector<Volume> saved_;         // of the nodes that the present move refitted
+  std::vector<std::array<float, 3>> saved_points_;
+  double move_extent_ = 0.0;
   bool has_fixed_ = false, placed_ = false;
   std::array<double, 3> origin_{};
   double extent_ = 0.0;

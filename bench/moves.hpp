@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Monte Carlo walks of collision-free moves from the native structure, every step priced for each contestant.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hinge/kinematics/frame.hpp"
+#include "hinge/moves/move_checker.hpp"
+#include "hinge/moves/random_move.hpp"
+#include "peers/chain_tree.hpp"
+#include "scene.hpp"
+#include "timing.hpp"
+
+namespace hinge::bench {
+
+/// Everything included but, for the chain, forward kinematics: it is handed the frames.
+/// chain-skip: leaves compared one pair after the other, as published; chain16-skip: in lanes.
+enum Mover : std::size_t { mover_moves, mover_full, mover_moved_only, mover_chain_skip, mover_chain16_skip, movers };
+inline constexpr std::array<const char*, movers> mover_names = {"moves", "full", "moved-only", "chain-skip",
+                                                                "chain16-skip"};
+
+struct Walk {
+  std::size_t steps = 0, accepted = 0, full_queries = 0, differences = 0;
+  double blocks = 0.0;              ///< turned per step
+  std::array<double, movers> us{};  ///< per step
+  std::array<double, movers> accepted_us{}, rejected_us{};
+
+  double ratio(Mover m) const { return us[m] / us[mover_moves]; }
+};
+
+/// A step, once it is known how it went.
+struct Step {
+  std::vector<DofChange> changes;
+  std::vector<double> before, after;
+  bool is_free = false;
+};
+
+/// The price of a step for a chain: it places what moves, refits, searches, and takes back what collides.
+template <class Leaves>
+class ChainMover {
+ public:
+  explicit ChainMover(const Scene& scene)
+      : tree_(scene.input()),
+        frames_(scene.make<Wide>()),
+        parts_(*frames_.model().groups()),
+        place_of_(scene.dof_count()) {
+    const SelectedModel<Point>& model = frames_.model();
+    for (std::uint32_t p = 1; p < parts_.size(); ++p) place_of_[(*model.groups())[parts_.group(p)].dof] = p;
+    for (std::size_t i = 0; i < model.size(); ++i) group_of_.push_back(model.group_of(id<PrimitiveId>(i)));
+    body_.resize(model.size());
+  }
+  void start(std::span<const double> q) {
+    frames_.update(q);
+    xyz_.clear();
+    for (const Point& p : frames_.placed()) xyz_.insert(xyz_.end(), {p.position[0], p.position[1], p.position[2]});
+    tree_.update(xyz_);
+  }
+  /// Frames and the bodies that move, for free.
+  void prepare(const Step& step) {
+    joints_.clear();
+    for (const DofChange& change : step.changes) joints_.push_back(place_of_[change.dof]);
+    parts_.cut(joints_);
+    moved_.clear();
+    for (std::uint32_t i = 0; i < body_.size(); ++i) {
+      body_[i] = parts_.part_of(group_of_[i]);
+      if (body_[i] != 0) moved_.push_back(i);
+    }
+    tree_.prepare_move(body_);
+    next_ = xyz_;
+    frames_.update(step.after);
+    poses_ = frames_.frames();
+  }
+  bool is_free() {
+    for (const std::uint32_t i : moved_) {
+      const double* x = frames_.model().primitives()[i].position.data();
+      std::array<double, 4> placed;
+      FrameColumns(poses_[index(group_of_[i])]).place(x[0], x[1], x[2]).store(placed.data());
+      std::copy_n(placed.data(), 3, next_.data() + 3 * std::size_t{i});
+    }
+    const bool is_free = !tree_.move_collides(next_);
+    if (is_free)
+      xyz_.swap(next_);
+    else
+      tree_.take_back();
+    return is_free;
+  }
+
+ private:
+  ChainSearch<Leaves> tree_;
+  Molecular<Wide> frames_;
+  MovingParts parts_;
+  std::vector<std::uint32_t> place_of_, joints_, body_, moved_;
+  std::vector<GroupId> group_of_;
+  std::vector<double> xyz_, next_;
+  std::span<const Frame> poses_;
+};
+
+/// Steps change `dofs` DOF by N(0, 3 degrees) each. Contestants take turns on runs of steps, as a walk is long in
+/// practice and finds its data in the cache, and the walk is gone through several times; the best time of each step
+/// counts, so that no pre-emption does.
+inline Walk walk(Scene& scene, std::size_t dofs, std::size_t steps) {
+  constexpr double sigma = 3.0 * std::numbers::pi / 180.0;
+  constexpr std::size_t run = 50;
+  auto full = scene.make<Wide>(), moved_only = full;
+  MoveChecker moves(full);
+  ChainMover<ScalarLeaves<BoxVolume>> chain(scene);
+  ChainMover<LaneLeaves<BoxVolume>> chain16(scene);
+  const std::vector<double> native(scene.dof_count(), 0.0);
+  Walk walk;
+  walk.steps = steps;
+  std::vector<std::array<double, movers>> best(steps);
+  std::vector<bool> accepted(steps);
+  for (auto& b : best) b.fill(std::numeric_limits<double>::infinity());
+  for (int repetition = 0; repetition < repetitions; ++repetition) {
+    moves.set(native);
+    full.update(native);
+    moved_only.update(native);
+    chain.start(native);
+    chain16.start(native);
+    const MoveCounts before = moves.counts();
+    for (std::size_t first = 0; first < steps; first += run) {
+      std::vector<Step> taken(std::min(run, steps - first));
+      const auto price = [&](Mover m, const auto& prepare, const auto& work) {
+        for (std::size_t k = 0; k < taken.size(); ++k) {
+          prepare(taken[k]);
+          bool is_free = false;
+          double& us = best[first + k][m];
+          us = std::min(us, microseconds([&] { is_free = work(taken[k]); }));
+          if (m == mover_moves) taken[k].is_free = is_free;
+          walk.differences += is_free == taken[k].is_free ? 0 : 1;
+        }
+      };
+      const auto nothing = [](const Step&) {};
+      price(
+          mover_moves,
+          [&](Step& step) {
+            const auto q = moves.configuration();
+            random_move(seed, first + static_cast<std::size_t>(&step - taken.data()), q, dofs, sigma, step.changes);
+            step.before.assign(q.begin(), q.end());
+            step.after = step.before;
+            for (const DofChange& change : step.changes) step.after[change.dof] = change.value;
+          },
+          [&](const Step& step) {
+            const bool is_free = moves.try_move(step.changes);
+            is_free ? moves.accept() : moves.reject();
+            return is_free;
+          });
+      price(mover_full, nothing, [&](const Step& step) {
+        full.update(step.after);
+        return !full.self_collides();
+      });
+      price(mover_moved_only, nothing, [&](const Step& step) {
+        QueryOptions options;
+        options.moved_only = true;
+        moved_only.update(step.after);
+        const bool is_free = !moved_only.self_collides(options);
+        if (!is_free) moved_only.update(step.before);
+        return is_free;
+      });
+      price(
+          mover_chain_skip, [&](const Step& step) { chain.prepare(step); },
+          [&](const Step&) { return chain.is_free(); });
+      price(
+          mover_chain16_skip, [&](const Step& step) { chain16.prepare(step); },
+          [&](const Step&) { return chain16.is_free(); });
+      for (std::size_t k = 0; k < taken.size(); ++k) accepted[first + k] = taken[k].is_free;
+    }
+    walk.full_queries = moves.counts().full_queries - before.full_queries;
+    walk.blocks = static_cast<double>(moves.counts().blocks_turned - before.blocks_turned) / static_cast<double>(steps);
+  }
+  for (std::size_t step = 0; step < steps; ++step) {
+    walk.accepted += accepted[step] ? 1 : 0;
+    for (std::size_t m = 0; m < movers; ++m) {
+      walk.us[m] += best[step][m];
+      (accepted[step] ? walk.accepted_us : walk.rejected_us)[m] += best[step][m];
+    }
+  }
+  for (std::size_t m = 0; m < movers; ++m) {
+    walk.us[m] /= static_cast<double>(steps);
+    walk.accepted_us[m] /= std::max(1.0, static_cast<double>(walk.accepted));
+    walk.rejected_us[m] /= std::max(1.0, static_cast<double>(steps - walk.accepted));
+  }
+  return walk;
+}
+
+/// Prints `moves any Ddof PEER R`, R the peer's time per step over that of moves; returns the number of verdicts that
+/// differ.
+inline std::size_t print_walk(const Walk& walk, std::size_t dofs) {
+  for (const Mover m : {mover_full, mover_moved_only, mover_chain_skip, mover_chain16_skip})
+    std::printf("moves any %zudof %s %.1f\n", dofs, mover_names[m], walk.ratio(m));
+  return walk.differences;
+}
+
+/// 1MBN with all torsions free, 1UBQ without the shared data.
+inline std::size_t print_walks() {
+  const std::string shared = shared_molecule("paper/1mbn.pdb");
+  Scene scene(read_protein(shared.empty() ? ubiquitin() : shared, false), "all");
+  std::size_t differences = 0;
+  for (const std::size_t dofs : {1U, 3U, 10U}) differences += print_walk(walk(scene, dofs, 500), dofs);
+  if (differences != 0) std::printf("%zu moves with a WRONG verdict\n", differences);
+  return differences;
+}
+
+}  // namespace hinge::bench
