@@ -154,6 +154,20 @@ Exit run(int argc, char** argv) {
   sample->add_option("--out", o.out, "write the conformations as a multi-model PDB file");
   sample->callback([&] { command = biocd::run_sample; });
 
+  CLI::App* walk = app.add_subcommand("walk", "Monte Carlo walk of collision-free moves from the file's conformation");
+  add_model_options(*walk, o);
+  add_json_option(*walk, o);
+  walk->add_option("--steps", o.steps, "moves to try")->capture_default_str();
+  walk->add_option("--step-size", o.step_degrees, "standard deviation of a torsion's change, degrees")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  walk->add_option("--changes", o.changes, "torsions that a move changes")->capture_default_str();
+  walk->add_option("--seed", o.seed, "seed; a walk is a function of it, the file and the options alone")
+      ->capture_default_str();
+  walk->add_option("--out", o.out, "write conformations as a multi-model PDB file");
+  walk->add_option("--every", o.every, "steps from one conformation written to the next")->capture_default_str();
+  walk->callback([&] { command = biocd::run_walk; });
+
   CLI::App* demo = app.add_subcommand("demo", "the main job on one protein: sample, time, verify, draw");
   demo->add_option("FILE", o.file, "PDB or mmCIF file")->required();
   demo->add_option("--out", o.out, "folder for the plot and the viewer scripts")->required();

@@ -44,7 +44,11 @@ struct Options {
   std::uint64_t seed = 1;
   std::optional<double> sigma_degrees;
   unsigned threads = 1;
-  std::string out;  // sample: multi-model PDB to write
+  std::string out;              // sample, walk: multi-model PDB to write
+  std::uint64_t steps = 10000;  // walk
+  double step_degrees = 3.0;
+  std::uint64_t changes = 1;  // torsions per step
+  std::uint64_t every = 100;  // steps from one conformation written to the next
 };
 
 /// A file read, with its selection and rules, ready to be asked.
@@ -61,6 +65,7 @@ Job load(const Options& options);
 Exit run_info(const Options& options);
 Exit run_check(const Options& options);
 Exit run_sample(const Options& options);
+Exit run_walk(const Options& options);
 Exit run_demo(const Options& options);
 
 /// Prints which rule kept or dropped the pair named by options.explain.

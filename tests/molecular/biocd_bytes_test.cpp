@@ -51,6 +51,16 @@ std::vector<std::string> questions(const std::string& models) {
   return all;
 }
 
+/// Walks of one and of several torsions a step, and the models they write.
+std::vector<std::string> walks(const std::string& models) {
+  std::vector<std::string> all;
+  for (const char* how : {"--steps 3000 --seed 3", "--steps 1500 --changes 5 --step-size 0.5",
+                          "--steps 500 --changes 60 --step-size 0.05 --free backbone"})
+    all.push_back("walk " + file() + " --exempt-reference --json --every 500 " + how + " --out " + models + " && cat " +
+                  models);
+  return all;
+}
+
 /// What every variation of a question must give, byte for byte.
 void expect_same(const std::string& question, const std::vector<std::string>& variations,
                  const std::string& environment) {
@@ -81,6 +91,8 @@ TEST(BiocdBytes, AreTheSameOnEveryInstructionSet) {
     if (run_biocd("--version", environment).out.find("(" + name + ")") == std::string::npos) continue;
     compared += name;
     for (const std::string& question : questions(sampled.path())) expect_same(question, {""}, environment);
+    const test::TemporaryFile models("");
+    for (const std::string& question : walks(models.path().string())) expect_same(question, {""}, environment);
   }
   if (compared.empty()) GTEST_SKIP() << "biocd comes for the baseline only, or the CPU has no more";
 }

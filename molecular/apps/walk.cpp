@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// biocd walk: a Monte Carlo walk of collision-free moves from the file's conformation.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdint>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "hinge/molecular/selection.hpp"
+#include "hinge/molecular/write_structure.hpp"
+#include "hinge/moves/move_checker.hpp"
+#include "hinge/moves/random_move.hpp"
+#include "hinge/tool/complete_file.hpp"
+#include "hinge/tool/progress_bar.hpp"
+#include "options.hpp"
+#include "report.hpp"
+
+namespace biocd {
+
+namespace {
+
+using namespace hinge::molecular;
+using Moves = hinge::MoveChecker<hinge::Point, BondExclusions, hinge::TypedThresholds>;
+
+void check_options(const Options& options, const Job& job) {
+  if (options.check.engine != "wide")
+    throw hinge::ModelError("walk: engine '" + options.check.engine + "': moves are answered by wide alone");
+  if (options.steps == 0) throw hinge::ModelError("--steps 0: expected at least one step");
+  if (options.changes == 0) throw hinge::ModelError("--changes 0: expected at least one torsion");
+  if (options.every == 0) throw hinge::ModelError("--every 0: expected at least one step");
+  const std::size_t dof = job.checker.dof_count();
+  if (dof == 0) throw hinge::ModelError("--free " + options.free + ": no torsion is free, so nothing can walk");
+  if (options.changes > dof)
+    throw hinge::ModelError(fmt::format("--changes {}: only {} torsions are free", options.changes, dof));
+}
+
+void check_start(const Options& options, const Structure& s, Moves& moves) {
+  if (!moves.collides()) return;
+  const std::vector<hinge::Hit>& hits = moves.collisions();
+  throw hinge::LoadError(
+      fmt::format("{}: collides in {} pair{}, the first {}; expected a free conformation to start from "
+                  "(--exempt-reference leaves its colliding pairs out)",
+                  options.file, hits.size(), hits.size() == 1 ? "" : "s", pair_line(s, {hits.front(), true})));
+}
+
+std::vector<hinge::Vec3> positions(Moves& moves) {
+  std::vector<hinge::Vec3> all;
+  for (std::size_t i = 0; i < moves.model().size(); ++i)
+    all.push_back(moves.placed(hinge::id<hinge::PrimitiveId>(i)).position);
+  return all;
+}
+
+}  // namespace
+
+Exit run_walk(const Options& options) {
+  Job job = load(options);
+  print_notes(job);
+  if (!options.explain.empty()) {
+    explain(options, job);
+    return Exit::free;
+  }
+  check_options(options, job);
+  const Structure& s = job.molecule->structure();
+  Moves moves(MolecularHierarchy<hinge::Wide>(
+      job.molecule->model(), job.molecule->select(select_torsions(*job.molecule, options.free, options.omega)),
+      job.checker.exclusions(), job.checker.thresholds().matrix));
+  check_start(options, s, moves);
+  if (options.output == Output::table) fmt::print("{}", heading(options, job));
+
+  hinge::tool::CompleteFile file(options.out);
+  hinge::tool::ProgressBar bar(options.steps);
+  const double sigma = options.step_degrees * std::numbers::pi / 180.0;
+  std::vector<hinge::DofChange> changes;
+  std::uint64_t accepted = 0;
+  int frames = 0;
+  const auto start = std::chrono::steady_clock::now();
+  for (std::uint64_t step = 0; step < options.steps; ++step) {
+    hinge::random_move(options.seed, step, moves.configuration(), options.changes, sigma, changes);
+    if (moves.try_move(changes)) {
+      moves.accept();
+      ++accepted;
+    } else {
+      moves.reject();
+    }
+    if (file.wanted() && (step + 1) % options.every == 0) write_pdb_model(file.stream(), s, positions(moves), ++frames);
+    bar.show(step + 1);
+  }
+  const std::chrono::duration<double> walking = std::chrono::steady_clock::now() - start;
+  if (file.wanted()) file.stream() << "END\n";
+  file.finish();
+
+  // A second opinion on where the walk ended, by a query that knows nothing of moves.
+  const Verdict end = job.checker.check(moves.configuration(), Mode::parse("any", "angstrom"));
+  if (end.collides) throw std::logic_error("the walk ended in a collision that no move reported");
+  const std::uint64_t rejected = options.steps - accepted;
+  if (options.output == Output::json) {
+    Json json{{"tool", "biocd"}, {"command", "walk"}, {"model", model_json(options, job)}, {"seed", options.seed}};
+    json["step_degrees"] = options.step_degrees;
+    json["changes"] = options.changes;
+    json["constant_contacts"] = constant_contacts_json(job);
+    json["summary"] = {{"steps", options.steps}, {"accepted", accepted},
+                       {"rejected", rejected},   {"full_queries", moves.counts().full_queries},
+                       {"frames", frames},       {"closure_residual", end.closure_residual}};
+    fmt::print("{}\n", json.dump(1));
+  } else {
+    fmt::print("{} of {} steps accepted ({:.2f} %), {} rejected, {:.0f} steps per second\n", accepted, options.steps,
+               100.0 * static_cast<double>(accepted) / static_cast<double>(options.steps), rejected,
+               static_cast<double>(options.steps) / walking.count());
+    if (frames > 0) fmt::print("{} conformations written to {}\n", frames, options.out);
+    if (end.closure_residual > 0.0)
+      fmt::print("closures: moved freely, so cycles open; the residual at the end is {:.3f} angstrom\n",
+                 end.closure_residual);
+  }
+  return Exit::free;
+}
+
+}  // namespace biocd
