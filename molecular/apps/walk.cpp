@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
-#include "hinge/molecular/selection.hpp"
 #include "hinge/molecular/write_structure.hpp"
 #include "hinge/moves/move_checker.hpp"
 #include "hinge/moves/random_move.hpp"
@@ -29,6 +28,9 @@ using Moves = hinge::MoveChecker<hinge::Point, BondExclusions, hinge::TypedThres
 void check_options(const Options& options, const Job& job) {
   if (options.check.engine != "wide")
     throw hinge::ModelError("walk: engine '" + options.check.engine + "': moves are answered by wide alone");
+  if (!options.place.empty()) throw hinge::ModelError("--place: a walk turns torsions, expected no placed parts");
+  if (!options.loop.empty() || options.keep_closures)
+    throw hinge::ModelError("--loop and --closures keep: a walk's moves close no cycles; sample does");
   if (options.steps == 0) throw hinge::ModelError("--steps 0: expected at least one step");
   if (options.changes == 0) throw hinge::ModelError("--changes 0: expected at least one torsion");
   if (options.every == 0) throw hinge::ModelError("--every 0: expected at least one step");
@@ -65,9 +67,8 @@ Exit run_walk(const Options& options) {
   }
   check_options(options, job);
   const Structure& s = job.molecule->structure();
-  Moves moves(MolecularHierarchy<hinge::Wide>(
-      job.molecule->model(), job.molecule->select(select_torsions(*job.molecule, options.free, options.omega)),
-      job.checker.exclusions(), job.checker.thresholds().matrix));
+  Moves moves(MolecularHierarchy<hinge::Wide>(job.molecule->model(), job.selection, job.checker.exclusions(),
+                                              job.checker.thresholds().matrix));
   check_start(options, s, moves);
   if (options.output == Output::table) fmt::print("{}", heading(options, job));
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "hinge/core/error.hpp"
@@ -66,8 +67,26 @@ void append(Structure& all, Structure added) {
     chain.last_residue += residues;
     all.chains.push_back(std::move(chain));
   }
-  for (const Link& link : added.links) all.links.push_back({link.first + atoms, link.second + atoms, link.disulphide});
-  for (const Bond& bond : added.bonds) all.bonds.push_back({bond.first + atoms, bond.second + atoms, bond.origin});
+  for (Link link : added.links) {
+    link.first += atoms;
+    link.second += atoms;
+    all.links.push_back(link);
+  }
+  for (Bond bond : added.bonds) {
+    bond.first += atoms;
+    bond.second += atoms;
+    all.bonds.push_back(bond);
+  }
+  for (const BondSource& more : added.bond_sources) {
+    const auto key = [](const BondSource& source) { return std::tie(source.residue, source.source); };
+    const auto at = std::lower_bound(all.bond_sources.begin(), all.bond_sources.end(), more,
+                                     [&](const BondSource& x, const BondSource& y) { return key(x) < key(y); });
+    if (at != all.bond_sources.end() && key(*at) == key(more)) {
+      at->count += more.count;
+    } else {
+      all.bond_sources.insert(at, more);
+    }
+  }
   for (const SecondaryStructure& element : added.secondary_structure)
     all.secondary_structure.push_back({element.kind, element.first + residues, element.last + residues});
   if (all.models.size() > 1 && added.models.size() > 1)

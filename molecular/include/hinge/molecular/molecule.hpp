@@ -32,10 +32,9 @@ struct PlacedPart {
 struct MoleculeOptions {
   /// The molecule is cut at their ends (find_loops): what comes behind a loop does not hang on it, and psi of its last
   /// residue is no DOF but follows where the loop's closure holds.
-  std::vector<Loop> loops{  std::vector<Part> placed{};  ///< parts that get six DOF each
-};
+  std::vector<Loop> loops{};
   bool keep_hydrogen_bonds = false;  ///< backbone hydrogen bonds (find_hydrogen_bonds) are closures
-  std::vector<Part> placed{};  ///< parts that get six DOF each
+  std::vector<Part> placed{};        ///< parts that get six DOF each
 };
 
 /// Every torsion of the structure is a joint; primitive i is atom i of model 0, in angstrom. Joint values are turns
