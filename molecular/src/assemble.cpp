@@ -34,6 +34,9 @@ class Assembler {
       throw LoadError(path_ + (options_.model ? ": has no model " + std::to_string(*options_.model) + ", it has " +
                                                     std::to_string(raw_.models.size())
                                               : ": has no atoms"));
+    for (const RawResidue& residue : chosen.front()->residues)
+      for (const RawAtom& atom : residue.atoms)
+        s_.atom_records = std::max(s_.atom_records, std::size_t{atom.record} + 1);
     for (std::size_t m = 0; m < chosen.size(); ++m) add_model(*chosen[m], m == 0);
     if (s_.atoms.empty())
       throw LoadError(path_ + ": no atoms left (" + std::to_string(s_.waters_dropped) + " waters and " +
@@ -148,7 +151,7 @@ class Assembler {
       positions.push_back(atom.position);
       if (!first) continue;
       s_.atoms.push_back(
-          {atom.name, element, static_cast<std::uint32_t>(s_.residues.size()), atom.altloc, atom.serial});
+          {atom.name, element, static_cast<std::uint32_t>(s_.residues.size()), atom.altloc, atom.serial, atom.record});
     }
     if (!first || s_.atoms.size() == residue.first_atom) return;
     residue.last_atom = static_cast<std::uint32_t>(s_.atoms.size());
@@ -255,6 +258,21 @@ class Assembler {
 };
 
 }  // namespace
+
+void check_same_atoms(const Structure& other, const Structure& molecule, const std::string& where) {
+  std::uint32_t i = 0;
+  const auto same = [&] {
+    const Residue& a = other.residues[other.atoms[i].residue];
+    const Residue& b = molecule.residues[molecule.atoms[i].residue];
+    return other.atoms[i].name == molecule.atoms[i].name && a.sequence_number == b.sequence_number &&
+           a.insertion_code == b.insertion_code;
+  };
+  while (i < other.atoms.size() && i < molecule.atoms.size() && same()) ++i;
+  if (i == other.atoms.size() && i == molecule.atoms.size()) return;
+  throw LoadError(where + " has " + std::to_string(other.atoms.size()) + " atoms, expected " +
+                  std::to_string(molecule.atoms.size()) + " as in the first" +
+                  (i < other.atoms.size() ? " (they differ at " + label(other, i) + ")" : "") + "; choose one model");
+}
 
 Structure assemble(RawFile raw, const std::string& path, const ReadOptions& options) {
   return Assembler(std::move(raw), path, options).run();

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The steps of read_structure that live in files of their own.
+// The steps of read_structure that live in files of their own. C++17: clang compiles read_gemmi.cpp as that.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hinge/molecular/components.hpp"
@@ -11,12 +15,30 @@
 
 namespace hinge::molecular {
 
-/// The file's bytes, gunzipped where needed. LoadError: cannot be opened, damaged, empty.
-std::string read_bytes(const std::filesystem::path& path);
+/// The file's bytes, gunzipped where needed. first_model: not those behind the first ENDMDL when a model follows, which
+/// cut_short then says. LoadError: cannot be opened, damaged, empty.
+std::string read_bytes(const std::filesystem::path& path, bool first_model = false, bool* cut_short = nullptr);
+
+/// mmCIF by content.
+bool looks_like_cif(const std::string& bytes);
+
+/// Does this line of a PDB file hold an atom?
+inline bool is_atom_record(std::string_view line) {
+  return line.substr(0, 6) == "ATOM  " || line.substr(0, 6) == "HETATM";
+}
+
+/// ENDMDL, or the END that some programs put behind each frame.
+inline bool ends_pdb_model(std::string_view line) {
+  return line.substr(0, 6) == "ENDMDL" ||
+         (line.substr(0, 3) == "END" && line.find_first_not_of(" \t\r", 3) == std::string_view::npos);
+}
+
+/// Coordinates of an atom record, angstrom. LoadError names the line, atom and coordinate: blank or no number.
+Vec3 read_pdb_coordinates(std::string_view line, const std::string& path, std::size_t line_number);
 
 /// Refuses what the parser would silently repair: blank or malformed coordinates, repeated or nested MODEL records.
-/// LoadError names the line.
-void check_pdb(const std::string& text, const std::string& path);
+/// LoadError names the line; the text starts with line `number` + 1.
+void check_pdb(std::string_view text, const std::string& path, std::size_t number = 0);
 
 /// An atom as the file has it, before conformers are chosen.
 struct RawAtom {
@@ -24,6 +46,7 @@ struct RawAtom {
   std::string element;  ///< empty: the file does not say, or says nonsense
   char altloc = '\0';
   int serial = 0;
+  std::uint32_t record = 0;
   double occupancy = 1.0;
   Vec3 position = Vec3::Zero();
 };
@@ -97,6 +120,9 @@ bool is_dummy(const RawResidue& residue);
 
 /// The element the residue's table demands, else the file's, else the name's; empty when none of them tells.
 std::string element_by_name(const RawAtom& atom, const RawResidue& residue);
+
+/// LoadError, starting with `where`: not the molecule's atoms in its order, by name and residue number.
+void check_same_atoms(const Structure& other, const Structure& molecule, const std::string& where);
 
 /// Chooses conformers, kinds and elements and leaves out what was not asked for.
 Structure assemble(RawFile raw, const std::string& path, const ReadOptions& options);

@@ -18,6 +18,7 @@
 #include <gemmi/resinfo.hpp>
 
 #include "hinge/core/error.hpp"
+#include "hybrid36.hpp"
 #include "read_file.hpp"
 
 namespace hinge::molecular {
@@ -40,9 +41,17 @@ ResidueKind kind_of(const std::string& name) {
   return ResidueKind::other;
 }
 
-RawModel convert(const gemmi::Model& model, int number) {
+/// gemmi joins residues and chains that a file has in parts, and keeps no order of atoms through that. So atoms are
+/// numbered from 0 in the place of their serial numbers, which are kept here.
+using Serials = std::vector<int>;
+
+RawModel convert(const gemmi::Model& model, int number, const Serials& serials) {
   RawModel raw;
   raw.number = number;
+  int first = std::numeric_limits<int>::max();  // of the model
+  for (const gemmi::Chain& chain : model.chains)
+    for (const gemmi::Residue& residue : chain.residues)
+      for (const gemmi::Atom& atom : residue.atoms) first = std::min(first, atom.serial);
   for (const gemmi::Chain& chain : model.chains)
     for (const gemmi::Residue& residue : chain.residues) {
       RawResidue r;
@@ -57,7 +66,8 @@ RawModel convert(const gemmi::Model& model, int number) {
         a.name = atom.name;
         if (atom.element != gemmi::El::X) a.element = atom.element == gemmi::El::D ? "H" : atom.element.name();
         a.altloc = atom.altloc;
-        a.serial = atom.serial;
+        a.serial = serials.at(static_cast<std::size_t>(atom.serial));
+        a.record = static_cast<std::uint32_t>(atom.serial - first);
         a.occupancy = static_cast<double>(atom.occ);
         a.position = Vec3(atom.pos.x, atom.pos.y, atom.pos.z);
         r.atoms.push_back(std::move(a));
@@ -102,16 +112,24 @@ bool is_record(std::string_view line, std::string_view name) {
          std::equal(name.begin(), name.end(), line.begin(), [](char a, char b) { return a == (b & ~0x20); });
 }
 
-/// The lengths behind LINK and SSBOND records, which nobody asks for: gemmi would read the start of "nan" or "inf"
-/// beyond the end of the record.
-std::string without_bond_lengths(const std::string& text) {
+/// Atoms numbered, and without the lengths behind LINK and SSBOND records, which nobody asks for: gemmi would read the
+/// start of "nan" or "inf" beyond the end of the record.
+std::string prepare_pdb(const std::string& text, Serials& serials) {
   constexpr std::size_t length_column = 73;
+  constexpr std::size_t most_atoms = 100000 + 26UL * 36 * 36 * 36 * 36;  // that gemmi reads from five columns
   std::string kept;
   kept.reserve(text.size());
   for (std::size_t first = 0; first < text.size();) {
     const std::size_t end = std::min(text.find('\n', first), text.size());
     const std::string_view line = std::string_view(text).substr(first, end - first);
     kept += is_record(line, "LINK") || is_record(line, "SSBO") ? line.substr(0, length_column) : line;
+    if ((is_record(line, "ATOM") || is_record(line, "HETA")) && line.size() > 11) {
+      if (serials.size() == most_atoms)
+        throw std::runtime_error("more than " + std::to_string(most_atoms) + " atoms, expected mmCIF of so many");
+      const std::string number = hybrid36(serials.size());
+      serials.push_back(gemmi::pdb_impl::read_serial(line.data() + 6));
+      kept.replace(kept.size() - line.size() + 6, 5, std::string(5 - number.size(), ' ') + number);
+    }
     if (end < text.size()) kept += '\n';
     first = end + 1;
   }
@@ -169,14 +187,24 @@ std::vector<Component> components_of(gemmi::cif::Document& document, const std::
   throw LoadError(what.find(path) != std::string::npos ? what : path + ": " + what);
 }
 
-gemmi::Structure parse(const std::string& bytes, const std::string& path, bool cif, RawFile& raw) {
+void number_atoms(gemmi::cif::Document& document, Serials& serials) {
+  for (gemmi::cif::Block& block : document.blocks)
+    for (std::string& id : block.find_values("_atom_site.id")) {
+      const std::string number = std::to_string(serials.size());
+      serials.push_back(gemmi::string_to_int(id, false));
+      id = number;
+    }
+}
+
+gemmi::Structure parse(const std::string& bytes, const std::string& path, bool cif, RawFile& raw, Serials& serials) {
   if (cif) {
     gemmi::cif::Document document = gemmi::cif::read_memory(bytes.data(), bytes.size(), path.c_str());
     check_whole_numbers(document);
     raw.components = components_of(document, path);
+    number_atoms(document, serials);
     return gemmi::make_structure(std::move(document));
   }
-  const std::string text = without_bond_lengths(bytes);
+  const std::string text = prepare_pdb(bytes, serials);
   try {
     return gemmi::read_pdb_from_memory(text.data(), text.size(), path);
   } catch (const std::exception& first) {
@@ -208,8 +236,9 @@ std::vector<Component> parse_components(const std::string& bytes, const std::str
 RawFile parse_with_gemmi(const std::string& bytes, const std::string& path, bool cif) {
   RawFile raw;
   gemmi::Structure st;
+  Serials serials;
   try {
-    st = parse(bytes, path, cif, raw);
+    st = parse(bytes, path, cif, raw, serials);
   } catch (const std::exception& error) {
     refuse(error, path);
   }
@@ -219,7 +248,7 @@ RawFile parse_with_gemmi(const std::string& bytes, const std::string& path, bool
   for (const gemmi::Model& model : st.models) {
     ++position;
     const int number = std::atoi(model.name.c_str());
-    raw.models.push_back(convert(model, number != 0 ? number : position));
+    raw.models.push_back(convert(model, number != 0 ? number : position, serials));
   }
   for (const gemmi::Connection& link : st.connections)
     if (link.type == gemmi::Connection::Covale || link.type == gemmi::Connection::Disulf ||

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstring>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include "hinge/core/error.hpp"
@@ -18,9 +19,7 @@
 
 namespace hinge::molecular {
 
-namespace {
-
-/// mmCIF by content: its first word that is no comment is data_..., loop_ or an item; PDB lines start otherwise.
+// Its first word that is no comment is data_..., loop_ or an item; PDB lines start otherwise.
 bool looks_like_cif(const std::string& bytes) {
   std::size_t line = 0;
   while (line < bytes.size()) {
@@ -34,6 +33,8 @@ bool looks_like_cif(const std::string& bytes) {
   return false;
 }
 
+namespace {
+
 /// What a file may unpack to: harmless, or this many times what was read of it. Structures shrink 4 to 10 times, models
 /// of a small molecule that are the same but for one side chain 84 times, all the same 109 times; a file made to fill
 /// the memory shrinks 1000 times.
@@ -44,15 +45,38 @@ std::string stem(std::filesystem::path path) {
   return path.stem().string();
 }
 
+/// Finds the end of a PDB file's first model in text that grows, when another model follows.
+class FirstModel {
+ public:
+  /// Where the model ends, or npos: not known yet, or nothing follows it so far.
+  std::size_t end(std::string_view text) {
+    for (std::size_t line_end = 0; (line_end = text.find('\n', next_)) != std::string_view::npos;
+         next_ = line_end + 1) {
+      const std::string_view line = text.substr(next_, line_end - next_);
+      if (end_ == std::string_view::npos) {
+        if (ends_pdb_model(line)) end_ = line_end + 1;
+      } else if (is_atom_record(line) || line.starts_with("MODEL ")) {
+        return end_;
+      }
+    }
+    return std::string_view::npos;
+  }
+
+ private:
+  std::size_t end_ = std::string_view::npos;
+  std::size_t next_ = 0;  // the line to look at next
+};
+
 }  // namespace
 
-std::string read_bytes(const std::filesystem::path& path) {
+std::string read_bytes(const std::filesystem::path& path, bool first_model, bool* cut_short) {
   if (std::filesystem::is_directory(path))
     throw LoadError(path.string() + ": is a directory, expected a PDB or mmCIF file");
   errno = 0;
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), gzclose);
   if (!file) throw LoadError(path.string() + ": cannot be opened: " + std::strerror(errno != 0 ? errno : ENOMEM));
   std::string bytes;
+  FirstModel first;
   std::array<char, 1U << 16> chunk{};
   int got = 0;
   while ((got = gzread(file.get(), chunk.data(), static_cast<unsigned>(chunk.size()))) > 0) {
@@ -63,6 +87,11 @@ std::string read_bytes(const std::filesystem::path& path) {
       throw LoadError(path.string() + ": " + std::to_string(read) + " bytes unpack to more than " +
                       std::to_string(bytes.size()) + ", expected at most 64 MiB + " + std::to_string(most_times) +
                       " times as many; unpack it first if it is a structure");
+    if (const std::size_t end = first_model ? first.end(bytes) : std::string::npos; end != std::string::npos) {
+      bytes.resize(end);
+      if (cut_short != nullptr) *cut_short = true;
+      return bytes;
+    }
   }
   int status = Z_OK;
   const char* message = gzerror(file.get(), &status);
@@ -74,7 +103,8 @@ std::string read_bytes(const std::filesystem::path& path) {
 }
 
 Structure read_structure(const std::filesystem::path& path, const ReadOptions& options) {
-  const std::string bytes = read_bytes(path);
+  bool cut_short = false;
+  const std::string bytes = read_bytes(path, options.first_model && !options.model, &cut_short);
   const bool cif = looks_like_cif(bytes);
   if (!cif) check_pdb(bytes, path.string());
   RawFile raw = parse_with_gemmi(bytes, path.string(), cif);
@@ -84,6 +114,7 @@ Structure read_structure(const std::filesystem::path& path, const ReadOptions& o
   for (Component& component : raw.components) components.add(std::move(component));
   if (raw.name.empty() || raw.name == path.string()) raw.name = stem(path);
   Structure structure = assemble(std::move(raw), path.string(), options);
+  structure.more_models = cut_short;
   perceive_bonds(structure, std::move(components));
   return structure;
 }

@@ -7,24 +7,11 @@
 #include <ostream>
 
 #include "hinge/core/error.hpp"
+#include "hybrid36.hpp"
 
 namespace hinge::molecular {
 
 namespace {
-
-/// Hybrid-36 (Grosse-Kunstleve): decimal up to 99999, then A0000 ... ZZZZZ, a0000 ... in base 36.
-std::string hybrid36(std::size_t value) {
-  if (value < 100000) return std::to_string(value);
-  constexpr std::size_t block = 26UL * 36 * 36 * 36 * 36;
-  value -= 100000;
-  const bool lower = value >= block;
-  if (lower) value -= block;
-  const char* digits = lower ? "0123456789abcdefghijklmnopqrstuvwxyz" : "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ";
-  value += 10UL * 36 * 36 * 36 * 36;
-  std::string text(5, '0');
-  for (std::size_t k = 5; k-- > 0; value /= 36) text[k] = digits[value % 36];
-  return text;
-}
 
 /// A name of fewer than four characters starts in column 14 when its element symbol has one letter.
 std::string atom_field(const Atom& atom) {

@@ -15,8 +15,9 @@ struct Atom {
   std::string name;     ///< as in the file, without blanks: "CA", "HG11"
   std::string element;  ///< symbol in periodic-table case: "C", "Zn"; deuterium is "H"
   std::uint32_t residue = 0;
-  char altloc = '\0';  ///< '\0' where the file has none
-  int serial = 0;      ///< as in the file
+  char altloc = '\0';        ///< '\0' where the file has none
+  int serial = 0;            ///< as in the file
+  std::uint32_t record = 0;  ///< which atom record of its model in the file, from 0
 };
 
 enum class ResidueKind : std::uint8_t { amino_acid, nucleotide, water, other };
@@ -101,6 +102,8 @@ struct Structure {
   std::vector<std::string> notes;         ///< repairs, guesses and warnings, one sentence each
   std::size_t waters_dropped = 0;
   std::size_t hetero_dropped = 0;
+  std::size_t atom_records = 0;  ///< of the first model in the file, kept or not; 0: made by no file
+  bool more_models = false;      ///< the file goes on with models that were not read (ReadOptions::first_model)
 };
 
 /// "A:LYS77:NZ" (insertion code behind the number: "A:SER60A:OG"); a blank chain name is printed as "_".
