@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "hinge/core/error.hpp"
+#include "hinge/policy/collector.hpp"
 #include "hinge/primitive/grid_point.hpp"
 
 namespace hinge::molecular {
@@ -76,13 +77,36 @@ std::optional<Contact> closest(H& hierarchy, const Rule& rule) {
                            [](const Contact& a, const Contact& b) { return a.hit.gap() < b.hit.gap(); });
 }
 
+/// Yes or no, decided as written: stops at the first pair that collides.
+class AnyAsWritten {
+ public:
+  static constexpr bool ranks = false;
+  AnyAsWritten(const Rule& rule, std::span<const Point> placed) : rule_(rule), placed_(placed) {}
+  void add(const Hit& hit) noexcept {
+    hit_ = hit_ || rule_.closer(placed_[index(hit.first)], placed_[index(hit.second)], hit.threshold);
+  }
+  double cutoff() const noexcept { return rule_.hair(0.0); }
+  bool done() const noexcept { return hit_; }
+
+ private:
+  const Rule& rule_;
+  std::span<const Point> placed_;
+  bool hit_ = false;
+};
+
+template <class H>
+bool any(H& hierarchy, const Rule& rule) {
+  if (!rule.as_written) return hierarchy.self_collides();
+  AnyAsWritten collector(rule, hierarchy.placed());
+  hierarchy.self_query(collector);
+  return collector.done();
+}
+
 template <class H>
 Verdict ask(H& hierarchy, const Rule& rule, const Mode& mode) {
   Verdict verdict;
   switch (mode.kind) {
-    case Mode::Kind::any:
-      verdict.collides = rule.as_written ? !contacts(hierarchy, rule, 0.0).empty() : hierarchy.self_collides();
-      break;
+    case Mode::Kind::any: verdict.collides = any(hierarchy, rule); break;
     case Mode::Kind::all:
     case Mode::Kind::within:
       verdict.pairs = contacts(hierarchy, rule, mode.margin);

@@ -32,9 +32,10 @@ class Ensemble {
 
   /// Calls work(worker, k) -> result once for every k < count, on any thread, and take(k, result) on one thread at a
   /// time in the order of k: what take sees does not depend on the number of threads. At most a few chunks of results
-  /// per thread exist at a time. The first exception of either ends the run and is thrown here.
+  /// per thread exist at a time, `longest` results each at most: fewer where they are large, or take long. The first
+  /// exception of either ends the run and is thrown here.
   template <class Work, class Take>
-  void run(std::size_t count, const Work& work, const Take& take) {
+  void run(std::size_t count, const Work& work, const Take& take, std::size_t longest = 256) {
     using Result = std::remove_cvref_t<std::invoke_result_t<const Work&, Worker&, std::size_t>>;
     struct Chunk {
       std::size_t first;
@@ -42,7 +43,7 @@ class Ensemble {
     };
     const auto threads = static_cast<std::size_t>(arena_.max_concurrency());
     // Long enough that handing over costs nothing beside queries of a microsecond, short enough to share the work.
-    const std::size_t length = std::clamp<std::size_t>(count / (8 * threads), 1, 256);
+    const std::size_t length = std::clamp<std::size_t>(count / (8 * threads), 1, longest);
     std::size_t next = 0;
     const auto hand_out = [&](tbb::flow_control& flow) -> std::size_t {
       if (next >= count) {
