@@ -12,6 +12,7 @@
 #include "hinge/tool/run_tool.hpp"
 #include "hinge/version.hpp"
 #include "options.hpp"
+#include "results.hpp"
 
 namespace {
 
@@ -109,6 +110,16 @@ void add_check_options(CLI::App& command, Options& o) {
           "--csv", [&o] { o.output = biocd::Output::csv; }, "CSV on standard output")
       ->excludes("--json");
   command.add_option("--mode", o.mode, "any, all, within:D (angstrom) or closest")->capture_default_str();
+  command.add_option("--out", o.out, "write the conformations to this .pdb, .dcd or .npy file");
+  command
+      .add_option_function<std::string>(
+          "--filter", [&o](const std::string& text) { o.only_free = text == "free"; },
+          "conformations that --out gets: all (default) or free")
+      ->check(CLI::IsMember({"all", "free"}))
+      ->needs("--out");
+  command.add_option_function<std::string>(
+      "--shard", [&o](const std::string& text) { o.shard = biocd::parse_shard(text); },
+      "i/n: part i of n (from 1), for biocd merge; with --json or --csv");
   command.add_option("--threads", o.threads, "worker threads; the output does not depend on them")
       ->check(CLI::Range(1U, 1024U))
       ->capture_default_str();
@@ -130,9 +141,11 @@ Exit run(int argc, char** argv) {
   info->add_flag("--atoms", o.atoms, "list atoms, bonds, thresholds and constant contacts (with --json)");
   info->callback([&] { command = biocd::run_info; });
 
-  CLI::App* check = app.add_subcommand("check", "verdict and pairs for each model of the file");
+  CLI::App* check = app.add_subcommand("check", "verdict and pairs for each model of the file, or frame");
   add_model_options(*check, o);
   add_check_options(*check, o);
+  check->add_option("TRAJECTORY", o.trajectories,
+                    "conformations instead of the file's own: DCD, XTC, .npy, PDB, mmCIF");
   check->callback([&] { command = biocd::run_check; });
 
   CLI::App* sample = app.add_subcommand("sample", "random conformations of the free torsions, each checked");
@@ -151,7 +164,6 @@ Exit run(int argc, char** argv) {
   sample->add_option("--tries", o.most_tries, "starts for each closed conformation at most")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  sample->add_option("--out", o.out, "write the conformations as a multi-model PDB file");
   sample->callback([&] { command = biocd::run_sample; });
 
   CLI::App* walk = app.add_subcommand("walk", "Monte Carlo walk of collision-free moves from the file's conformation");
@@ -167,6 +179,10 @@ Exit run(int argc, char** argv) {
   walk->add_option("--out", o.out, "write conformations as a multi-model PDB file");
   walk->add_option("--every", o.every, "steps from one conformation written to the next")->capture_default_str();
   walk->callback([&] { command = biocd::run_walk; });
+
+  CLI::App* merge = app.add_subcommand("merge", "joins the outputs of all shards of one run");
+  merge->add_option("FILES", o.shards, "what --shard 1/n ... n/n printed")->required();
+  merge->callback([&] { command = biocd::run_merge; });
 
   CLI::App* demo = app.add_subcommand("demo", "the main job on one protein: sample, time, verify, draw");
   demo->add_option("FILE", o.file, "PDB or mmCIF file")->required();

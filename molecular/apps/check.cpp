@@ -1,21 +1,123 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// biocd check: the coordinates of the file, model by model, every admitted pair.
+// biocd check: coordinates of files, model by model or frame by frame, every admitted pair.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "conformation_file.hpp"
+#include "hinge/core/error.hpp"
 #include "hinge/ensemble/ensemble.hpp"
+#include "hinge/molecular/trajectory.hpp"
+#include "hinge/tool/progress_bar.hpp"
 #include "options.hpp"
 #include "report.hpp"
+#include "results.hpp"
+#include "summary.hpp"
 
 namespace biocd {
 
+namespace {
+
 using namespace hinge::molecular;
 
+/// The frames of several files, one after another, numbered through.
+class Frames {
+ public:
+  Frames(const Options& options, const Structure& molecule) : named_(options.trajectories) {
+    for (const std::string& path : named_) files_.emplace_back(path, molecule, options.read);
+    if (named_.empty() && molecule.more_models) files_.emplace_back(options.file, molecule, options.read);
+    if (files_.empty()) files_.emplace_back(molecule);
+    for (const Trajectory& file : files_) {
+      starts_.push_back(size_);
+      size_ += file.size();
+      for (const std::string& note : file.notes()) std::fprintf(stderr, "note: %s\n", note.c_str());
+    }
+  }
+
+  struct Place {
+    std::size_t file, frame;
+  };
+  Place place(std::size_t k) const {
+    const auto file =
+        static_cast<std::size_t>(std::upper_bound(starts_.begin(), starts_.end(), k) - starts_.begin()) - 1;
+    return {file, k - starts_[file]};
+  }
+  const Trajectory& file(std::size_t k) const { return files_[place(k).file]; }
+  std::size_t size() const { return size_; }
+  /// Of the molecule's file, not of trajectories?
+  bool are_models() const { return named_.empty(); }
+  /// Of every frame. ModelError: frames of several sizes.
+  std::size_t atom_count() const {
+    for (const Trajectory& file : files_)
+      if (file.atom_count() != files_.front().atom_count())
+        throw hinge::ModelError(fmt::format("--out: frames of {} and of {} atoms do not go into one file",
+                                            files_.front().atom_count(), file.atom_count()));
+    return files_.front().atom_count();
+  }
+  bool is_single() const {
+    return std::all_of(files_.begin(), files_.end(), [](const Trajectory& file) { return file.is_single(); });
+  }
+
+  /// For the head of the output.
+  void describe(Json& head) const {
+    if (are_models()) {
+      head["model"]["models"] = size_;
+      return;
+    }
+    Json list = Json::array();
+    for (std::size_t f = 0; f < files_.size(); ++f)
+      list.push_back({{"file", named_[f]}, {"frames", files_[f].size()}, {"atoms", files_[f].atom_count()}});
+    head["trajectories"] = std::move(list);
+  }
+  void name(Json& row, std::size_t k) const {
+    const auto [file, frame] = place(k);
+    if (are_models()) {
+      row["model_number"] = files_[file].number(frame);
+    } else {
+      row["trajectory"] = file;
+      row["frame"] = files_[file].number(frame);
+    }
+  }
+  std::string name(std::size_t k) const {
+    const auto [file, frame] = place(k);
+    const int number = files_[file].number(frame);
+    return are_models() ? fmt::format("model {}", number) : fmt::format("{} frame {}", named_[file], number);
+  }
+
+ private:
+  const std::vector<std::string>& named_;
+  std::vector<Trajectory> files_;
+  std::vector<std::size_t> starts_;
+  std::size_t size_ = 0;
+};
+
+struct Checked {
+  Verdict verdict;
+  std::vector<hinge::Vec3> positions;  // only when they are to be written
+  std::string error;                   // why there is no verdict
+};
+
+void print_table_row(const Structure& s, const std::string& name, const Verdict& verdict, const Mode& mode) {
+  fmt::print("{}: {}", name, verdict.collides ? "collides" : "free");
+  if (mode.kind == Mode::Kind::all) fmt::print(", {} pairs", verdict.pairs.size());
+  if (mode.kind == Mode::Kind::within)
+    fmt::print(", {} pairs closer than their threshold + {}", verdict.pairs.size(), mode.margin);
+  fmt::print("\n");
+  for (const Contact& pair : verdict.pairs) fmt::print("{}\n", pair_line(s, pair));
+  if (verdict.closest) fmt::print("{}  (closest)\n", pair_line(s, *verdict.closest));
+}
+
+}  // namespace
+
 Exit run_check(const Options& options) {
-  const Job job = load(options);
+  Options first = options;
+  first.read.first_model = std::filesystem::is_regular_file(options.file);  // a pipe is read but once
+  const Job job = load(first);
   const Mode mode = Mode::parse(options.mode, "angstrom");
   print_notes(job);
   if (!options.explain.empty()) {
@@ -23,37 +125,72 @@ Exit run_check(const Options& options) {
     return Exit::free;
   }
   const Structure& s = job.molecule->structure();
-  Json json{{"tool", "biocd"}, {"command", "check"}, {"model", model_json(options, job)}, {"mode", mode.text()}};
-  json["constant_contacts"] = constant_contacts_json(job);
-  json["conformations"] = Json::array();
-  std::string table = heading(options, job), csv = csv_header();
-  std::size_t colliding = 0;
-  const auto judge = [&](Checker& checker, std::size_t m) { return checker.check_coordinates(s.models[m], mode); };
-  const auto report = [&](std::size_t m, const Verdict& verdict) {
-    colliding += verdict.collides ? 1 : 0;
-    if (options.output == Output::json) {
-      Json row = verdict_json(s, m, verdict, mode);
-      row["model_number"] = s.model_numbers[m];
-      json["conformations"].push_back(std::move(row));
+  const Frames frames(options, s);
+  const auto [begin, end] = shard_range(options.shard.value_or(Shard{}), frames.size());
+  ConformationFile file(options, s, options.out.empty() ? 0 : frames.atom_count(), frames.is_single());
+
+  Json head{{"tool", "biocd"}, {"command", "check"}, {"model", model_json(options, job)}, {"mode", mode.text()}};
+  frames.describe(head);
+  head["constant_contacts"] = constant_contacts_json(job);
+  Results results(options, std::move(head), frames.size());
+  if (options.output == Output::csv) print_constant_contacts(job);
+  if (options.output == Output::table) fmt::print("{}", heading(options, job));
+
+  Summary summary;
+  hinge::tool::ProgressBar bar(end - begin);
+  const auto judge = [&, begin = begin](Checker& checker, std::size_t n) {
+    Checked checked;
+    const auto k = static_cast<std::size_t>(begin) + n;
+    const Trajectory& source = frames.file(k);
+    try {
+      std::vector<hinge::Vec3> whole = source.frame(frames.place(k).frame);
+      if (file.wants_whole_frames()) checked.positions = whole;
+      std::vector<hinge::Vec3> own = source.kept(std::move(whole));
+      checked.verdict = checker.check_coordinates(own, mode);
+      if (!file.takes(checked.verdict.collides))
+        checked.positions = {};
+      else if (!file.wants_whole_frames())
+        checked.positions = std::move(own);
+    } catch (const hinge::LoadError& error) {
+      checked.error = error.what();
     }
-    if (options.output == Output::csv) csv += csv_rows(s, m, verdict);
-    if (options.output != Output::table) return;
-    table += fmt::format("model {}: {}", s.model_numbers[m], verdict.collides ? "collides" : "free");
-    if (mode.kind == Mode::Kind::all) table += fmt::format(", {} pairs", verdict.pairs.size());
-    if (mode.kind == Mode::Kind::within)
-      table += fmt::format(", {} pairs closer than their threshold + {}", verdict.pairs.size(), mode.margin);
-    table += "\n";
-    for (const Contact& pair : verdict.pairs) table += pair_line(s, pair) + "\n";
-    if (verdict.closest) table += pair_line(s, *verdict.closest) + "  (closest)\n";
+    return checked;
   };
-  hinge::Ensemble(job.checker, options.threads).run(s.models.size(), judge, report);
-  if (options.output == Output::json) fmt::print("{}\n", json.dump(1));
-  if (options.output == Output::csv) {
-    print_constant_contacts(job);
-    fmt::print("{}", csv);
+  const auto report = [&, begin = begin](std::size_t n, const Checked& checked) {
+    if (!checked.error.empty()) throw hinge::LoadError(checked.error);
+    const auto k = static_cast<std::size_t>(begin) + n;
+    summary.add(s, checked.verdict);
+    if (options.output == Output::json) {
+      Json row = verdict_json(s, k, checked.verdict, mode);
+      frames.name(row, k);
+      results.add(row);
+    }
+    if (options.output == Output::csv) results.add(csv_rows(s, k, checked.verdict));
+    if (options.output == Output::table) print_table_row(s, frames.name(k), checked.verdict, mode);
+    file.add(checked.positions, static_cast<int>(k) + 1, checked.verdict.collides);
+    bar.show(n + 1);
+  };
+  const auto finish = [&](const std::string& error) {
+    results.finish(summary.json(false), error);
+    if (options.output == Output::table)
+      fmt::print("{} of {} {} collide\n", summary.colliding(), summary.checked(),
+                 frames.are_models() ? "models" : "frames");
+  };
+  try {
+    hinge::Ensemble(job.checker, options.threads)
+        .run(static_cast<std::size_t>(end - begin), judge, report, results_at_once(s.atoms.size()));
+  } catch (const hinge::LoadError& error) {
+    // What was checked before counts, and is complete in itself.
+    finish(error.what());
+    file.finish();
+    throw;
+  } catch (const hinge::ModelError& error) {
+    finish(error.what());  // a conformation that does not fit the file of --out, which is not left behind
+    throw;
   }
-  if (options.output == Output::table) fmt::print("{}{} of {} models collide\n", table, colliding, s.models.size());
-  return colliding > 0 ? Exit::collision : Exit::free;
+  finish({});
+  file.finish();
+  return summary.colliding() > 0 ? Exit::collision : Exit::free;
 }
 
 }  // namespace biocd

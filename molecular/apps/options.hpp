@@ -21,12 +21,19 @@ using hinge::tool::Exit;
 
 enum class Output : std::uint8_t { table, json, csv };
 
+/// Part `index` of `of`, from 1.
+struct Shard {
+  std::uint64_t index = 1;
+  std::uint64_t of = 1;
+};
+
 struct Options {
   std::string file;
   std::vector<std::string> with;                             // further files
   std::vector<std::string> place;                            // "PART" or "PART=DISTANCE,DEGREES"
   std::vector<std::pair<std::string, std::string>> between;  // parts
   std::vector<std::string> inside;                           // parts
+  std::vector<std::string> trajectories;                     // check: files of conformations
   hinge::molecular::ReadOptions read;
   hinge::molecular::CheckOptions check;
   std::string free = "all";
@@ -44,8 +51,11 @@ struct Options {
   std::uint64_t seed = 1;
   std::optional<double> sigma_degrees;
   unsigned threads = 1;
-  std::string out;              // sample, walk: multi-model PDB to write
-  std::uint64_t steps = 10000;  // walk
+  std::string out;                    // check, sample, walk: conformations, by extension
+  bool only_free = false;             // check, sample: `out` gets those that do not collide
+  std::optional<Shard> shard;         // check, sample
+  std::vector<std::string> shards{};  // merge
+  std::uint64_t steps = 10000;        // walk
   double step_degrees = 3.0;
   std::uint64_t changes = 1;  // torsions per step
   std::uint64_t every = 100;  // steps from one conformation written to the next
@@ -66,6 +76,7 @@ Exit run_info(const Options& options);
 Exit run_check(const Options& options);
 Exit run_sample(const Options& options);
 Exit run_walk(const Options& options);
+Exit run_merge(const Options& options);
 Exit run_demo(const Options& options);
 
 /// Prints which rule kept or dropped the pair named by options.explain.

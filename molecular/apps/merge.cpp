@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// biocd merge: shards of one run joined to the bytes of the whole run.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "options.hpp"
+#include "results.hpp"
+#include "summary.hpp"
+
+namespace biocd {
+
+namespace {
+
+using hinge::LoadError;
+
+/// A shard's file, read line by line.
+class ShardFile {
+ public:
+  explicit ShardFile(std::string path) : path_(std::move(path)) {}
+
+  /// Reads what stands before the rows.
+  void open() {
+    stream_ = std::ifstream(path_);  // closed by for_rows, or the next open(): there may be more shards than files
+    if (!stream_) throw LoadError(path_ + ": cannot be opened");
+    if (!next()) refuse("is empty, expected what biocd --shard printed");
+    if (line_.starts_with("# biocd shard "))
+      open_csv();
+    else
+      open_json();
+  }
+
+  /// Opens the file and calls use(row, is_new) for each row; is_new: the first of its conformation. They must be those
+  /// of the shard, in order, with nothing missing at the end.
+  template <class Use>
+  void for_rows(const Use& use) {
+    open();
+    std::uint64_t expected = first, absent = 0;
+    while (next() && !is_end()) {
+      if (is_json && line_.ends_with(',')) line_.pop_back();
+      const std::uint64_t index = row_index();
+      const bool is_new = index >= expected;
+      // CSV has a row for each pair.
+      if (is_new ? index >= first + count : is_json || expected == first || index + 1 != expected)
+        refuse(fmt::format("conformation {} where {} was expected", index, expected));
+      if (is_new) {
+        absent += index - expected;
+        expected = index + 1;
+      }
+      use(line_, is_new);
+    }
+    const bool ended = is_end();
+    const std::uint64_t missing = ended ? read_missing() : 0;
+    if (!ended || absent + (first + count - expected) != missing)
+      refuse(fmt::format("ends behind conformation {}, expected {} conformations from {} on but for {}", expected,
+                         count, first, missing));
+    stream_.close();
+  }
+  void close() { stream_.close(); }
+
+  const std::string& path() const { return path_; }
+  std::string question;  ///< what must be the same in all shards
+  std::string header;    ///< CSV only
+  Json head;             ///< JSON only, without the shard
+  Json summary;          ///< JSON only
+  bool is_json = false;
+  Shard shard;
+  std::uint64_t first = 0, count = 0, total = 0;
+
+ private:
+  [[noreturn]] void refuse(const std::string& what) const { throw LoadError(path_ + ": " + what); }
+  bool next() {
+    const bool got = static_cast<bool>(std::getline(stream_, line_));
+    // A line without an end was cut; what a whole file ends with has one.
+    return got && !stream_.eof();
+  }
+
+  void check_range() const {
+    if (shard.index < 1 || shard.index > shard.of) refuse("no shard of a run");
+    const auto [begin, end] = shard_range(shard, total);
+    if (first != begin || count != end - begin) refuse("holds other conformations than its shard has");
+  }
+
+  bool is_end() const { return is_json ? line_ == json_rows_end : line_.starts_with(csv_shard_end); }
+  /// Samples that the run could not give.
+  std::uint64_t read_missing() {
+    if (is_json) {
+      read_summary();
+      return summary.value("missing", std::uint64_t{0});
+    }
+    const std::string_view text = std::string_view(line_).substr(std::string_view(csv_shard_end).size() + 1);
+    std::uint64_t missing = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), missing);
+    if (error != std::errc{} || end != text.data() + text.size()) refuse("its last line is damaged");
+    return missing;
+  }
+
+  void open_csv() {
+    is_json = false;
+    unsigned long long i = 0, n = 0, c = 0, f = 0, t = 0;
+    char digest[17] = {};
+    if (std::sscanf(line_.c_str(),
+                    "# biocd shard %llu/%llu: %llu conformations from %llu of %llu, question %16[0-9a-f]", &i, &n, &c,
+                    &f, &t, digest) != 6)
+      refuse("its first line is damaged");
+    shard = {i, n};
+    count = c;
+    first = f;
+    total = t;
+    check_range();
+    std::string columns = csv_header();
+    columns.pop_back();
+    if (!next() || !line_.starts_with(columns)) refuse("its second line is damaged");
+    header = line_ + "\n";
+    question = fmt::format("csv {} {} {}", digest, n, t);
+  }
+
+  void open_json() {
+    is_json = true;
+    std::string text = line_ + "\n";
+    while (next() && line_ != json_rows_begin) text += line_ + "\n";
+    if (line_ != json_rows_begin) refuse("has no conformations, expected what biocd --shard printed");
+    text.resize(text.size() - std::min<std::size_t>(2, text.size()));  // the comma before the rows
+    head = Json::parse(text + "}", nullptr, false);
+    if (head.is_discarded() || !head.is_object()) refuse("its head is damaged");
+    if (!head.contains("shard")) refuse("is no shard but a whole run");
+    const Json own = head["shard"];
+    const auto number = [&](const char* key) {
+      if (!own.is_object() || !own.contains(key) || !own[key].is_number_unsigned()) refuse("its shard is damaged");
+      return own[key].get<std::uint64_t>();
+    };
+    shard = {number("index"), number("of")};
+    first = number("first");
+    count = number("count");
+    total = number("total");
+    check_range();
+    head.erase("shard");
+    question = fmt::format("json {} {} ", shard.of, total) + head.dump();
+  }
+
+  void read_summary() {
+    const std::string key = "\"summary\": ";
+    if (!next() || !line_.starts_with(key) || !line_.ends_with('}')) refuse("has no summary, it may be cut short");
+    summary = Json::parse(line_.substr(key.size(), line_.size() - key.size() - 1), nullptr, false);
+    if (summary.is_discarded() || !summary.is_object()) refuse("its summary is damaged");
+    if (summary.contains("error")) refuse("its run ended early: " + summary["error"].dump());
+  }
+
+  std::uint64_t row_index() const {
+    std::string_view text = line_;
+    constexpr std::string_view key = "{\"index\":";
+    if (is_json) text = text.starts_with(key) ? text.substr(key.size()) : std::string_view();
+    std::uint64_t index = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+    if (error != std::errc{} || end == text.data() + text.size() || *end != ',') refuse("a row is damaged: " + line_);
+    return index;
+  }
+
+  std::string path_;
+  std::ifstream stream_;
+  std::string line_;
+};
+
+}  // namespace
+
+Exit run_merge(const Options& options) {
+  std::vector<ShardFile> files;
+  for (const std::string& path : options.shards) {
+    files.emplace_back(path);
+    files.back().open();
+    files.back().close();
+    if (files.back().question != files.front().question)
+      throw LoadError(path + ": is a shard of another run than " + files.front().path());
+  }
+  std::sort(files.begin(), files.end(),
+            [](const ShardFile& a, const ShardFile& b) { return a.shard.index < b.shard.index; });
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    const std::uint64_t index = files[k].shard.index;
+    if (k > 0 && index == files[k - 1].shard.index)
+      throw LoadError(fmt::format("{} and {} are both shard {}", files[k - 1].path(), files[k].path(), index));
+    if (index != k + 1 || (k + 1 == files.size() && index != files[k].shard.of))
+      throw LoadError(fmt::format("shard {} of {} is missing", index != k + 1 ? k + 1 : k + 2, files[k].shard.of));
+  }
+
+  // Everything is looked at before anything is printed.
+  Summary summary;
+  for (ShardFile& file : files) {
+    file.for_rows([&](const std::string& row, bool is_new) {
+      try {
+        if (file.is_json)
+          summary.add(Json::parse(row));
+        else if (is_new)
+          summary.add_csv(row);
+      } catch (const Json::exception&) {
+        throw LoadError(file.path() + ": a row is damaged: " + row);
+      }
+    });
+    if (file.is_json) summary.add_closures(file.summary);
+  }
+  const bool is_json = files.front().is_json;
+  if (is_json)
+    print_json_head(files.front().head);
+  else
+    fmt::print("{}", files.front().header);
+  bool is_first = true;
+  for (ShardFile& file : files) {
+    file.for_rows([&](const std::string& row, bool) {
+      if (is_json)
+        fmt::print("{}{}", json_row_separator(std::exchange(is_first, false)), row);
+      else
+        fmt::print("{}\n", row);
+    });
+  }
+  if (is_json) print_json_end(summary.json_like(files.front().summary));
+  return summary.colliding() > 0 ? Exit::collision : Exit::free;
+}
+
+}  // namespace biocd

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Counting.
+#include "summary.hpp"
+
+#include <utility>
+
+#include "hinge/core/id.hpp"
+
+namespace biocd {
+
+Summary::Summary(std::vector<std::string> closures, bool closed) : closures_(std::move(closures)) {
+  if (closed) starts_.emplace();
+}
+
+void Summary::add(const hinge::molecular::Structure& structure, const hinge::molecular::Verdict& verdict) {
+  ++checked_;
+  colliding_ += verdict.collides ? 1 : 0;
+  worst_residual_ = std::max(worst_residual_, verdict.closure_residual);
+  worst_residuals_.resize(verdict.closure_residuals.size());
+  for (std::size_t k = 0; k < worst_residuals_.size(); ++k)
+    worst_residuals_[k] = std::max(worst_residuals_[k], verdict.closure_residuals[k]);
+  for (const hinge::molecular::Contact& pair : verdict.pairs) {
+    if (!pair.collides) continue;
+    const auto i = static_cast<std::uint32_t>(hinge::index(pair.hit.first));
+    const auto j = static_cast<std::uint32_t>(hinge::index(pair.hit.second));
+    Offender& offender = offenders_[{i, j}];
+    if (offender.count++ == 0) offender = {i, j, label(structure, i), label(structure, j), 1};
+  }
+}
+
+void Summary::add(const Json& row) {
+  ++checked_;
+  colliding_ += row.at("collides").get<bool>() ? 1 : 0;
+  const auto pairs = row.find("pairs");
+  if (pairs == row.end()) return;
+  for (const Json& pair : *pairs) {
+    if (!pair.at("collides").get<bool>()) continue;
+    const auto i = pair.at("i").get<std::uint32_t>(), j = pair.at("j").get<std::uint32_t>();
+    Offender& offender = offenders_[{i, j}];
+    if (offender.count++ == 0)
+      offender = {i, j, pair.at("label_i").get<std::string>(), pair.at("label_j").get<std::string>(), 1};
+  }
+}
+
+void Summary::add_csv(const std::string& row) {
+  ++checked_;
+  const std::size_t comma = row.find(',');
+  colliding_ += comma != std::string::npos && row.compare(comma, 3, ",1,") == 0 ? 1 : 0;
+}
+
+void Summary::add(const Starts& starts) {
+  if (!starts_) starts_.emplace();
+  starts_->missing += starts.missing;
+  starts_->unclosed += starts.unclosed;
+  starts_->refused += starts.refused;
+}
+
+void Summary::add_closures(const Json& summary) {
+  worst_residual_ = std::max(worst_residual_, summary.value("worst_closure_residual", 0.0));
+  const Json closures = summary.value("closures", Json::array());
+  for (std::size_t k = 0; k < closures.size(); ++k) {
+    if (k == worst_residuals_.size()) {
+      closures_.push_back(closures[k].at("bond").get<std::string>());
+      worst_residuals_.push_back(0.0);
+    }
+    worst_residuals_[k] = std::max(worst_residuals_[k], closures[k].at("residual").get<double>());
+  }
+  if (summary.contains("missing"))
+    add(Starts{summary.at("missing").get<std::uint64_t>(), summary.at("starts_unclosed").get<std::uint64_t>(),
+               summary.at("closed_refused").get<std::uint64_t>()});
+}
+
+std::vector<Offender> Summary::top() const {
+  constexpr std::size_t most = 10;
+  std::vector<Offender> all;
+  for (const auto& [pair, offender] : offenders_) all.push_back(offender);
+  std::stable_sort(all.begin(), all.end(), [](const Offender& a, const Offender& b) { return a.count > b.count; });
+  all.resize(std::min(most, all.size()));
+  return all;
+}
+
+Json Summary::json(bool with_closures) const {
+  Json offenders = Json::array();
+  for (const Offender& o : top())
+    offenders.push_back({{"i", o.i}, {"j", o.j}, {"label_i", o.label_i}, {"label_j", o.label_j}, {"count", o.count}});
+  Json summary{{"checked", checked_}, {"colliding", colliding_}};
+  if (with_closures) {
+    summary["worst_closure_residual"] = worst_residual_;
+    Json& closures = summary["closures"] = Json::array();
+    for (std::size_t k = 0; k < worst_residuals_.size(); ++k)
+      closures.push_back({{"bond", closures_[k]}, {"residual", worst_residuals_[k]}});
+  }
+  summary["offenders"] = offenders;
+  if (starts_) {
+    summary["missing"] = starts_->missing;
+    summary["starts_unclosed"] = starts_->unclosed;
+    summary["closed_refused"] = starts_->refused;
+  }
+  return summary;
+}
+
+}  // namespace biocd

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// biocd on ensembles: trajectories, filters and shards, and what is left when a file breaks off.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "hinge/molecular/read_structure.hpp"
+#include "hinge/molecular/trajectory.hpp"
+#include "molecular/run_biocd.hpp"
+#include "molecular/test_files.hpp"
+#include "molecular/trajectory_files.hpp"
+
+namespace hinge::molecular {
+namespace {
+
+using Json = nlohmann::json;
+using test::Frame;
+using test::run_biocd;
+using test::Said;
+using test::TemporaryFile;
+
+std::string file() { return test::ubiquitin().string(); }
+
+/// Where biocd may write; removed with the object.
+struct Target {
+  explicit Target(const std::string& extension) : file("", extension) {}
+  std::string path() const { return file.path().string(); }
+  TemporaryFile file;
+};
+
+/// Twelve conformations of ubiquitin, some of which are free under this rule.
+const std::string rule = " --rho 0.7";
+std::string sample_to(const Target& target) {
+  return "sample " + file() + " -n 12 --seed 4 --sigma 0.4 --json --mode any --out " + target.path() + rule;
+}
+
+std::vector<bool> verdicts(const std::string& json) {
+  std::vector<bool> all;
+  const Json parsed = Json::parse(json);
+  for (const Json& row : parsed.at("conformations")) all.push_back(row.at("collides").get<bool>());
+  return all;
+}
+
+TEST(BiocdEnsemble, FindsTheSameInEveryFormat) {
+  const Target npy(".npy"), dcd(".dcd"), pdb(".pdb");
+  const std::vector<bool> expected = verdicts(run_biocd(sample_to(npy)).out);
+  ASSERT_EQ(expected.size(), 12U);
+  ASSERT_NE(std::count(expected.begin(), expected.end(), true), 0);
+  ASSERT_NE(std::count(expected.begin(), expected.end(), false), 0);
+  run_biocd(sample_to(dcd));
+  run_biocd(sample_to(pdb));
+  // The coordinates of the PDB file are the topology's, too.
+  for (const std::string& question :
+       {file() + " " + npy.path(), file() + " " + dcd.path(), file() + " " + pdb.path(), pdb.path()}) {
+    const Said said = run_biocd("check " + question + " --json" + rule);
+    EXPECT_EQ(said.status, 1);
+    EXPECT_EQ(verdicts(said.out), expected) << question;
+  }
+  const Json json = Json::parse(run_biocd("check " + file() + " " + npy.path() + " " + dcd.path() + " --json").out);
+  ASSERT_EQ(json["trajectories"].size(), 2U);
+  EXPECT_EQ(json["trajectories"][0]["frames"], 12);
+  EXPECT_EQ(json["trajectories"][0]["atoms"], 602);
+  EXPECT_EQ(json["conformations"][15]["index"], 15);
+  EXPECT_EQ(json["conformations"][15]["trajectory"], 1);
+  EXPECT_EQ(json["conformations"][15]["frame"], 3);
+  EXPECT_EQ(json["summary"]["checked"], 24);
+}
+
+TEST(BiocdEnsemble, WritesTheFreeOnes) {
+  const Target all(".npy");
+  const std::vector<bool> expected = verdicts(run_biocd(sample_to(all)).out);
+  const Structure s = read_structure(test::ubiquitin());
+  const Trajectory whole(all.path(), s);
+  for (const std::string extension : {".npy", ".dcd", ".pdb"}) {
+    const Target out(extension);
+    const std::string question = "check " + file() + " " + all.path() + rule + " --mode any --filter free --out ";
+    EXPECT_EQ(run_biocd(question + out.path() + " --threads 3").status, 1);
+    const Trajectory filtered(out.path(), s);
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+      if (expected[k]) continue;
+      ASSERT_LT(next, filtered.size());
+      const Frame a = filtered.frame(next++), b = whole.frame(k);
+      for (std::size_t i = 0; i < a.size(); ++i)
+        EXPECT_LE((a[i] - b[i]).cwiseAbs().maxCoeff(), extension == ".npy" ? 0.0 : 0.0006);
+    }
+    EXPECT_EQ(next, filtered.size());
+    const Said free = run_biocd("check " + file() + " " + out.path() + rule);
+    EXPECT_EQ(free.status, 0) << free.out;
+  }
+}
+
+TEST(BiocdEnsemble, GivesTheSameBytesHoweverItIsSplit) {
+  const Target npy(".npy");
+  run_biocd(sample_to(npy));
+  for (const std::string& question :
+       {"check " + file() + " " + npy.path() + rule, "sample " + file() + " -n 12 --seed 3 --sigma 0.4" + rule})
+    for (const std::string output : {" --json", " --csv"}) {
+      const Said whole = run_biocd(question + output + " 2>/dev/null");
+      ASSERT_FALSE(whole.out.empty());
+      for (const int n : {1, 3, 7, 13}) {
+        std::vector<std::unique_ptr<TemporaryFile>> shards;
+        std::string names;
+        for (int i = 1; i <= n; ++i) {
+          const std::string part = " --shard " + std::to_string(i) + "/" + std::to_string(n) + " --threads 2";
+          shards.push_back(
+              std::make_unique<TemporaryFile>(run_biocd(question + output + part + " 2>/dev/null").out, ".shard"));
+          names.append(" ").append(shards.back()->path().string());
+        }
+        const Said merged = run_biocd("merge" + names);
+        EXPECT_EQ(merged.status, whole.status);
+        EXPECT_TRUE(merged.out == whole.out) << question << output << ' ' << n;
+      }
+    }
+}
+
+TEST(BiocdEnsemble, MergesOnlyWhatBelongsTogether) {
+  const std::string question = "sample " + file() + " -n 5 --sigma 0.4 ";
+  for (const std::string output : {"--json", "--csv"}) {
+    const auto shard = [&](const std::string& which, const std::string& more = "") {
+      return run_biocd(question + output + " --shard " + which + " " + more + " 2>/dev/null").out;
+    };
+    const TemporaryFile one(shard("1/2")), two(shard("2/2")), seed(shard("2/2", "--seed 2")), third(shard("2/3"));
+    const TemporaryFile cut(shard("2/2").substr(0, shard("2/2").size() - 20)), whole(run_biocd(question + output).out);
+    const auto status = [](std::initializer_list<const TemporaryFile*> files) {
+      std::string command = "merge";
+      for (const TemporaryFile* f : files) command.append(" ").append(f->path().string());
+      const Said said = run_biocd(command + " 2>&1");
+      EXPECT_TRUE(said.status != 3 || said.out.starts_with("biocd: ")) << said.out;  // nothing is printed before
+      return said.status;
+    };
+    EXPECT_EQ(status({&one, &two}), 1);
+    EXPECT_EQ(status({&one}), 3);
+    EXPECT_EQ(status({&two}), 3);
+    EXPECT_EQ(status({&one, &one}), 3);
+    EXPECT_EQ(status({&one, &two, &two}), 3);
+    EXPECT_EQ(status({&one, &seed}), 3);
+    EXPECT_EQ(status({&one, &third}), 3);
+    EXPECT_EQ(status({&one, &cut}), 3);
+    EXPECT_EQ(status({&one, &whole}), 3);
+  }
+  EXPECT_EQ(run_biocd("merge /nonexistent 2>&1").status, 3);
+  for (const char* text : {"0/3", "4/3", "1", "a/b", "1/0", "-1/2"})
+    EXPECT_EQ(run_biocd(question + "--csv --shard " + text + " 2>&1").status, 2) << text;
+  EXPECT_EQ(run_biocd(question + "--shard 1/2 2>&1").status, 2);
+}
+
+TEST(BiocdEnsemble, KeepsWhatWasCheckedBeforeAFileBreaksOff) {
+  const Structure s = read_structure(test::ubiquitin());
+  std::vector<Frame> frames(40, s.models[0]);
+  const std::string dcd = test::dcd_file(frames);
+  frames[25][7][2] = std::numeric_limits<double>::infinity();
+  const TemporaryFile cut(dcd.substr(0, dcd.size() - 1000), ".dcd"), odd(test::npy_file(frames), ".npy");
+  const Target out(".npy");
+  for (const auto& [path, whole, word] :
+       {std::tuple(cut.path().string(), 39U, "cut short"), std::tuple(odd.path().string(), 25U, "frame 25: atom 7")})
+    for (const std::string threads : {"1", "4"}) {
+      const std::string question = "check " + file() + " " + path + " --mode any --threads " + threads;
+      const Said json = run_biocd(question + " --json --out " + out.path() + " 2>/dev/null");
+      EXPECT_EQ(json.status, 3);
+      EXPECT_EQ(verdicts(json.out).size(), whole);
+      EXPECT_NE(Json::parse(json.out)["summary"]["error"].get<std::string>().find(word), std::string::npos);
+      EXPECT_EQ(Trajectory(out.path(), s).size(), whole);
+      const Said said = run_biocd(question + " --csv 2>&1 >/dev/null | grep '^biocd: '");
+      EXPECT_NE(said.out.find(word), std::string::npos);
+      EXPECT_EQ(std::count(said.out.begin(), said.out.end(), '\n'), 1);
+      const TemporaryFile shard(run_biocd(question + " --json --shard 1/1 2>/dev/null").out);
+      const Said merged = run_biocd("merge " + shard.path().string() + " 2>&1");
+      EXPECT_EQ(merged.status, 3);
+      EXPECT_NE(merged.out.find("ended early"), std::string::npos) << merged.out;
+    }
+  // What cannot be begun says so and prints nothing.
+  for (const std::string& bytes : {std::string(), std::string("junk"), test::dcd_file({Frame(5, Vec3::Zero())})}) {
+    const TemporaryFile bad(bytes, ".dcd");
+    const Said said = run_biocd("check " + file() + " " + bad.path().string() + " --json 2>/dev/null");
+    EXPECT_EQ(said.status, 3);
+    EXPECT_EQ(said.out, "");
+  }
+  EXPECT_EQ(run_biocd("check " + file() + " --out /tmp/x.xtc 2>&1").status, 2);
+  EXPECT_EQ(run_biocd("check " + file() + " --filter free 2>&1").status, 2);
+}
+
+}  // namespace
+}  // namespace hinge::molecular
