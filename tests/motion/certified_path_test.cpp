@@ -66,8 +66,8 @@ Triangle make(Random& random, const Triangle*) {
 
 /// Revolute, prismatic and fixed joints in any order, with origins, branches and common ancestors.
 template <class P>
-Model<P> random_tree(Random& random) {
-  return test::random_model(random, 12, 3, false, [](Random& r, const Vec3&, const Vec3&) {
+Model<P> random_tree(Random& random, std::size_t links = 12, std::size_t most = 3) {
+  return test::random_model(random, links, most, false, [](Random& r, const Vec3&, const Vec3&) {
     return make(r, static_cast<const P*>(nullptr));
   });
 }
@@ -435,7 +435,8 @@ TEST(Displacements, BoundHowCloseGroupsAndPairsOfThemCome) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed + 9000);
-    Bodies<Point> plain = bodies(random_tree<Point>(random), 0.1);
+    // Every fifth of few groups of many points, whose largest speeds are found point by point.
+    Bodies<Point> plain = bodies(seed % 5 == 0 ? random_tree<Point>(random, 5, 40) : random_tree<Point>(random), 0.1);
     const auto& model = plain.model();
     std::vector<double> from(plain.dof_count()), to(from);
     for (double& q : from) q = random.uniform(-pi, pi);

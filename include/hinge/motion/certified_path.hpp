@@ -30,9 +30,6 @@
 
 namespace hinge {
 
-/// As a share of the path, a millionth: pairs that no shorter step settles touch their threshold, or nearly so.
-inline constexpr double smallest_path_step = 0x1p-20;
-
 /// Proves path after path for one hierarchy, of which it holds a copy. One per thread. What "free" says, and how it is
 /// proved: docs/explanation/certified_paths.md.
 template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
@@ -55,7 +52,6 @@ class CertifiedPath {
   // Beyond the limit by this factor a segment is cut once more: speeds differ along the path.
   static constexpr double most_above_limit = 1.5;
   static constexpr double most_pieces = 4096.0;
-  static constexpr bool has_no_body = HasNoBody<P>;
   // Links of many primitives with an extent are listed as wholes first: their pairs would be too many.
   static constexpr bool by_links = KeepsTrees<P>;
   // Displacements up to this share of the model are listed for; larger ones make long lists, smaller ones many. Near
@@ -146,8 +142,7 @@ bool CertifiedPath<P, F, D, EngineOf>::list(const PathSegment& segment) {
   }
   clearance_.clear();
   for (const double d : displacements_.of_groups()) clearance_.push_back(d / rates_.scale());
-  QueryOptions options;
-  options.clearance = clearance_;
+  const QueryOptions options{.clearance = clearance_, .precision = Precision::never_miss};  // more is no harm
   ListedPairs listed(listed_);
   if constexpr (by_links) {
     near_links_.clear();
@@ -175,7 +170,7 @@ void CertifiedPath<P, F, D, EngineOf>::cut_evenly(double largest) {
   double pieces = 1.0;
   while (!(largest <= list_limit_) && pieces < most_pieces) {
     pieces = std::ceil(pieces * std::clamp(largest / list_limit_, 1.1, 2.0));
-    largest = displacements_.find(rates_.groups(), 0.5 / pieces);
+    largest = displacements_.find_again(rates_.groups(), 0.5 / pieces);
   }
   segments_.push_pieces(static_cast<std::uint64_t>(std::min(pieces, most_pieces)));
 }
@@ -194,9 +189,14 @@ bool CertifiedPath<P, F, D, EngineOf>::judge(const PathSegment& segment) {
     const auto a = static_cast<std::uint32_t>(index(model.group_of(pair.first)));
     const auto b = static_cast<std::uint32_t>(index(model.group_of(pair.second)));
     const double m = hierarchy_.matrix().threshold(pair.first, pair.second);
-    const P p = hierarchy_.placed(pair.first), q = hierarchy_.placed(pair.second);
     const std::span<const GroupRate> groups = rates_.groups();
     const RelativeMotion& motion = motions_(groups, a, b, half);
+    const P p = hierarchy_.placed(pair.first), q = hierarchy_.placed(pair.second);
+    if constexpr (has_one_point<P>)
+      if (farther_than(p, q, m, motion.approach, rates_.scale())) {
+        ++answer_.counts.pairs_proved;
+        continue;
+      }
     if (pair.stands_for_links) {
       // The pairs of two links that may come too close are judged one by one, when they are few.
       if (find_near(pair, approach(motion, groups[a], groups[b], half), most_near)) {
@@ -219,7 +219,7 @@ bool CertifiedPath<P, F, D, EngineOf>::judge(const PathSegment& segment) {
     if (radii.before == 0.0 && radii.after == 0.0) {
       if (collides(pair, middle)) return true;
       // What never moves, and what nothing comes closer to than 0, is free as it is.
-      if ((groups[a].stands && groups[b].stands) || (has_no_body && m == 0.0)) {
+      if ((groups[a].stands && groups[b].stands) || (HasNoBody<P> && m == 0.0)) {
         ++answer_.counts.pairs_proved;
         continue;
       }

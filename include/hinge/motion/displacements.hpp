@@ -26,6 +26,8 @@ class Displacements {
   /// How far anything in each group can get when the parameter changes by at most `half` from the middle that `groups`
   /// were set to, rounding included; scaled as they are. Returns the largest; groups without primitives do not count.
   double find(std::span<const GroupRate> groups, double half);
+  /// The same for another half width around the same middle.
+  double find_again(std::span<const GroupRate> groups, double half);
   std::span<const double> of_groups() const noexcept { return of_groups_; }
 
  private:
@@ -40,10 +42,13 @@ class Displacements {
   template <class Pass>
   void outward(std::span<const GroupRate> groups, const Pass& pass);
   std::pair<std::size_t, double> find_fastest(std::span<const GroupRate> groups);
+  void spread(std::span<const GroupRate> groups, double half);
+  double bound(std::span<const GroupRate> groups, double half);
 
   std::size_t held_ = 0;
   std::vector<Moving> moving_;  // by group
   std::vector<std::uint8_t> on_way_;
+  std::vector<double> speeds_;  // by group, at the middle, of those that have primitives
   std::vector<double> of_groups_;
 };
 
@@ -73,7 +78,7 @@ inline std::pair<std::size_t, double> Displacements::find_fastest(std::span<cons
   });
   std::pair<std::size_t, double> fastest{0, 0.0};
   for (std::size_t g = 0; g < groups.size(); ++g)
-    if (const double s = groups[g].largest_speed(moving_[g].twist); groups[g].has_primitives && s > fastest.second)
+    if (const double s = groups[g].speed_bound(moving_[g].twist); groups[g].has_primitives && s > fastest.second)
       fastest = {g, s};
   return fastest;
 }
@@ -93,6 +98,20 @@ inline void Displacements::begin(std::span<const GroupRate> groups) {
 }
 
 inline double Displacements::find(std::span<const GroupRate> groups, double half) {
+  spread(groups, half);
+  speeds_.resize(groups.size());
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    if (groups[g].has_primitives) speeds_[g] = groups[g].largest_speed(moving_[g].twist);
+  return bound(groups, half);
+}
+
+inline double Displacements::find_again(std::span<const GroupRate> groups, double half) {
+  spread(groups, half);
+  return bound(groups, half);
+}
+
+/// Twists and changes of all groups.
+inline void Displacements::spread(std::span<const GroupRate> groups, double half) {
   outward(groups, [&](std::size_t to, std::size_t joint) {
     const GroupRate& by = groups[joint];
     Moving& moving = moving_[to];
@@ -105,6 +124,9 @@ inline double Displacements::find(std::span<const GroupRate> groups, double half
     pass_joint(by, half, norm(moving.twist.turn) + share_of_rounding * rounding * moving.summed, moving.change);
     if (!to_child) moving.change.point += by.step * moving.change.unit();
   });
+}
+
+inline double Displacements::bound(std::span<const GroupRate> groups, double half) {
   of_groups_.assign(groups.size(), 0.0);
   double largest = 0.0;
   for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -115,7 +137,7 @@ inline double Displacements::find(std::span<const GroupRate> groups, double half
     const double turns = 1.0 + half * moving.summed;
     const double rounding = share_of_rounding * turns * turns * (group.rounding + groups[held_].rounding) *
                             (group.reach + groups[held_].reach);
-    of_groups_[g] = (half * group.largest_speed(moving.twist) + 0.5 * half * half * second) * bound_above + rounding;
+    of_groups_[g] = (half * speeds_[g] + 0.5 * half * half * second) * bound_above + rounding;
     // Speeds that overflow may end as no number.
     if (!(of_groups_[g] >= 0.0)) of_groups_[g] = std::numeric_limits<double>::infinity();
     largest = std::max(largest, of_groups_[g]);

@@ -23,6 +23,9 @@ struct PathCounts {
   std::uint64_t pairs_proved = 0;    ///< of these, proved apart over the whole segment
 };
 
+/// As a share of the path, a millionth: pairs that no shorter step settles touch their threshold, or nearly so.
+inline constexpr double smallest_path_step = 0x1p-20;
+
 /// The path is q(t) = q0 + t (q1 - q0), 0 <= t <= 1.
 struct PathAnswer {
   PathVerdict verdict = PathVerdict::undecided;

@@ -20,9 +20,13 @@ struct ProvedRadii {
   double after = 0.0;
 };
 
+/// An atom or a ball.
+template <HasHull P>
+inline constexpr bool has_one_point = std::tuple_size_v<decltype(std::declval<P>().hull())> == 1;
+
 /// A primitive whose motion can be bounded: points, and what has closest points to tell the direction to look along.
 template <class P>
-concept Certifiable = HasHull<P> &&(HasClosestPoints<P> || std::tuple_size_v<decltype(std::declval<P>().hull())> == 1);
+concept Certifiable = HasHull<P> &&(HasClosestPoints<P> || has_one_point<P>);
 
 namespace detail {
 
@@ -54,6 +58,15 @@ struct CornersAlong {
 };
 
 }  // namespace detail
+
+/// Are p and q, which are points with a radius, so far apart that what comes closer by `closer` (scaled) is still at
+/// least m apart? Not where rounding of this very sum leaves it open.
+template <Certifiable P>
+requires has_one_point<P>
+bool farther_than(const P& p, const P& q, double m, double closer, double scale) noexcept {
+  const double least = ((p.hull_radius() + q.hull_radius() + m) * scale + closer) * (1.0 + 0x1p-40);
+  return squared_norm(Vec3((q.hull()[0] - p.hull()[0]) * scale)) > least * least * (1.0 + 0x1p-40);
+}
 
 /// p and q are at least m apart, as placed by whoever places them, for every parameter within these radii of the
 /// middle, at which p and q are given; at most `half`. All comparisons fail for NaN, which proves nothing.

@@ -19,6 +19,7 @@ struct RelativeMotion {
   Twist first, second;                                           ///< at the middle of the segment
   Vec3 first_point = Vec3::Zero(), second_point = Vec3::Zero();  ///< fixed in the two groups, there
   double first_unit = 0.0, second_unit = 0.0;  ///< second derivative of a vector fixed in the group, per length
+  double approach = 0.0;                       ///< of anything in the two groups, soon found
   double points = 0.0;                         ///< second derivatives of both points, summed
   double rounding = 0.0;                       ///< of any gap between the two, at any state of the segment
   bool still = true;                           ///< no joint between the two moves
@@ -106,6 +107,20 @@ inline void FindRelativeMotion::operator()(std::span<const GroupRate> groups, st
   motion.rounding = share_of_rounding * turns * turns * share * (groups[first].reach + groups[second].reach);
 }
 
+/// How much closer anything in two groups can come in a segment in which their speeds add up to this much at most at
+/// its middle; scaled as they are.
+inline double approach(const RelativeMotion& motion, const GroupRate& a, const GroupRate& b, double half,
+                       double speed) noexcept {
+  const double first_radius = norm(Vec3(motion.first_point - a.centre)) + a.extent;
+  const double second_radius = norm(Vec3(motion.second_point - b.centre)) + b.extent;
+  const double second = motion.points + motion.first_unit * first_radius + motion.second_unit * second_radius;
+  return (half * speed + 0.5 * half * half * second) * bound_above + motion.rounding;
+}
+/// The same by the closest bounds of speeds.
+inline double approach(const RelativeMotion& motion, const GroupRate& a, const GroupRate& b, double half) noexcept {
+  return approach(motion, a, b, half, a.largest_speed(motion.first) + b.largest_speed(motion.second));
+}
+
 /// Those of one segment, the latest of them kept: pairs of primitives come in the order of their groups.
 class RelativeMotions {
  public:
@@ -120,6 +135,8 @@ class RelativeMotions {
       kept.second = b;
       kept.segment = present_;
       find_(groups, a, b, half, kept.motion);
+      const double speed = groups[a].speed_bound(kept.motion.first) + groups[b].speed_bound(kept.motion.second);
+      kept.motion.approach = approach(kept.motion, groups[a], groups[b], half, speed);
     }
     return kept.motion;
   }
