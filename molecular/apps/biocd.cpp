@@ -20,7 +20,7 @@ using biocd::Exit;
 using biocd::Options;
 
 constexpr const char* footer =
-    "Exit status: 0 free, 1 collision found, 2 usage, 3 bad input.\n"
+    "Exit status: 0 free, 1 collision found, 2 usage, 3 bad input, 4 undecided (path).\n"
     "Selections (--free): all none loops every:N count:K backbone chi ligands, a torsion's name (phi psi omega "
     "chi1...,\n"
     "alpha beta gamma epsilon zeta chi kappa), A:45, A:10-20, A:45:chi1, A:chi, a ligand's bond B:401:C5-C6; joined by "
@@ -125,6 +125,23 @@ void add_check_options(CLI::App& command, Options& o) {
       ->capture_default_str();
 }
 
+void add_path_options(CLI::App& command, Options& o) {
+  add_json_option(command, o);
+  constexpr const char* end =
+      "reference, model:N (its torsions), @FILE or a list of turns from the reference, degrees, comma separated, one "
+      "per DOF";
+  command.add_option("--from", o.from, end)->required();
+  command.add_option("--to", o.to, end)->required();
+  CLI::Option* sampled = command
+                             .add_option("--sampled", o.sampled_degrees,
+                                         "look at states at most so many degrees apart (default: certify every state)")
+                             ->check(CLI::PositiveNumber);
+  command.add_option("--min-step", o.min_step, "stretches no longer than this share of the path are not cut any more")
+      ->check(CLI::PositiveNumber)
+      ->excludes(sampled)
+      ->capture_default_str();
+}
+
 Exit run(int argc, char** argv) {
   Options o;
   o.read.dictionary = hinge::molecular::installed_dictionary();
@@ -183,6 +200,13 @@ Exit run(int argc, char** argv) {
   CLI::App* merge = app.add_subcommand("merge", "joins the outputs of all shards of one run");
   merge->add_option("FILES", o.shards, "what --shard 1/n ... n/n printed")->required();
   merge->callback([&] { command = biocd::run_merge; });
+
+  CLI::App* path =
+      app.add_subcommand("path", "is the straight path between two conformations free? Proved, or sampled");
+  add_model_options(*path, o);
+  path->remove_option(path->get_option("--engine"));  // one engine proves
+  add_path_options(*path, o);
+  path->callback([&] { command = biocd::run_path; });
 
   CLI::App* demo = app.add_subcommand("demo", "the main job on one protein: sample, time, verify, draw");
   demo->add_option("FILE", o.file, "PDB or mmCIF file")->required();

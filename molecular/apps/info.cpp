@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <numbers>
 #include <string>
 
 #include "hinge/molecular/summary.hpp"
@@ -51,6 +52,17 @@ Json atoms_json(const Job& job) {
                         {"y", x[1]},
                         {"z", x[2]},
                         {"group", hinge::index(job.checker.group_of(i))}});
+  }
+  return list;
+}
+
+/// In the order in which configurations give their values.
+Json dofs_json(const Job& job) {
+  Json list = Json::array();
+  for (const hinge::DofId dof : job.checker.selection().dofs()) {
+    const Torsion& torsion = job.molecule->torsions()[job.molecule->torsion_of(dof)];
+    list.push_back(Json{{"torsion", torsion_label(job.molecule->structure(), torsion)},
+                        {"reference_degrees", torsion.reference * 180.0 / std::numbers::pi}});
   }
   return list;
 }
@@ -115,6 +127,7 @@ Exit run_info(const Options& options) {
     json["constant_contacts"] = constant_contacts_json(job);
     if (options.atoms) {
       json["atoms"] = atoms_json(job);
+      json["dofs"] = dofs_json(job);
       json["bonds"] = bonds_json(s);
       json["thresholds"] = thresholds_json(job.checker.thresholds());
     }

@@ -13,6 +13,7 @@
 #include "hinge/molecular/molecule.hpp"
 #include "hinge/molecular/read_structure.hpp"
 #include "hinge/molecular/sampler.hpp"
+#include "hinge/motion/path_answer.hpp"
 #include "hinge/tool/run_tool.hpp"
 
 namespace biocd {
@@ -59,6 +60,10 @@ struct Options {
   double step_degrees = 3.0;
   std::uint64_t changes = 1;  // torsions per step
   std::uint64_t every = 100;  // steps from one conformation written to the next
+  // path
+  std::string from, to;                   // see path_end.hpp
+  std::optional<double> sampled_degrees;  // look at states this far apart; none: certify
+  double min_step = hinge::smallest_path_step;
 };
 
 /// A file read, with its selection and rules, ready to be asked.
@@ -77,6 +82,7 @@ Exit run_check(const Options& options);
 Exit run_sample(const Options& options);
 Exit run_walk(const Options& options);
 Exit run_merge(const Options& options);
+Exit run_path(const Options& options);
 Exit run_demo(const Options& options);
 
 /// Prints which rule kept or dropped the pair named by options.explain.

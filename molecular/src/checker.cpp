@@ -161,6 +161,11 @@ Checker::AnyHierarchy Checker::make(const std::string& engine, DofSelection sele
   throw ModelError("engine '" + engine + "': expected wide, lazy or brute");
 }
 
+const DofSelection& Checker::selection() const {
+  return std::visit([](const auto& hierarchy) -> const DofSelection& { return hierarchy.model().selection(); },
+                    *hierarchy_);
+}
+
 std::size_t Checker::dof_count() const {
   return std::visit([](const auto& hierarchy) { return hierarchy.dof_count(); }, *hierarchy_);
 }

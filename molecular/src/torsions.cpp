@@ -182,6 +182,12 @@ class Finder {
 
 }  // namespace
 
+std::string torsion_label(const Structure& structure, const Torsion& torsion) {
+  std::string text = label(structure, structure.residues[torsion.residue].first_atom);
+  text.resize(text.rfind(':') + 1);  // without the atom
+  return text += torsion.name;
+}
+
 std::vector<Torsion> find_torsions(const Structure& structure, std::vector<std::string>& notes) {
   return Finder(structure, notes).run();
 }

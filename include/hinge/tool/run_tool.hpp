@@ -10,7 +10,7 @@
 namespace hinge::tool {
 
 /// As grep's: documented in docs/reference, the same for every tool.
-enum class Exit : int { free = 0, collision = 1, usage = 2, bad_input = 3 };
+enum class Exit : int { free = 0, collision = 1, usage = 2, bad_input = 3, undecided = 4 };
 
 /// Runs run() -> Exit and turns what it throws into a line and a status. ModelError is a rule or selection that does
 /// not fit: the command line is at fault; every other error is the input's.

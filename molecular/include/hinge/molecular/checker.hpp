@@ -72,6 +72,7 @@ class Checker {
   /// Those whose distance the selection cannot change (and which are not exempted).
   std::span<const Hit> constant_contacts() const noexcept { return *constant_; }
 
+  const DofSelection& selection() const;
   std::size_t dof_count() const;
   std::size_t rigid_group_count() const;
   GroupId group_of(std::uint32_t atom) const;

@@ -33,6 +33,9 @@ struct Torsion {
 /// out, with a note.
 std::vector<Torsion> find_torsions(const Structure& structure, std::vector<std::string>& notes);
 
+/// "A:LYS77:chi1", residues as by label().
+std::string torsion_label(const Structure& structure, const Torsion& torsion);
+
 /// Dihedral angle of four positions, rad in (-pi, pi], by atan2; NaN when three of them lie on a line up to rounding.
 double dihedral(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) noexcept;
 

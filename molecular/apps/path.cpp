@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// biocd path: is the straight path between two conformations free?
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "hinge/core/finite.hpp"
+#include "hinge/molecular/path_checker.hpp"
+#include "options.hpp"
+#include "path_end.hpp"
+#include "report.hpp"
+
+namespace biocd {
+
+using namespace hinge::molecular;
+using hinge::PathAnswer;
+using hinge::PathVerdict;
+
+namespace {
+
+struct Asked {
+  PathEnd from, to;
+  PathAnswer answer;
+  std::vector<Contact> pairs;     // that collide at the state found
+  double closure_residual = 0.0;  // the worse of the ends, angstrom
+};
+
+std::vector<double> in_degrees(const std::vector<double>& turns) {
+  std::vector<double> degrees(turns);
+  for (double& value : degrees) value /= degree;
+  return degrees;
+}
+
+const char* name(PathVerdict verdict) {
+  switch (verdict) {
+    case PathVerdict::free: return "free";
+    case PathVerdict::colliding: return "colliding";
+    case PathVerdict::undecided: break;
+  }
+  return "undecided";
+}
+
+std::string shown(const PathEnd& end) {
+  constexpr std::size_t most = 30;  // characters of a list, in a line for people
+  return end.text.size() > most ? end.text.substr(0, most) + "..." : end.text;
+}
+
+Json end_json(const PathEnd& end) {
+  Json json{{"given", end.text}, {"turns", in_degrees(end.turns)}, {"model_rmsd", Json()}, {"model_farthest", Json()}};
+  // Superposed coordinates are rounded differently on different instruction sets.
+  const auto rounded = [](double length) { return std::round(length * 1e3) / 1e3; };
+  if (end.from_model) json["model_rmsd"] = rounded(end.from_model->rmsd);
+  if (end.from_model) json["model_farthest"] = rounded(end.from_model->farthest);
+  return json;
+}
+
+Json path_json(const Options& options, const Job& job, const Asked& asked) {
+  const Structure& s = job.molecule->structure();
+  const PathAnswer& answer = asked.answer;
+  Json json{{"tool", "biocd"}, {"command", "path"}, {"model", model_json(options, job)}};
+  json["constant_contacts"] = constant_contacts_json(job);
+  json["dofs"] = Json::array();
+  for (const hinge::DofId dof : job.checker.selection().dofs())
+    json["dofs"].push_back(torsion_label(s, job.molecule->torsions()[job.molecule->torsion_of(dof)]));
+  json["from"] = end_json(asked.from);
+  json["to"] = end_json(asked.to);
+  json["closure_residual"] = asked.closure_residual;
+  json["method"] = options.sampled_degrees ? "sampled" : "certified";
+  json["resolution_degrees"] = options.sampled_degrees ? Json(*options.sampled_degrees) : Json();
+  json["min_step"] = options.sampled_degrees ? Json() : Json(options.min_step);
+  json["verdict"] = name(answer.verdict);
+  json["proved"] = answer.verdict == PathVerdict::colliding || (answer.is_free() && !options.sampled_degrees);
+  json["parameter"] = answer.is_free() ? Json() : Json(answer.parameter);
+  json["half_width"] = answer.verdict == PathVerdict::undecided ? Json(answer.half_width) : Json();
+  json["turns"] = answer.is_free() ? Json() : Json(in_degrees(answer.configuration));
+  json["pairs"] = Json::array();
+  for (const Contact& pair : asked.pairs) json["pairs"].push_back(pair_json(s, pair));
+  json["undecided_pair"] = Json();
+  if (answer.verdict == PathVerdict::undecided && answer.hit)
+    json["undecided_pair"] = pair_json(s, {*answer.hit, false});
+  json["states_looked_at"] = answer.counts.configurations;
+  return json;
+}
+
+void print_table(const Options& options, const Job& job, const Asked& asked) {
+  const Structure& s = job.molecule->structure();
+  const PathAnswer& answer = asked.answer;
+  fmt::print("{}", heading(options, job));
+  std::size_t most = 0;
+  const auto turned = [&](std::size_t k) { return std::abs(asked.to.turns[k] - asked.from.turns[k]); };
+  for (std::size_t k = 0; k < asked.to.turns.size(); ++k) most = turned(k) > turned(most) ? k : most;
+  fmt::print("path from {} to {}", shown(asked.from), shown(asked.to));
+  if (!asked.to.turns.empty()) {
+    const hinge::DofId dof = job.checker.selection().dofs()[most];
+    fmt::print("; largest turn {:.4g} degrees ({})", turned(most) / degree,
+               torsion_label(s, job.molecule->torsions()[job.molecule->torsion_of(dof)]));
+  }
+  fmt::print("\n");
+  if (asked.closure_residual > 0.0)
+    fmt::print("closures: not solved, so cycles open; the worse residual of the ends is {:.3f} angstrom\n",
+               asked.closure_residual);
+  switch (answer.verdict) {
+    case PathVerdict::free:
+      if (options.sampled_degrees)
+        fmt::print("free at {} states at most {} degrees apart; what lies between them was not looked at\n",
+                   answer.counts.configurations, *options.sampled_degrees);
+      else
+        fmt::print("free: proved for every state, from {} of them\n", answer.counts.configurations);
+      break;
+    case PathVerdict::colliding:
+      fmt::print("collides at t = {}, {} pairs\n", answer.parameter, asked.pairs.size());
+      for (const Contact& pair : asked.pairs) fmt::print("{}\n", pair_line(s, pair));
+      break;
+    case PathVerdict::undecided:
+      fmt::print("undecided: nothing is proved within {:.3g} of t = {}\n", answer.half_width, answer.parameter);
+      if (answer.hit) fmt::print("{}\n", pair_line(s, {*answer.hit, false}));
+      break;
+  }
+}
+
+}  // namespace
+
+Exit run_path(const Options& options) {
+  if (options.sampled_degrees && !hinge::is_finite(*options.sampled_degrees))
+    throw hinge::ModelError("--sampled: expected a finite number of degrees");
+  const Job job = load(options);
+  print_notes(job);
+  if (!options.explain.empty()) {
+    explain(options, job);
+    return Exit::free;
+  }
+  Asked asked{read_path_end("--from", options.from, job), read_path_end("--to", options.to, job), {}, {}};
+  // What was measured is an angle: whole turns are the path's choice. Lists say how far to turn.
+  if (asked.to.from_model)
+    take_shorter_way(asked.from.turns, asked.to.turns);
+  else if (asked.from.from_model)
+    take_shorter_way(asked.to.turns, asked.from.turns);
+  for (const PathEnd* end : {&asked.from, &asked.to})
+    if (const std::string note = note_of(*end, job); !note.empty()) std::fprintf(stderr, "note: %s\n", note.c_str());
+
+  PathChecker paths(job.checker);
+  asked.answer = options.sampled_degrees
+                     ? paths.sample(asked.from.turns, asked.to.turns, *options.sampled_degrees * degree)
+                     : paths.certify(asked.from.turns, asked.to.turns, options.min_step);
+  Checker checker = job.checker;
+  for (const PathEnd* end : {&asked.from, &asked.to})
+    asked.closure_residual =
+        std::max(asked.closure_residual, checker.check(end->turns, Mode{Mode::Kind::any}).closure_residual);
+  if (asked.answer.verdict == PathVerdict::colliding)
+    asked.pairs = checker.check(asked.answer.configuration, Mode{Mode::Kind::all}).pairs;
+
+  if (options.output == Output::json)
+    fmt::print("{}\n", path_json(options, job, asked).dump(1));
+  else
+    print_table(options, job, asked);
+  switch (asked.answer.verdict) {
+    case PathVerdict::free: return Exit::free;
+    case PathVerdict::colliding: return Exit::collision;
+    case PathVerdict::undecided: break;
+  }
+  return Exit::undecided;
+}
+
+}  // namespace biocd

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lists of degrees, and torsions measured from a model.
+#include "path_end.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstddef>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+#include <system_error>
+
+#include "hinge/core/error.hpp"
+#include "hinge/core/finite.hpp"
+
+namespace biocd {
+
+using namespace hinge::molecular;
+
+namespace {
+
+/// Numbers between separators; one comma separates, and blanks around it do not count.
+template <class Refuse>
+std::vector<double> read_degrees(std::string_view text, std::size_t count, const Refuse& refuse) {
+  constexpr std::string_view blanks = " \t\r\n";
+  std::vector<double> turns;
+  while (true) {
+    text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+    if (text.empty()) break;
+    std::string_view word = text.substr(0, text.find_first_of(", \t\r\n"));
+    text.remove_prefix(word.size());
+    text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+    const bool comma = text.starts_with(',');
+    if (comma) text.remove_prefix(1);
+    if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc{} || end != word.data() + word.size() || !hinge::is_finite(value))
+      refuse(fmt::format("value {} is '{}', expected a finite number of degrees", turns.size() + 1, word));
+    turns.push_back(value * degree);
+    if (comma && text.find_first_not_of(blanks) == std::string_view::npos) refuse("ends with a comma");
+  }
+  if (turns.size() != count)
+    refuse(fmt::format("{} values, expected {}: a turn from the reference, in degrees, for each DOF of the selection",
+                       turns.size(), count));
+  return turns;
+}
+
+std::string read_text(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) throw hinge::LoadError(path + ": is a directory, expected a file");
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw hinge::LoadError(path + ": cannot be opened: " + std::strerror(errno != 0 ? errno : ENOENT));
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (in.bad()) throw hinge::LoadError(path + ": cannot be read to its end");
+  return text;
+}
+
+std::size_t find_model(const std::string& option, std::string_view number, const Structure& s) {
+  int wanted = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), wanted);
+  const auto found = std::find(s.model_numbers.begin(), s.model_numbers.end(), wanted);
+  if (error == std::errc{} && end == number.data() + number.size() && found != s.model_numbers.end())
+    return static_cast<std::size_t>(found - s.model_numbers.begin());
+  throw hinge::ModelError(
+      fmt::format("{} model '{}': the models are numbered {}{}", option, number, s.model_numbers.front(),
+                  s.model_numbers.size() > 1 ? fmt::format(" ... {}", s.model_numbers.back()) : ""));
+}
+
+}  // namespace
+
+PathEnd read_path_end(const char* option, const std::string& text, const Job& job) {
+  PathEnd end{text, {}, {}};
+  const std::size_t count = job.checker.dof_count();
+  if (text == "reference") {
+    end.turns.assign(count, 0.0);
+  } else if (text.starts_with("model:")) {
+    const Structure& s = job.molecule->structure();
+    const std::vector<hinge::Vec3>& model = s.models[find_model(option, std::string_view(text).substr(6), s)];
+    try {
+      end.turns = fit_turns(*job.molecule, job.checker.selection(), model);
+    } catch (const hinge::LoadError& error) {
+      throw hinge::LoadError(fmt::format("{} {}: {}", option, text, error.what()));
+    }
+    Checker rebuilt = job.checker;
+    rebuilt.check(end.turns, Mode{Mode::Kind::any});
+    end.from_model = superpose(rebuilt.positions(), model);
+  } else if (text.starts_with('@')) {
+    const std::string path = text.substr(1);
+    end.turns = read_degrees(read_text(path), count,
+                             [&](const std::string& what) { throw hinge::LoadError(path + ": " + what); });
+  } else {
+    end.turns = read_degrees(text, count, [&](const std::string& what) {
+      throw hinge::ModelError(fmt::format("{} '{}': {}", option, text, what));
+    });
+  }
+  return end;
+}
+
+std::string note_of(const PathEnd& end, const Job& job) {
+  if (!end.from_model) return "";
+  const Superposition& found = *end.from_model;
+  return fmt::format(
+      "{} is rebuilt from its selected torsions, with bond lengths, bond angles and other torsions of the reference: "
+      "{:.3f} angstrom RMSD from the model, at most {:.3f} ({})",
+      end.text, found.rmsd, found.farthest, label(job.molecule->structure(), found.atom));
+}
+
+}  // namespace biocd
