@@ -27,10 +27,12 @@ std::vector<double> sample(const Robot& robot, std::uint64_t seed, std::uint64_t
   return q;
 }
 
-/// Zero but for what the states say, later ones over earlier ones.
-std::vector<double> join_states(const Options& options, const Job& job) {
+}  // namespace
+
+std::vector<double> join_states(const char* option, const std::vector<std::string>& states, const Options& options,
+                                const Job& job) {
   std::vector<double> q(job.robot->independent_joints().size(), 0.0);
-  for (const std::string& wanted : options.states) {
+  for (const std::string& wanted : states) {
     std::string known;
     bool found = false;
     for (const NamedConfiguration& state : job.srdf.configurations) {
@@ -41,15 +43,13 @@ std::vector<double> join_states(const Options& options, const Job& job) {
       found = true;
     }
     if (!found)
-      throw hinge::ModelError("--state '" + wanted + "': " +
+      throw hinge::ModelError(std::string(option) + " '" + wanted + "': " +
                               (options.srdf.empty() ? "there is no --srdf to name states"
                                : known.empty()      ? options.srdf + " has no states"
                                                     : "expected one of " + known));
   }
   return q;
 }
-
-}  // namespace
 
 Configurations find_configurations(const Options& options, const Job& job) {
   if (options.count > 0)
@@ -59,7 +59,7 @@ Configurations find_configurations(const Options& options, const Job& job) {
         std::make_shared<const std::vector<std::vector<double>>>(read_configurations(options.csv_in, *job.robot));
     return {rows->size(), [rows](std::size_t k) { return (*rows)[k]; }};
   }
-  return {1, [q = join_states(options, job)](std::size_t) { return q; }};
+  return {1, [q = join_states("--state", options.states, options, job)](std::size_t) { return q; }};
 }
 
 std::size_t count_outside_limits(const Configurations& configurations, const Robot& robot) {

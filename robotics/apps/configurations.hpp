@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "options.hpp"
@@ -18,6 +19,11 @@ struct Configurations {
 
 /// LoadError: a CSV file or SRDF that does not fit the robot. ModelError: a state that the SRDF does not have.
 Configurations find_configurations(const Options& options, const Job& job);
+
+/// Zero but for what the states (GROUP/NAME) say, later ones over earlier ones. ModelError, naming the option: a state
+/// that the SRDF does not have.
+std::vector<double> join_states(const char* option, const std::vector<std::string>& states, const Options& options,
+                                const Job& job);
 
 /// How many have a joint outside its limits. They are checked all the same.
 std::size_t count_outside_limits(const Configurations& configurations, const hinge::robotics::Robot& robot);

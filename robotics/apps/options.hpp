@@ -4,9 +4,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "hinge/motion/path_answer.hpp"
 #include "hinge/robotics/collision_matrix.hpp"
 #include "hinge/robotics/link_pairs.hpp"
 #include "hinge/robotics/read_srdf.hpp"
@@ -40,6 +42,10 @@ struct Options {
   std::string engine = "wide";
   bool contained = false;  // look for meshes inside others, too
   unsigned threads = 1;
+  // path
+  std::string from, to;           // see path_end.hpp
+  std::optional<double> sampled;  // rad or m, look at states this far apart; none: certify
+  double min_step = hinge::smallest_path_step;
   // matrix
   hinge::robotics::MatrixOptions matrix;  // its clearance is the one above
   bool disable_unseen = false;
@@ -65,5 +71,6 @@ void print_notes(const Job& job);
 Exit run_info(const Options& options);
 Exit run_check(const Options& options);
 Exit run_matrix(const Options& options);
+Exit run_path(const Options& options);
 
 }  // namespace robocd

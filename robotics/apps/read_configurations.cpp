@@ -135,4 +135,21 @@ std::vector<std::vector<double>> read_configurations(const std::filesystem::path
   return ConfigurationReader(path, robot).read();
 }
 
+std::vector<double> read_configuration(const std::string& what, std::string_view list, const Robot& robot) {
+  const std::size_t count = robot.independent_joints().size();
+  const std::vector<std::string_view> fields = split(list);
+  if (fields.size() != count)
+    throw hinge::ModelError(what + ": " + std::to_string(fields.size()) + " values, expected " + std::to_string(count) +
+                            ", one for each independent joint");
+  std::vector<double> q;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto value = parse(fields[k]);
+    if (!value)
+      throw hinge::ModelError(what + ": joint '" + robot.independent_name(k) + "' is '" + std::string(fields[k]) +
+                              "', expected a finite number");
+    q.push_back(*value);
+  }
+  return q;
+}
+
 }  // namespace robocd

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "hinge/robotics/robot.hpp"
@@ -14,5 +16,10 @@ namespace robocd {
 /// joint, a row of another length, a value that is not a finite number, no rows.
 std::vector<std::vector<double>> read_configurations(const std::filesystem::path& path,
                                                      const hinge::robotics::Robot& robot);
+
+/// One configuration as a list: values separated by commas, in the robot's order. ModelError: another number of them,
+/// or one that is not a finite number; `what` begins the message.
+std::vector<double> read_configuration(const std::string& what, std::string_view list,
+                                       const hinge::robotics::Robot& robot);
 
 }  // namespace robocd

@@ -19,7 +19,7 @@ using robocd::Exit;
 using robocd::Options;
 
 constexpr const char* footer =
-    "Exit status: 0 free, 1 collision found, 2 usage, 3 bad input.\n"
+    "Exit status: 0 free, 1 collision found, 2 usage, 3 bad input, 4 undecided (path).\n"
     "Lengths are metres, angles radians. A pair of links is tested unless the two move as one, are joined by one\n"
     "movable joint, or are disabled by --srdf or --skip-pairs.";
 
@@ -52,6 +52,10 @@ void add_clearance_option(CLI::App& command, Options& o) {
       ->capture_default_str();
 }
 
+void add_environment_option(CLI::App& command, Options& o) {
+  command.add_option("--env", o.environment, "mesh that stands in the world; repeatable");
+}
+
 void add_configuration_options(CLI::App& command, Options& o) {
   CLI::Option_group* source = command.add_option_group("configurations", "one of these");
   CLI::Option* random = source->add_option("--random", o.count, "number of configurations uniform within the limits")
@@ -74,7 +78,7 @@ void add_check_options(CLI::App& command, Options& o) {
           "--csv", [&o] { o.output = robocd::Output::csv; }, "CSV on standard output")
       ->excludes("--json");
   command.add_option("--mode", o.mode, "any, all, within:D (m) or closest")->capture_default_str();
-  command.add_option("--env", o.environment, "mesh that stands in the world; repeatable");
+  add_environment_option(command, o);
   command.add_flag("--contained", o.contained, "a closed mesh with another one inside it collides too");
   command.add_option("--engine", o.engine, "wide, lazy (the paper's) or brute")->capture_default_str();
   command.add_option("--threads", o.threads, "worker threads; the output does not depend on them")
@@ -92,6 +96,25 @@ void add_matrix_options(CLI::App& command, Options& o) {
   command.add_flag("--disable-unseen", o.disable_unseen,
                    "disable pairs that were never seen to meet too, although that is no proof");
   command.add_option("--out", o.out, "SRDF file to write (default: standard output)");
+}
+
+void add_path_options(CLI::App& command, Options& o) {
+  constexpr const char* end =
+      "zero, state:GROUP/NAME (several: commas), @FILE.csv or @FILE.csv:ROW (rows from 0), or a list of values, comma "
+      "separated, one per independent joint";
+  command.add_option("--from", o.from, end)->required();
+  command.add_option("--to", o.to, end)->required();
+  CLI::Option* sampled = command
+                             .add_option("--sampled", o.sampled,
+                                         "look at states at most so far apart, rad or m (default: certify every state)")
+                             ->check(CLI::PositiveNumber);
+  command.add_option("--min-step", o.min_step, "stretches no longer than this share of the path are not cut any more")
+      ->check(CLI::PositiveNumber)
+      ->excludes(sampled)
+      ->capture_default_str();
+  add_environment_option(command, o);
+  add_clearance_option(command, o);
+  add_json_option(command, o);
 }
 
 Exit run(int argc, char** argv) {
@@ -119,6 +142,13 @@ Exit run(int argc, char** argv) {
   add_robot_options(*matrix, o);
   add_matrix_options(*matrix, o);
   matrix->callback([&] { command = robocd::run_matrix; });
+
+  CLI::App* path =
+      app.add_subcommand("path", "is the straight path between two configurations free? Proved, or sampled");
+  add_robot_options(*path, o);
+  add_pair_options(*path, o);
+  add_path_options(*path, o);
+  path->callback([&] { command = robocd::run_path; });
 
   try {
     app.parse(argc, argv);

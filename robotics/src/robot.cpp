@@ -52,13 +52,14 @@ std::vector<std::size_t> parents_first(const RobotDescription& robot, std::strin
 
 }  // namespace
 
-Robot::Robot(RobotDescription description, const Tessellation& tessellation) : description_(std::move(description)) {
+Robot::Robot(RobotDescription description, const Tessellation& tessellation)
+    : description_(std::move(description)), tessellation_(tessellation) {
   if (const auto problem = first_problem(description_)) throw ModelError(problem->what);
-  build(tessellation);
+  build();
   find_drives();
 }
 
-void Robot::build(const Tessellation& tessellation) {
+void Robot::build() {
   std::map<std::string_view, const LinkDescription*> links;
   for (const LinkDescription& link : description_.links) links[link.name] = &link;
   std::map<std::string_view, const LinkDescription*> roots = links;
@@ -78,7 +79,7 @@ void Robot::build(const Tessellation& tessellation) {
     link_names_.push_back(link.name);
     triangle_counts_.push_back(0);
     for (const PlacedShape& placed : link.geometry) {
-      const Surface surface = tessellate(placed.shape, tessellation);
+      const Surface surface = tessellate(placed.shape, tessellation_);
       if (!std::holds_alternative<MeshShape>(placed.shape)) tessellated += surface.triangles.size();
       if (tessellated > most_tessellated)
         throw ModelError("link '" + link.name + "': with it the shapes take more than " +

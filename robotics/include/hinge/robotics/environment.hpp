@@ -59,6 +59,7 @@ class Environment {
 
  private:
   friend class RobotChecker;
+  friend class PathChecker;
   struct Attachment {
     std::shared_ptr<const Robot> robot;
     LinkId link{};

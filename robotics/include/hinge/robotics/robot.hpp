@@ -26,6 +26,7 @@ class Robot {
 
   const std::string& name() const noexcept { return description_.name; }
   const RobotDescription& description() const noexcept { return description_; }
+  const Tessellation& tessellation() const noexcept { return tessellation_; }
   /// Links parents first, otherwise in the description's order; triangles in the order of their links.
   const Model<Triangle>& model() const noexcept { return *model_; }
 
@@ -71,10 +72,11 @@ class Robot {
   void expand(std::span<const double> independent, std::span<double> full) const;
 
  private:
-  void build(const Tessellation& tessellation);
+  void build();
   void find_drives();
 
   RobotDescription description_;
+  Tessellation tessellation_;
   std::vector<std::string> link_names_;
   std::vector<std::size_t> triangle_counts_;
   std::vector<double> radii_;

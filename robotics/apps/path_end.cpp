@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// States of the SRDF, rows of a CSV file, lists.
+#include "path_end.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <system_error>
+
+#include "configurations.hpp"
+#include "hinge/core/error.hpp"
+#include "read_configurations.hpp"
+
+namespace robocd {
+
+namespace {
+
+std::vector<double> read_row(const std::string& what, std::string file, const Job& job) {
+  std::size_t row = 0;
+  bool named = false;
+  const std::size_t colon = file.rfind(':');
+  if (colon != std::string::npos) {
+    const char *first = file.data() + colon + 1, *last = file.data() + file.size();
+    const auto [end, error] = std::from_chars(first, last, row);
+    named = error == std::errc{} && end == last;
+    if (named) file.resize(colon);
+  }
+  const auto rows = read_configurations(file, *job.robot);
+  if (named ? row >= rows.size() : rows.size() > 1)
+    throw hinge::ModelError(what + ": " + file + " has " + std::to_string(rows.size()) + " rows, expected one of @" +
+                            file + ":0 to @" + file + ":" + std::to_string(rows.size() - 1));
+  return rows[row];
+}
+
+std::vector<std::string> split(std::string text) {
+  std::vector<std::string> words;
+  for (std::size_t comma = text.find(','); comma != std::string::npos; comma = text.find(',')) {
+    words.push_back(text.substr(0, comma));
+    text.erase(0, comma + 1);
+  }
+  words.push_back(text);
+  return words;
+}
+
+}  // namespace
+
+std::vector<double> read_path_end(const char* option, const std::string& text, const Options& options, const Job& job) {
+  constexpr std::size_t prefix = 6;  // of "state:"
+  const std::string what = std::string(option) + " '" + text + "'";
+  if (text == "zero") return std::vector<double>(job.robot->independent_joints().size(), 0.0);
+  if (text.starts_with("state:")) return join_states(option, split(text.substr(prefix)), options, job);
+  if (text.starts_with('@')) return read_row(what, text.substr(1), job);
+  return read_configuration(what, text, *job.robot);
+}
+
+}  // namespace robocd
