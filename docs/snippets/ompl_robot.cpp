@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A motion around a post, planned by OMPL, which asks a RobotChecker about every state.
+// A motion around a post, planned by OMPL, which asks a RobotChecker about states and has every motion between two
+// proved.
+#include <hinge/robotics/path_checker.hpp>
 #include <hinge/robotics/robot_checker.hpp>
+
+#include <ompl/base/MotionValidator.h>
 
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/geometric/SimpleSetup.h>
@@ -8,10 +12,12 @@
 #include <ompl/util/Console.h>
 #include <ompl/util/RandomNumbers.h>
 
+#include <cstddef>
 #include <cstdio>
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 
 using namespace hinge::robotics;
 namespace ob = ompl::base;
@@ -31,6 +37,31 @@ class RobotIsFree : public ob::StateValidityChecker {
 
  private:
   mutable RobotChecker checker_;
+};
+
+// Free is what is proved free, all the way; nothing has to be said about steps.
+class MotionIsFree : public ob::MotionValidator {
+ public:
+  MotionIsFree(const ob::SpaceInformationPtr& space, const RobotChecker& checker)
+      : ob::MotionValidator(space), paths_(checker) {}
+  bool checkMotion(const ob::State* from, const ob::State* to) const override {
+    const bool free = si_->satisfiesBounds(to) && paths_.certify(values(from), values(to)).is_free();
+    ++(free ? valid_ : invalid_);
+    return free;
+  }
+  // A collision that is found need not be the first: of a motion that is not free only its start is known to be.
+  bool checkMotion(const ob::State* from, const ob::State* to, std::pair<ob::State*, double>& last) const override {
+    if (checkMotion(from, to)) return true;
+    if (last.first != nullptr) si_->copyState(last.first, from);
+    last.second = 0.0;
+    return false;
+  }
+
+ private:
+  std::span<const double> values(const ob::State* state) const {
+    return {state->as<Space::StateType>()->values, si_->getStateDimension()};
+  }
+  mutable PathChecker paths_;
 };
 
 // Three links of 1 m in a plane, and a post that stands 2 m from the base.
@@ -54,8 +85,7 @@ int main() {
   ompl::msg::noOutputHandler();
   ompl::RNG::setSeed(1);
   const auto robot = std::make_shared<const Robot>(arm_and_post());
-  const double clearance = 0.02;  // m, more than what moves between two states that OMPL asks about
-  const RobotChecker checker(robot, tested_pairs(*robot), LinkMargins(*robot, clearance));
+  const RobotChecker checker(robot, tested_pairs(*robot), LinkMargins(*robot));
 
   const auto space = std::make_shared<Space>(robot->lower().size());
   ob::RealVectorBounds bounds(space->getDimension());
@@ -66,7 +96,7 @@ int main() {
   ompl::geometric::SimpleSetup setup(space);
   const auto information = setup.getSpaceInformation();
   setup.setStateValidityChecker(std::make_shared<RobotIsFree>(information, checker));
-  information->setStateValidityCheckingResolution(0.0005);  // of the space's diagonal: 0.004 rad
+  information->setMotionValidator(std::make_shared<MotionIsFree>(information, checker));
   setup.setPlanner(std::make_shared<ompl::geometric::RRTConnect>(information));
   ob::ScopedState<Space> start(space), goal(space);
   start = std::vector{0.6, 0.0, 0.0};
@@ -76,13 +106,15 @@ int main() {
 
   if (information->checkMotion(start.get(), goal.get())) return 1;  // the post is in the way
   if (setup.solve(10.0) != ob::PlannerStatus::EXACT_SOLUTION) return 1;
+  setup.simplifySolution();
   auto path = setup.getSolutionPath();
-  path.interpolate();
-  RobotChecker exact(robot, tested_pairs(*robot), LinkMargins(*robot));
+  const std::size_t corners = path.getStateCount();
+  path.interpolate(1000);
+  RobotChecker exact = checker;
   for (const ob::State* state : path.getStates()) {
     exact.update(std::span(state->as<Space::StateType>()->values, space->getDimension()));
     if (exact.collides()) return 1;
   }
-  std::printf("%zu states, none collides\n", path.getStateCount());
+  std::printf("%zu motions, each proved free; %zu states of them, none collides\n", corners - 1, path.getStateCount());
   return 0;
 }
