@@ -14,6 +14,7 @@
 #include "contestant.hpp"
 #include "hinge/engine/brute/brute.hpp"
 #include "moves.hpp"
+#include "path_rows.hpp"
 #include "reference.hpp"
 #include "results.hpp"
 #include "robots/run_robots.hpp"
@@ -27,6 +28,7 @@ using namespace hinge::bench;
 
 constexpr int checked_conformations = 20;
 constexpr double robot_seconds = 3.0;  // for each query of each robot
+constexpr int paths_of_set = 60;       // half a minute for all sets
 constexpr std::size_t small = 1500;    // atoms, up to which engine/brute is asked too: 3 ms an answer
 
 struct Checked {
@@ -180,11 +182,22 @@ int main(int argc, char** argv) {
                {"timed_differences", timed_differences}});
   results.add({{"kind", "mean"}, {"torsions_fcl", torsions.value()}, {"floor", floor}, {"floor_dof", floor_dof}});
   const std::size_t wrong_blocks = print_batches(), wrong_moves = print_walks();
+  int wrong_paths = 0;
+  const auto [moving, path_sets] = protein_paths();
+  for (const ProteinPaths& set : path_sets) {
+    const Scene scene(moving, set.free);
+    const PathRow row = measure_paths(scene, set, paths_of_set);
+    wrong_paths += row.wrong;
+    print_path_ratios(set.name, row);
+    add_paths(results, set.name, scene.dof_count(), row);
+  }
   RobotRatios robots;
   const int robot_differences = run_robots({200, robot_seconds, false, 0}, robots, results);
   robots.print("fcl-best", results);
   robots.print("fcl-unshared", results);
   results.write(arguments.json);
-  return wrong_blocks == 0 && wrong_moves == 0 && checked.differences + timed_differences + robot_differences == 0 ? 0
-                                                                                                                   : 1;
+  return wrong_blocks == 0 && wrong_moves == 0 && wrong_paths == 0 &&
+                 checked.differences + timed_differences + robot_differences == 0
+             ? 0
+             : 1;
 }

@@ -16,6 +16,7 @@
 
 #include "contestant.hpp"
 #include "hinge/molecular/radii.hpp"
+#include "path_rows.hpp"
 #include "results.hpp"
 #include "robots/trade_tiers.hpp"
 #include "scene.hpp"
@@ -172,6 +173,26 @@ DofSelection select(const Protein& protein, const char* words) {
   return protein.molecule->select(molecular::select_torsions(*protein.molecule, words, true));
 }
 
+/// Of the paths that certification proves to collide, those that sampling calls free, beside what either takes.
+void trade_paths(Results& results, int count) {
+  std::printf("\nwhat sampling misses of straight paths, %d of each set-up\n%-12s %-16s %10s %10s %10s %9s %8s\n",
+              count, "", "", "free us", "colliding", "us each", "missed", "of them");
+  const auto [protein, sets] = protein_paths();
+  for (const ProteinPaths& set : sets) {
+    const Scene scene(protein, set.free);
+    const PathRow row = measure_paths(scene, set, count);
+    const auto mean = [](double sum, int of) { return of > 0 ? sum / of : std::nan(""); };
+    for (const PathMethod m : {certified, sampled_five, sampled_one, sampled_tenth})
+      std::printf("%-12s %-16s %10.1f %10d %10.1f %9d %7.1f%%\n", set.name, path_method_names[m],
+                  mean(row.free_us[m], row.free), row.colliding, mean(row.colliding_us[m], row.colliding),
+                  row.missed[m], 100.0 * mean(row.missed[m], row.colliding));
+    std::fflush(stdout);
+    if (row.undecided > 0 || row.wrong > 0)
+      std::printf("%-12s %d undecided, %d wrong\n", set.name, row.undecided, row.wrong);
+    add_paths(results, set.name, scene.dof_count(), row);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -215,6 +236,7 @@ int main(int argc, char** argv) {
     sets.push_back(asked_exactly(set, p, select(p, "all")));
   }
   run(results, "radii sets", bondi, select(bondi, "all"), std::move(sets), n);
+  trade_paths(results, std::min(n, 400));
   trade_tiers(static_cast<std::size_t>(arguments.number), results);
   results.write(arguments.json);
   return 0;

@@ -64,27 +64,38 @@ class Subject {
     }
     return configurations;
   }
-  /// Links with triangles that hang on the world by fixed joints.
-  std::span<const std::size_t> base() const noexcept { return base_; }
-
- private:
-  void make_postures(std::size_t count) {
+  /// One value per DOF each.
+  std::vector<Posture> postures_at(std::span<const std::vector<double>> configurations) const {
     const KinematicTree& tree = robot_.model().tree();
     const auto groups = std::make_shared<const RigidGroups>(tree, DofSelection::all(tree));
     PoseSource source(groups, tree.dof_count());
-    for (std::size_t k = 0; k < count; ++k) {
-      SampleStream stream(robot_seed, k);
-      source.set_configuration(robot_.expand(test::random_configuration(robot_, stream)));
-      Posture posture;
+    std::vector<Posture> postures;
+    for (const std::vector<double>& q : configurations) {
+      source.set_configuration(q);
+      Posture& posture = postures.emplace_back();
       for (std::size_t g = 0; g < groups->size(); ++g) posture.groups.push_back(source.pose(id<GroupId>(g)));
       for (std::size_t l = 0; l < tree.link_count(); ++l) {
         const auto link = id<LinkId>(l);
         posture.links.push_back(placement(posture.groups[index(groups->group_of(link))] * groups->link_in_group(link)));
       }
-      postures_.push_back(std::move(posture));
     }
+    return postures;
+  }
+  /// Links with triangles that hang on the world by fixed joints.
+  std::span<const std::size_t> base() const noexcept { return base_; }
+
+ private:
+  void make_postures(std::size_t count) {
+    std::vector<std::vector<double>> configurations;
+    for (std::size_t k = 0; k < count; ++k) {
+      SampleStream stream(robot_seed, k);
+      configurations.push_back(robot_.expand(test::random_configuration(robot_, stream)));
+    }
+    postures_ = postures_at(configurations);
+    const KinematicTree& tree = robot_.model().tree();
+    const RigidGroups rigid(tree, DofSelection::all(tree));
     for (std::size_t l = 0; l < tree.link_count(); ++l)
-      if (!meshes_[l].empty() && groups->group_of(id<LinkId>(l)) == GroupId{}) base_.push_back(l);
+      if (!meshes_[l].empty() && rigid.group_of(id<LinkId>(l)) == GroupId{}) base_.push_back(l);
   }
 
   std::string name_;
