@@ -49,9 +49,8 @@ Job load(const Options& options) {
   std::vector<std::size_t> held;
   if (options.keep_closures && !loops) held = find_held_torsions(*molecule, torsions);
   std::erase_if(torsions, [&](std::size_t k) { return std::binary_search(held.begin(), held.end(), k); });
-  hinge::DofSelection selection = molecule->select_placed(torsions);
-  Checker checker(molecule, selection, rules);
-  return {std::move(molecule), std::move(checker), std::move(selection), std::move(held), std::move(ranges)};
+  Checker checker(molecule, molecule->select_placed(torsions), rules);
+  return {std::move(molecule), std::move(checker), std::move(held), std::move(ranges)};
 }
 
 namespace {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,6 +20,8 @@
 namespace biocd {
 
 using hinge::tool::Exit;
+
+inline constexpr double degree = std::numbers::pi / 180.0;  // rad
 
 enum class Output : std::uint8_t { table, json, csv };
 
@@ -70,7 +73,6 @@ struct Options {
 struct Job {
   std::shared_ptr<const hinge::molecular::Molecule> molecule;
   hinge::molecular::Checker checker;
-  hinge::DofSelection selection;
   std::vector<std::size_t> held;  // torsions selected that closed cycles hold at the reference, and so not free
   std::vector<hinge::molecular::PlacementRange> ranges;  // per placed part
 };

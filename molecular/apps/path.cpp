@@ -130,6 +130,9 @@ void print_table(const Options& options, const Job& job, const Asked& asked) {
 Exit run_path(const Options& options) {
   if (options.sampled_degrees && !hinge::is_finite(*options.sampled_degrees))
     throw hinge::ModelError("--sampled: expected a finite number of degrees");
+  if (!options.place.empty()) throw hinge::ModelError("--place: a path turns torsions, expected no placed parts");
+  if (!options.loop.empty())
+    throw hinge::ModelError("--loop: cycles are not closed along a path, expected no loops; sample closes them");
   const Job job = load(options);
   print_notes(job);
   if (!options.explain.empty()) {

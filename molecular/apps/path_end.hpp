@@ -2,7 +2,6 @@
 // An end of a path, as the command line names it.
 #pragma once
 
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,8 +10,6 @@
 #include "options.hpp"
 
 namespace biocd {
-
-inline constexpr double degree = std::numbers::pi / 180.0;  // rad
 
 struct PathEnd {
   std::string text;                                           ///< as given

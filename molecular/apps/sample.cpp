@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <cstdint>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -46,7 +45,7 @@ struct Worker {
 Sample draw(Worker& worker, const Job& job, const Sampling& sampling, std::uint64_t k, const Mode& mode,
             bool collision_free) {
   if (!worker.closed) {
-    const std::vector<double> q = sample_configuration(sampling, k, *job.molecule, job.selection, job.ranges);
+    const std::vector<double> q = sample_configuration(sampling, k, *job.molecule, job.checker.selection(), job.ranges);
     Sample sample{worker.checker.check(q, mode), {}};
     sample.placements = placements_of(job, q);
     return sample;
@@ -99,7 +98,7 @@ Exit run_sample(const Options& options) {
   }
   if (options.count == 0) throw hinge::ModelError("-n 0: expected at least one conformation");
   Sampling sampling{options.seed, {}};
-  if (options.sigma_degrees) sampling.sigma = *options.sigma_degrees * std::numbers::pi / 180.0;
+  if (options.sigma_degrees) sampling.sigma = *options.sigma_degrees * degree;
   const bool closed = options.keep_closures || !options.loop.empty();
   if (options.collision_free && !closed)
     throw hinge::ModelError("--collision-free: expected --loop or --closures keep beside it");
@@ -119,7 +118,7 @@ Exit run_sample(const Options& options) {
   hinge::tool::ProgressBar bar(end - begin);
   const auto start = std::chrono::steady_clock::now();
   Worker worker{job.checker, {}};
-  if (closed) worker.closed.emplace(*job.molecule, job.selection, sampling, options.most_tries);
+  if (closed) worker.closed.emplace(*job.molecule, job.checker.selection(), sampling, options.most_tries);
   const auto judge = [&, begin = begin](Worker& mine, std::size_t n) {
     Sample sample = draw(mine, job, sampling, begin + n, mode, options.collision_free);
     if (sample.found && file.takes(sample.verdict.collides)) sample.positions = mine.checker.positions();

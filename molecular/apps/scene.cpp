@@ -22,8 +22,6 @@ using namespace hinge::molecular;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
-
 /// Where a --place that gives no range may go: a binding site's neighbourhood, turned any way.
 constexpr PlacementRange usual_range{10.0, std::numbers::pi};
 
@@ -75,7 +73,7 @@ PairScope read_scope(const Options& options, const Structure& structure) {
 }
 
 Placements placements_of(const Job& job, std::span<const double> q) {
-  const auto dofs = job.selection.dofs();
+  const auto dofs = job.checker.selection().dofs();
   Placements placements;
   for (const PlacedPart& placed : job.molecule->placed_parts()) {
     auto& values = placements.emplace_back();

@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <cstdint>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -43,10 +42,11 @@ void check_options(const Options& options, const Job& job) {
 void check_start(const Options& options, const Structure& s, Moves& moves) {
   if (!moves.collides()) return;
   const std::vector<hinge::Hit>& hits = moves.collisions();
-  throw hinge::LoadError(
-      fmt::format("{}: collides in {} pair{}, the first {}; expected a free conformation to start from "
-                  "(--exempt-reference leaves its colliding pairs out)",
-                  options.file, hits.size(), hits.size() == 1 ? "" : "s", pair_line(s, {hits.front(), true})));
+  const auto name = [&](hinge::PrimitiveId i) { return label(s, static_cast<std::uint32_t>(hinge::index(i))); };
+  throw hinge::LoadError(fmt::format(
+      "{}: collides in {} pair{}, first {} and {}; expected a free conformation to start from "
+      "(--exempt-reference leaves its colliding pairs out)",
+      options.file, hits.size(), hits.size() == 1 ? "" : "s", name(hits.front().first), name(hits.front().second)));
 }
 
 std::vector<hinge::Vec3> positions(Moves& moves) {
@@ -67,14 +67,14 @@ Exit run_walk(const Options& options) {
   }
   check_options(options, job);
   const Structure& s = job.molecule->structure();
-  Moves moves(MolecularHierarchy<hinge::Wide>(job.molecule->model(), job.selection, job.checker.exclusions(),
+  Moves moves(MolecularHierarchy<hinge::Wide>(job.molecule->model(), job.checker.selection(), job.checker.exclusions(),
                                               job.checker.thresholds().matrix));
   check_start(options, s, moves);
   if (options.output == Output::table) fmt::print("{}", heading(options, job));
 
   hinge::tool::CompleteFile file(options.out);
   hinge::tool::ProgressBar bar(options.steps);
-  const double sigma = options.step_degrees * std::numbers::pi / 180.0;
+  const double sigma = options.step_degrees * degree;
   std::vector<hinge::DofChange> changes;
   std::uint64_t accepted = 0;
   int frames = 0;

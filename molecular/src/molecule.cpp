@@ -135,12 +135,6 @@ class MoleculeBuilder {
     }
     for (const Bond& bond : bonds_)
       if (!turning.contains({bond.first, bond.second})) rigid_.join(bond.first, bond.second);
-    // A torsion about a bond that was set aside is no hinge: the tree would open the cycle somewhere else.
-    for (const Bond& bond : cross_links_)
-      if (const auto set_aside = turning.find({bond.first, bond.second}); set_aside != turning.end()) {
-        note(set_aside->second, "closes a cycle and is no degree of freedom");
-        turning.erase(set_aside);
-      }
     for (const auto& [bond, t] : turning) {
       const auto [a, b] = bond;
       if (rigid_.find(a) == rigid_.find(b)) {
@@ -256,7 +250,7 @@ class MoleculeBuilder {
   /// Keeps the torsions that became joints.
   void order_torsions() {
     std::vector<Torsion> kept;
-    molecule_.torsion_of_.assign(model_dof_count(), Molecule::no_torsion);
+    molecule_.torsion_of_.assign(molecule_.model_->tree().dof_count(), Molecule::no_torsion);
     for (std::uint32_t t = 0; t < molecule_.torsions_.size(); ++t) {
       const auto found = done_.find(t);
       if (found == done_.end() || !found->second) continue;
@@ -266,7 +260,6 @@ class MoleculeBuilder {
     }
     molecule_.torsions_ = std::move(kept);
   }
-  std::size_t model_dof_count() const { return molecule_.model_->tree().dof_count(); }
 
   Molecule& molecule_;
   const MoleculeOptions& options_;

@@ -181,7 +181,7 @@ std::vector<Component> components_of(gemmi::cif::Document& document, const std::
 }
 
 /// A message on one line that names the file.
-[[noreturn]] void refuse(const std::exception& error, const std::string& path) {
+[[noreturn]] void refuse_file(const std::exception& error, const std::string& path) {
   std::string what = error.what();
   std::replace(what.begin(), what.end(), '\n', ' ');  // some messages quote a line with its end
   throw LoadError(what.find(path) != std::string::npos ? what : path + ": " + what);
@@ -229,7 +229,7 @@ std::vector<Component> parse_components(const std::string& bytes, const std::str
     gemmi::cif::Document document = gemmi::cif::read_memory(bytes.data(), bytes.size(), path.c_str());
     return components_of(document, path);
   } catch (const std::exception& error) {
-    refuse(error, path);
+    refuse_file(error, path);
   }
 }
 
@@ -240,7 +240,7 @@ RawFile parse_with_gemmi(const std::string& bytes, const std::string& path, bool
   try {
     st = parse(bytes, path, cif, raw, serials);
   } catch (const std::exception& error) {
-    refuse(error, path);
+    refuse_file(error, path);
   }
   st.merge_chain_parts();
   raw.name = st.name;

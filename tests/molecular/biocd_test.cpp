@@ -56,6 +56,53 @@ TEST(Biocd, ExitsWithTheDocumentedStatus) {
   EXPECT_EQ(refused.out, "biocd: " + empty.path().string() + ": is empty, expected a PDB or mmCIF file\n");
 }
 
+TEST(Biocd, SaysWhatItRecognised) {
+  const std::string dna = HINGE_SOURCE_DIR "/molecular/data/1bna.pdb";
+  const Outcome table = biocd("info " + dna);
+  EXPECT_NE(table.out.find("DNA: 24 residues, chains A B\n"), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find("torsions: alpha 22 beta 22 chi 24 epsilon 22 gamma 24 zeta 22\n"), std::string::npos);
+  const Json json = Json::parse(biocd("info " + dna + " --json").out);
+  EXPECT_EQ(json["residue_classes"]["DNA"]["residues"], 24);
+  EXPECT_EQ(json["residue_classes"]["DNA"]["chains"]["B"], 12);
+  EXPECT_EQ(json["torsions"]["gamma"], 24);
+  ASSERT_EQ(json["bond_sources"].size(), 4U);
+  EXPECT_EQ(json["bond_sources"][0], (Json{{"residue", "DA"}, {"source", "residue table"}, {"count", 4}}));
+  const Outcome delta = biocd("check " + dna + " --free A:5:delta 2>&1");
+  EXPECT_EQ(delta.status, 2);
+  EXPECT_NE(delta.out.find("ring of the sugar"), std::string::npos) << delta.out;
+}
+
+TEST(Biocd, TakesComponentsFromFilesAndRefusesBadOnes) {
+  std::string ligand;
+  for (int k = 0; k < 4; ++k) {
+    std::array<char, 100> line{};
+    std::snprintf(line.data(), line.size(), "HETATM%5d  C%d  LGD B 401    %8.3f%8.3f%8.3f  1.00  0.00           C\n",
+                  k + 1, k + 1, 1.2 * k, k % 2 == 0 ? 0.0 : 0.9, 0.0);
+    ligand += line.data();
+  }
+  const test::TemporaryFile molecule(ligand);
+  const auto component = [](const char* order) {
+    return std::string("data_LGD\nloop_\n_chem_comp_bond.comp_id\n_chem_comp_bond.atom_id_1\n") +
+           "_chem_comp_bond.atom_id_2\n_chem_comp_bond.value_order\nLGD C1 C2 SING\nLGD C2 C3 " + order +
+           "\nLGD C3 C4 SING\n";
+  };
+  const test::TemporaryFile single(component("SING"), ".cif"), dual(component("DOUB"), ".cif"),
+      bad(component("SOFT"), ".cif");
+  const std::string info = "info " + molecule.path().string() + " --hetero --json --dictionary none";
+  const auto dof = [&](const std::string& more) { return Json::parse(biocd(info + more).out)["model"]["dof"]; };
+  EXPECT_EQ(dof(""), 1);
+  EXPECT_EQ(dof(" --free B:401:C3-C2"), 1);
+  EXPECT_EQ(dof(" --components " + single.path().string()), 1);
+  EXPECT_EQ(dof(" --components " + dual.path().string() + " --components " + single.path().string()), 0);
+  EXPECT_EQ(biocd(info + " --free B:401:C1-C2 2>&1").status, 2) << "a terminal bond";
+  EXPECT_EQ(biocd(info + " --dictionary /nonexistent 2>&1").status, 2) << "given twice";
+  EXPECT_EQ(biocd("info " + molecule.path().string() + " --hetero --dictionary /nonexistent 2>&1").status, 3);
+  const Outcome refused = biocd(info + " --components " + bad.path().string() + " 2>&1");
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_NE(refused.out.find(bad.path().string() + ": chem_comp_bond of order 'soft'"), std::string::npos)
+      << refused.out;
+}
+
 TEST(Biocd, KeepsTheJsonContractOfInfo) {
   const Outcome outcome = biocd("info " + file() + " --json --atoms --free A:48");
   ASSERT_EQ(outcome.status, 0);

@@ -17,7 +17,7 @@ struct ReadOptions {
   bool keep_hydrogens = true;
   std::vector<std::filesystem::path> components = {};  ///< CIF files; before the structure's own and the dictionary
   std::filesystem::path dictionary = {};               ///< of monomers (ComponentLibrary); empty: none
-  bool first_model = false;  ///< stop a PDB file behind its first model, unless one is named
+  bool first_model = false;                            ///< stop a PDB file behind its first model, unless one is named
 };
 
 /// Atoms, coordinates (angstrom) and bonds. LoadError names file, line (or entity), what was found and expected: files
