@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dihedral angles against the reference's, and Eigen's Umeyama.
+// Dihedral angles against the reference's, and the closest rotation.
 #include "hinge/molecular/fit_turns.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 
 #include "hinge/core/error.hpp"
@@ -15,11 +17,29 @@ namespace {
 
 constexpr double whole_turn = 2.0 * std::numbers::pi;
 
-Eigen::Matrix3Xd columns(std::span<const Vec3> positions) {
-  Eigen::Matrix3Xd m(3, static_cast<Eigen::Index>(positions.size()));
-  for (std::size_t i = 0; i < positions.size(); ++i)
-    for (int k = 0; k < 3; ++k) m(k, static_cast<Eigen::Index>(i)) = positions[i][k];
-  return m;
+Vec3 centre(std::span<const Vec3> positions) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& position : positions) sum += position;
+  return sum / static_cast<double>(positions.size());
+}
+
+/// The rotation about their centres that brings `moved` closest to `onto`: the quaternion of the largest eigenvalue
+/// (Horn, J. Opt. Soc. Am. A 4:629, 1987).
+Eigen::Matrix3d closest_rotation(std::span<const Vec3> moved, const Vec3& centre_moved, std::span<const Vec3> onto,
+                                 const Vec3& centre_onto) {
+  Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) m(r, c) += (moved[i][r] - centre_moved[r]) * (onto[i][c] - centre_onto[c]);
+  // In long double, which nothing vectorises: g++ 12 takes AVX-512's undefined registers for uninitialized ones.
+  Eigen::Matrix<long double, 4, 4> n;
+  n << m(0, 0) + m(1, 1) + m(2, 2), m(1, 2) - m(2, 1), m(2, 0) - m(0, 2), m(0, 1) - m(1, 0),  //
+      m(1, 2) - m(2, 1), m(0, 0) - m(1, 1) - m(2, 2), m(0, 1) + m(1, 0), m(2, 0) + m(0, 2),   //
+      m(2, 0) - m(0, 2), m(0, 1) + m(1, 0), m(1, 1) - m(0, 0) - m(2, 2), m(1, 2) + m(2, 1),   //
+      m(0, 1) - m(1, 0), m(2, 0) + m(0, 2), m(1, 2) + m(2, 1), m(2, 2) - m(0, 0) - m(1, 1);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<long double, 4, 4>> solver(n);
+  const auto q = solver.eigenvectors().col(3);
+  return Eigen::Quaternion<long double>(q[0], q[1], q[2], q[3]).toRotationMatrix().cast<double>();
 }
 
 }  // namespace
@@ -46,21 +66,19 @@ void take_shorter_way(std::span<const double> near, std::span<double> turns) {
 }
 
 Superposition superpose(std::span<const Vec3> moved, std::span<const Vec3> onto) {
-  const Eigen::Matrix3Xd x = columns(moved), y = columns(onto);
-  const Eigen::Matrix4d motion = Eigen::umeyama(x, y, false);
-  const Eigen::Matrix3d rotation = motion.topLeftCorner<3, 3>();
-  const Eigen::Vector3d shift = motion.topRightCorner<3, 1>();
+  const Vec3 from = centre(moved), to = centre(onto);
+  const Eigen::Matrix3d rotation = closest_rotation(moved, from, onto, to);
   Superposition found;
   double sum = 0.0;
-  for (Eigen::Index i = 0; i < x.cols(); ++i) {
-    const double squared = (rotation * x.col(i) + shift - y.col(i)).squaredNorm();
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const double squared = squared_norm(Vec3(rotation * (moved[i] - from) + to - onto[i]));
     sum += squared;
     if (squared > found.farthest * found.farthest) {
       found.farthest = std::sqrt(squared);
       found.atom = static_cast<std::uint32_t>(i);
     }
   }
-  found.rmsd = std::sqrt(sum / static_cast<double>(x.cols()));
+  found.rmsd = std::sqrt(sum / static_cast<double>(moved.size()));
   return found;
 }
 
