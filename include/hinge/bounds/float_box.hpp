@@ -12,10 +12,24 @@
 
 namespace hinge {
 
+/// A float that was just rounded, as a double. Where g++ 12 puts two conversions into one register (from -O2 on,
+/// without any flag about floating point) it takes the double of float(x) for x; so it must not see where the float
+/// came from.
+[[gnu::always_inline]] inline double widened(float x) noexcept {
+#if defined(__GNUC__) && !defined(__clang__)
+#if defined(__x86_64__)
+  asm("" : "+x"(x));
+#else
+  asm("" : "+m"(x));
+#endif
+#endif
+  return static_cast<double>(x);
+}
+
 /// The smallest float not below x.
 inline float float_above(double x) noexcept {
   const auto f = static_cast<float>(x);
-  return static_cast<double>(f) < x ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
+  return widened(f) < x ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
 }
 
 /// A closed axis-aligned box in float. The default is empty.

@@ -45,7 +45,7 @@ inline TreePart merge_parts(const std::vector<TreePart>& parts, std::span<const 
   }
   for (std::size_t k = 0; k < 3; ++k) {
     whole.root_box.middle[k] = static_cast<float>((lower[k] + upper[k]) / 2);
-    const auto middle = static_cast<double>(whole.root_box.middle[k]);
+    const double middle = widened(whole.root_box.middle[k]);
     whole.root_box.half[k] = float_above(std::max(upper[k] - middle, middle - lower[k]) * (1 + 0x1p-50));
   }
   top.set(0, whole.root_box);

@@ -125,7 +125,7 @@ void TreeParts<P>::add_link(const TreePart& part, const Aabb& box, std::span<con
   for (std::size_t k = 0; k < 3; ++k) {
     const auto axis = static_cast<Eigen::Index>(k);
     rounded.middle[k] = static_cast<float>((box.middle(static_cast<int>(k)) - o[axis]) * scale);
-    middle[k] = static_cast<double>(rounded.middle[k]);
+    middle[k] = widened(rounded.middle[k]);
     double half = 0.0;
     for (const BuildItem& item : items)
       half = std::max(
