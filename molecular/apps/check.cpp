@@ -116,7 +116,8 @@ void print_table_row(const Structure& s, const std::string& name, const Verdict&
 
 Exit run_check(const Options& options) {
   Options first = options;
-  first.read.first_model = std::filesystem::is_regular_file(options.file);  // a pipe is read but once
+  // A pipe is read but once; models of files that are joined are read with them.
+  first.read.first_model = options.with.empty() && std::filesystem::is_regular_file(options.file);
   const Job job = load(first);
   const Mode mode = Mode::parse(options.mode, "angstrom");
   print_notes(job);

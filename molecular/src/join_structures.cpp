@@ -54,6 +54,7 @@ void append(Structure& all, Structure added) {
   all.name += "+" + added.name;
   for (Atom& atom : added.atoms) {
     atom.residue += residues;
+    atom.record += static_cast<std::uint32_t>(all.atom_records);
     all.atoms.push_back(std::move(atom));
   }
   for (Residue& residue : added.residues) {
@@ -101,6 +102,7 @@ void append(Structure& all, Structure added) {
     all.models[m].insert(all.models[m].end(), more.begin(), more.end());
   }
   for (std::string& note : added.notes) all.notes.push_back(std::move(note));
+  all.atom_records += added.atom_records;
   all.waters_dropped += added.waters_dropped;
   all.hetero_dropped += added.hetero_dropped;
 }
