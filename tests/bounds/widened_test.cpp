@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Floats read back as doubles are rounded whatever the optimiser makes of two conversions side by side.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+
+#include "hinge/bounds/float_box.hpp"
+
+namespace hinge {
+namespace {
+
+[[gnu::noinline]] std::array<double, 3> through_floats(const double* x) {
+  return {widened(static_cast<float>(x[0])), widened(static_cast<float>(x[1])), widened(static_cast<float>(x[2]))};
+}
+
+TEST(Widened, IsTheRoundedNumberWhereTwoAreConvertedAtOnce) {
+  volatile double tenth = 0.1;  // so that nothing is computed by the compiler
+  const std::array<double, 3> x{3.7 * tenth, 7.4 * tenth, -12.1 * tenth};
+  const std::array<double, 3> rounded = through_floats(x.data());
+  for (std::size_t k = 0; k < 3; ++k) {
+    volatile float alone = static_cast<float>(x[k]);
+    EXPECT_EQ(rounded[k], static_cast<double>(alone));
+    EXPECT_NE(rounded[k], x[k]);
+  }
+}
+
+}  // namespace
+}  // namespace hinge
