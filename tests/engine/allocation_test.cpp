@@ -3,34 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
-#include <cstdlib>
-#include <new>
 #include <vector>
 
+#include "engine/count_allocations.hpp"
 #include "engine/random_mechanism.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/policy/different_links.hpp"
 #include "hinge/primitive/triangle.hpp"
 #include "hinge/query/link_pair_hits.hpp"
 
-namespace {
-
-std::size_t allocations = 0;
-
-}  // namespace
-
-// Counted for the whole test program; malloc aligns as much as the plain forms promise. Not inlined: g++ 12 would take
-// a free() that it sees beside a call of new for a mistake.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-
 namespace hinge {
 namespace {
+
+using test::allocations;
 
 TEST(TreeQueries, AllocateNothing) {
   test::Random random(8);

@@ -10,10 +10,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
-#include <new>
 #include <string>
 #include <vector>
 
+#include "engine/count_allocations.hpp"
 #include "engine/random_mechanism.hpp"
 #include "engine/side_by_side.hpp"
 #include "hinge/engine/brute/brute.hpp"
@@ -21,25 +21,10 @@
 #include "hinge/engine/wide/wide.hpp"
 #include "hinge/hierarchy.hpp"
 
-namespace {
-
-std::size_t allocations = 0;
-
-}  // namespace
-
-// Counted for the whole test program; malloc aligns as much as the plain forms promise. Not inlined: g++ 12 would take
-// a free() that it sees beside a call of new for a mistake.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-
 namespace hinge {
 namespace {
 
+using test::allocations;
 using test::ExcludedPairs;
 using test::Random;
 
