@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace hinge::molecular {
 
@@ -19,6 +21,26 @@ inline std::string hybrid36(std::size_t value) {
   std::string text(5, '0');
   for (std::size_t k = 5; k-- > 0; value /= 36) text[k] = digits[value % 36];
   return text;
+}
+
+/// The number of such a field, blanks around it or not; none where it holds another thing.
+inline std::optional<int> read_hybrid36(std::string_view field) {
+  const std::size_t first = field.find_first_not_of(' ');
+  if (first == std::string_view::npos) return std::nullopt;
+  field = field.substr(first, field.find_last_not_of(" \r") - first + 1);
+  const auto digit = [](char c) { return c >= '0' && c <= '9' ? c - '0' : -1; };
+  const bool decimal = digit(field.front()) >= 0, lower = field.front() >= 'a' && field.front() <= 'z';
+  if (!decimal && field.size() != 5) return std::nullopt;
+  int value = 0;
+  for (const char c : field) {
+    int d = digit(c);
+    if (!decimal && d < 0 && c >= (lower ? 'a' : 'A') && c <= (lower ? 'z' : 'Z')) d = c - (lower ? 'a' : 'A') + 10;
+    if (d < 0) return std::nullopt;
+    value = value * (decimal ? 10 : 36) + d;
+  }
+  if (decimal) return value;
+  constexpr int to_fourth = 36 * 36 * 36 * 36;
+  return value - 10 * to_fourth + 100'000 + (lower ? 26 * to_fourth : 0);
 }
 
 }  // namespace hinge::molecular

@@ -7,33 +7,10 @@
 #include <string_view>
 #include <utility>
 
+#include "hybrid36.hpp"
 #include "read_file.hpp"
 
 namespace hinge::molecular {
-
-namespace {
-
-/// Hybrid-36 (five columns): decimal up to 99999, then A0000 ... ZZZZZ, then a0000 ... in base 36.
-std::optional<int> serial(std::string_view field) {
-  const std::size_t first = field.find_first_not_of(' ');
-  if (first == std::string_view::npos) return std::nullopt;
-  field = field.substr(first, field.find_last_not_of(" \r") - first + 1);
-  const auto digit = [](char c) { return c >= '0' && c <= '9' ? c - '0' : -1; };
-  const bool decimal = digit(field.front()) >= 0, lower = field.front() >= 'a' && field.front() <= 'z';
-  if (!decimal && field.size() != 5) return std::nullopt;
-  int value = 0;
-  for (const char c : field) {
-    int d = digit(c);
-    if (!decimal && d < 0 && c >= (lower ? 'a' : 'A') && c <= (lower ? 'z' : 'Z')) d = c - (lower ? 'a' : 'A') + 10;
-    if (d < 0) return std::nullopt;
-    value = value * (decimal ? 10 : 36) + d;
-  }
-  if (decimal) return value;
-  constexpr int to_fourth = 36 * 36 * 36 * 36;
-  return value - 10 * to_fourth + 100'000 + (lower ? 26 * to_fourth : 0);
-}
-
-}  // namespace
 
 std::vector<RawConnection> read_conect(const std::string& text) {
   constexpr std::size_t serial_column = 6, width = 5, most = 4;  // beyond: hydrogen bonds and salt bridges of old files
@@ -45,7 +22,7 @@ std::vector<RawConnection> read_conect(const std::string& text) {
     if (!line.starts_with("CONECT")) continue;
     const auto field = [&](std::size_t k) {
       const std::size_t column = serial_column + width * k;
-      return column < line.size() ? serial(line.substr(column, width)) : std::nullopt;
+      return column < line.size() ? read_hybrid36(line.substr(column, width)) : std::nullopt;
     };
     const auto from = field(0);
     for (std::size_t k = 1; from && k <= most; ++k) {
