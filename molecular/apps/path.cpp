@@ -13,6 +13,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
 #include "hinge/molecular/path_checker.hpp"
+#include "hinge/motion/path_answer.hpp"
 #include "options.hpp"
 #include "path_end.hpp"
 #include "report.hpp"
@@ -36,15 +37,6 @@ std::vector<double> in_degrees(const std::vector<double>& turns) {
   std::vector<double> degrees(turns);
   for (double& value : degrees) value /= degree;
   return degrees;
-}
-
-const char* name(PathVerdict verdict) {
-  switch (verdict) {
-    case PathVerdict::free: return "free";
-    case PathVerdict::colliding: return "colliding";
-    case PathVerdict::undecided: break;
-  }
-  return "undecided";
 }
 
 std::string shown(const PathEnd& end) {

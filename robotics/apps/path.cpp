@@ -12,6 +12,7 @@
 #include "configurations.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
+#include "hinge/motion/path_answer.hpp"
 #include "hinge/robotics/path_checker.hpp"
 #include "options.hpp"
 #include "path_end.hpp"
@@ -29,15 +30,6 @@ struct Asked {
   RobotPathAnswer path;
   Answer state;  // of the configuration that collides
 };
-
-const char* name(PathVerdict verdict) {
-  switch (verdict) {
-    case PathVerdict::free: return "free";
-    case PathVerdict::colliding: return "colliding";
-    case PathVerdict::undecided: break;
-  }
-  return "undecided";
-}
 
 const std::string& name(const Worker& worker, const LinkOrBody& part) {
   if (const auto* link = std::get_if<hinge::LinkId>(&part)) return worker.checker.robot().link_name(*link);

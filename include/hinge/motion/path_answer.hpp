@@ -16,6 +16,15 @@ enum class PathVerdict : std::uint8_t {
   undecided   ///< certified only: neither, down to the smallest step
 };
 
+inline const char* name(PathVerdict verdict) noexcept {
+  switch (verdict) {
+    case PathVerdict::free: return "free";
+    case PathVerdict::colliding: return "colliding";
+    case PathVerdict::undecided: break;
+  }
+  return "undecided";
+}
+
 struct PathCounts {
   std::uint64_t configurations = 0;  ///< states the kinematics were computed for
   std::uint64_t segments = 0;        ///< pieces of the path that were looked at
