@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "extremes/refusal.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/checker.hpp"
 #include "hinge/molecular/ideal_protein.hpp"
@@ -68,14 +69,7 @@ Structure scene() {
   return join_structures({protein("AKFDE"), moved(protein("GWSR"), {4, 9, 3}), moved(ligand(), {-5, 4, 6})});
 }
 
-std::string refusal(const auto& act) {
-  try {
-    act();
-  } catch (const ModelError& error) {
-    return error.what();
-  }
-  return "nothing was refused";
-}
+std::string refusal(const auto& act) { return test::refusal<ModelError>(act); }
 
 std::vector<std::size_t> all_torsions(const Molecule& molecule) { return select_torsions(molecule, "all", true); }
 
