@@ -55,12 +55,14 @@ int bond_distance(const Structure& structure, std::uint32_t i, std::uint32_t j, 
   return static_cast<int>(std::upper_bound(ends.begin(), ends.end(), position) - ends.begin());
 }
 
-BondExclusions::BondExclusions(const Structure& structure, int min_bonds,
+BondExclusions::BondExclusions(const Structure& structure, MinBonds min_bonds,
                                std::span<const std::pair<PrimitiveId, PrimitiveId>> exempt, PairScope scope)
     : scope_(std::move(scope)) {
   // Beyond 16 bonds a list per atom is the wrong tool: it would hold a large part of the molecule.
-  if (min_bonds < 1 || min_bonds > 16)
-    throw ModelError("minimal bond distance " + std::to_string(min_bonds) + ": expected 1 to 16");
+  for (const int bonds : {min_bonds.heavy, min_bonds.hydrogen})
+    if (bonds < 1 || bonds > 16)
+      throw ModelError("minimal bond distance " + std::to_string(bonds) + ": expected 1 to 16");
+  const int deepest = std::max(min_bonds.heavy, min_bonds.hydrogen) - 1;
   const auto neighbours = bonded_neighbours(structure);
   std::vector<std::vector<PrimitiveId>> further(structure.atoms.size());
   for (const auto& [i, j] : exempt) {
@@ -76,8 +78,11 @@ BondExclusions::BondExclusions(const Structure& structure, int min_bonds,
   std::vector<std::size_t> ends;
   for (std::uint32_t atom = 0; atom < structure.atoms.size(); ++atom) {
     std::vector<PrimitiveId> list = std::move(further[atom]);
-    for (const std::uint32_t other : around(neighbours, atom, min_bonds - 1, seen, ends))
-      if (other != atom) list.push_back(id<PrimitiveId>(other));
+    const auto reached = around(neighbours, atom, deepest, seen, ends);
+    std::size_t next = 1;
+    for (int bonds = 1; bonds <= deepest; ++bonds)
+      for (; next < ends[static_cast<std::size_t>(bonds)]; ++next)
+        if (bonds < min_bonds.of(structure, atom, reached[next])) list.push_back(id<PrimitiveId>(reached[next]));
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
     data.excluded.insert(data.excluded.end(), list.begin(), list.end());

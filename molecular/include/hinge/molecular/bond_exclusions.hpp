@@ -18,13 +18,28 @@
 
 namespace hinge::molecular {
 
+/// From how many bonds apart on a pair counts: of heavy atoms, and one with a hydrogen.
+struct MinBonds {
+  int heavy;
+  int hydrogen;
+
+  /// The same for all pairs.
+  MinBonds(int bonds) : heavy(bonds), hydrogen(bonds) {}
+  MinBonds(int of_heavy, int with_hydrogen) : heavy(of_heavy), hydrogen(with_hydrogen) {}
+  int of(const Structure& structure, std::uint32_t i, std::uint32_t j) const noexcept {
+    return structure.atoms[i].element == "H" || structure.atoms[j].element == "H" ? hydrogen : heavy;
+  }
+
+  friend bool operator==(const MinBonds&, const MinBonds&) = default;
+};
+
 /// Primitive i is atom i. A pair is admitted when at least min_bonds bonds lie on the shortest way between the two
 /// atoms (the paper's "more than three bonds" is min_bonds = 4); atoms that no chain of bonds joins are always
 /// admitted.
 class BondExclusions {
  public:
   /// min_bonds: 1 ... 16, else ModelError. exempt: further pairs that never count. scope: made for the structure.
-  BondExclusions(const Structure& structure, int min_bonds,
+  BondExclusions(const Structure& structure, MinBonds min_bonds,
                  std::span<const std::pair<PrimitiveId, PrimitiveId>> exempt = {}, PairScope scope = {});
 
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept {
