@@ -48,6 +48,21 @@ double bondi(AtomClass c, std::string_view element) {
   return element_radius(element);
 }
 
+/// Probe's figures for other elements, the same with explicit and implicit hydrogens (angstrom): metals are ions
+/// (Pauling, Shannon); where it is silent here, Bondi's.
+double probe_element_radius(std::string_view element) {
+  static constexpr std::array<std::pair<std::string_view, double>, 36> table{{
+      {"F", 1.30},  {"Cl", 1.77}, {"Br", 1.95}, {"I", 2.10},  {"As", 2.00}, {"Se", 1.90}, {"Li", 0.60}, {"Na", 0.95},
+      {"Al", 0.50}, {"K", 1.33},  {"Mg", 0.65}, {"Ca", 0.99}, {"Mn", 0.80}, {"Fe", 0.74}, {"Co", 0.70}, {"Ni", 0.66},
+      {"Cu", 0.72}, {"Zn", 0.71}, {"Rb", 1.48}, {"Sr", 1.10}, {"Mo", 0.93}, {"Ag", 1.26}, {"Cd", 0.91}, {"In", 0.81},
+      {"Cs", 1.69}, {"Ba", 1.29}, {"Au", 1.10}, {"Hg", 1.00}, {"Tl", 1.44}, {"Pb", 0.84}, {"V", 0.79},  {"Cr", 0.73},
+      {"W", 0.66},  {"Pt", 0.63}, {"U", 1.03},  {"B", 0.20},
+  }};
+  for (const auto& [symbol, radius] : table)
+    if (symbol == element) return radius;
+  return element_radius(element);
+}
+
 /// Probe's atomprops, hydrogens explicit, electron-cloud bond lengths.
 double probe_explicit(AtomClass c, std::string_view element) {
   switch (c) {
@@ -60,6 +75,7 @@ double probe_explicit(AtomClass c, std::string_view element) {
     case AtomClass::hydrogen_aromatic:
     case AtomClass::hydrogen_polar:
     case AtomClass::hydrogen_hydroxyl: return 1.05;
+    case AtomClass::other: return probe_element_radius(element);
     default: return bondi(c, element);
   }
 }
@@ -75,6 +91,7 @@ double probe_united(AtomClass c, std::string_view element) {
     case AtomClass::oxygen:
     case AtomClass::oxygen_hydroxyl: return 1.50;
     case AtomClass::sulphur: return 1.90;
+    case AtomClass::other: return probe_element_radius(element);
     default: return bondi(c, element);
   }
 }
@@ -134,10 +151,10 @@ std::string type_name(AtomClass c, const std::string& element) {
 const std::vector<RadiiSet>& radii_sets() {
   static const std::vector<RadiiSet> sets{
       {"bondi", "1", "Bondi, J. Phys. Chem. 68:441 (1964); Mantina et al. (2009)", 4, bondi},
-      {"probe", "3", "Probe, explicit hydrogens, electron-cloud positions", 4, probe_explicit},
+      {"probe", "4", "Probe, explicit hydrogens, electron-cloud positions", 4, probe_explicit},
       // United atoms and AMBER's Rmin overlap at four bonds in every native structure (O(i)...C(i+1) above all), so
       // there pairs count from five bonds on.
-      {"probe-united", "1", "Probe, implicit hydrogens", 5, probe_united},
+      {"probe-united", "2", "Probe, implicit hydrogens", 5, probe_united},
       {"amber", "2", "AMBER ff99SB-ILDN Rmin/2", 5, amber},
   };
   return sets;
