@@ -50,6 +50,10 @@ void add_model_options(CLI::App& command, Options& o) {
   command.add_option("--inside", o.inside, "PART: only pairs inside it count, and those of --between (repeatable)")
       ->allow_extra_args(false);
   command.add_flag("--omega", o.omega, "free omega too");
+  CLI::Option* rules =
+      command.add_option("--rules", o.check.thresholds.rules,
+                         "what a clash is: biocd (the options below), molprobity, chimerax, posebusters");
+  rules->capture_default_str();
   command.add_option("--radii", o.check.thresholds.radii, "radii set: bondi, probe, probe-united, amber")
       ->capture_default_str();
   command.add_option("--rho", o.check.thresholds.rho, "M = rho * (sum of radii)")->capture_default_str();
@@ -91,6 +95,7 @@ void add_model_options(CLI::App& command, Options& o) {
           "--dictionary", [&o](const std::string& text) { o.read.dictionary = text == "none" ? std::string() : text; },
           "folder of a monomer dictionary, or none (default: $CLIBD_MON, else Debian's refmac-dictionary)")
       ->default_str(o.read.dictionary.string());
+  for (const char* fixed : {"--radii", "--rho", "--min-bonds", "--hbond", "--hbond-allowance"}) rules->excludes(fixed);
   command.add_flag("--exempt-reference", o.check.exempt_reference,
                    "pairs that collide in the file's (first) model do not count");
   command.add_option("--engine", o.check.engine, "wide, lazy (the paper's) or brute")->capture_default_str();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "conformation_file.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/ensemble/ensemble.hpp"
+#include "hinge/molecular/severity.hpp"
 #include "hinge/molecular/trajectory.hpp"
 #include "hinge/tool/progress_bar.hpp"
 #include "options.hpp"
@@ -102,14 +104,27 @@ struct Checked {
   std::string error;                   // why there is no verdict
 };
 
-void print_table_row(const Structure& s, const std::string& name, const Verdict& verdict, const Mode& mode) {
+/// MolProbity's, where its rules are in use and all pairs were asked about.
+std::optional<double> clashscore_of(const Options& options, const Job& job, const Verdict& verdict, const Mode& mode) {
+  const bool lists_all = mode.kind == Mode::Kind::all || mode.kind == Mode::Kind::within;
+  if (options.check.thresholds.rules != "molprobity" || !lists_all || !options.between.empty() ||
+      !options.inside.empty() || options.check.exempt_reference)
+    return std::nullopt;
+  const auto clashes =
+      std::count_if(verdict.pairs.begin(), verdict.pairs.end(), [](const Contact& pair) { return pair.collides; });
+  return clashscore(static_cast<std::size_t>(clashes), job.molecule->structure().atoms.size());
+}
+
+void print_table_row(const Job& job, const std::string& name, const Verdict& verdict, const Mode& mode,
+                     const std::optional<double>& clashscore) {
   fmt::print("{}: {}", name, verdict.collides ? "collides" : "free");
   if (mode.kind == Mode::Kind::all) fmt::print(", {} pairs", verdict.pairs.size());
   if (mode.kind == Mode::Kind::within)
     fmt::print(", {} pairs closer than their threshold + {}", verdict.pairs.size(), mode.margin);
+  if (clashscore) fmt::print(", clashscore {:.2f}", *clashscore);
   fmt::print("\n");
-  for (const Contact& pair : verdict.pairs) fmt::print("{}\n", pair_line(s, pair));
-  if (verdict.closest) fmt::print("{}  (closest)\n", pair_line(s, *verdict.closest));
+  for (const Contact& pair : verdict.pairs) fmt::print("{}\n", pair_line(job, pair));
+  if (verdict.closest) fmt::print("{}  (closest)\n", pair_line(job, *verdict.closest));
 }
 
 }  // namespace
@@ -161,13 +176,16 @@ Exit run_check(const Options& options) {
     if (!checked.error.empty()) throw hinge::LoadError(checked.error);
     const auto k = static_cast<std::size_t>(begin) + n;
     summary.add(s, checked.verdict);
+    const std::optional<double> clashscore = clashscore_of(options, job, checked.verdict, mode);
+    if (clashscore) summary.add_clashscore(*clashscore);
     if (options.output == Output::json) {
-      Json row = verdict_json(s, k, checked.verdict, mode);
+      Json row = verdict_json(job, k, checked.verdict, mode);
       frames.name(row, k);
+      if (clashscore) row["clashscore"] = *clashscore;
       results.add(row);
     }
-    if (options.output == Output::csv) results.add(csv_rows(s, k, checked.verdict));
-    if (options.output == Output::table) print_table_row(s, frames.name(k), checked.verdict, mode);
+    if (options.output == Output::csv) results.add(csv_rows(job, k, checked.verdict));
+    if (options.output == Output::table) print_table_row(job, frames.name(k), checked.verdict, mode, clashscore);
     file.add(checked.positions, static_cast<int>(k) + 1, checked.verdict.collides);
     bar.show(n + 1);
   };

@@ -102,7 +102,7 @@ void print_table(const Options& options, const Job& job) {
   fmt::print("\nexcluded pairs: {}; secondary structure elements: {}\n", job.checker.exclusions().excluded_pairs(),
              s.secondary_structure.size());
   for (const hinge::Hit& hit : job.checker.reference_collisions())
-    fmt::print("{}  (reference)\n", pair_line(s, {hit, true}));
+    fmt::print("{}  (reference)\n", pair_line(job, {hit, true}));
 }
 
 }  // namespace

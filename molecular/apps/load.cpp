@@ -81,15 +81,19 @@ void explain(const Options& options, const Job& job) {
   const bool closer = hinge::closer_as_written(p, q, threshold);
 
   fmt::print("pair {} {} - {} {}\n", i, label(s, i), j, label(s, j));
-  fmt::print("  types        {} - {} ({} v{}, rho {}, hydrogen-bond rule {})\n", t.type_names[type_i],
-             t.type_names[type_j], t.set->name, t.set->version, t.rho, t.hydrogen_bonds ? "on" : "off");
+  fmt::print("  types        {} - {} ({} v{}, {}, hydrogen-bond rule {})\n", t.type_names[type_i], t.type_names[type_j],
+             t.radii, t.radii_version,
+             t.rho ? fmt::format("rho {}", *t.rho) : fmt::format("rules {} v{}", t.rules->name, t.rules->version),
+             t.hydrogen_bonds ? "on" : "off");
   fmt::print("  threshold    {:.4f} angstrom\n", threshold);
   fmt::print("  distance     {:.4f} angstrom in the first model\n", distance(p, q));
-  const int bonds = bond_distance(s, i, j, checker.min_bonds() - 1);
+  const int min_bonds = checker.min_bonds().of(s, i, j), bonds = bond_distance(s, i, j, min_bonds - 1);
   if (bonds >= 0)
-    fmt::print("  dropped      {} bonds apart, pairs count from {} on\n", bonds, checker.min_bonds());
+    fmt::print("  dropped      {} bonds apart, pairs count from {} on\n", bonds, min_bonds);
   else if (!checker.exclusions().in_scope(a, b))
     fmt::print("  dropped      no --between or --inside asks about it\n");
+  else if (!t.rules->inside_residues && s.atoms[i].residue == s.atoms[j].residue)
+    fmt::print("  dropped      inside one residue\n");
   else if (!checker.exclusions().admits(a, b))
     fmt::print("  dropped      collides in the reference, exempted\n");
   else if (checker.constant(i, j))
@@ -97,7 +101,7 @@ void explain(const Options& options, const Job& job) {
         "  kept         for coordinates from a file; its distance is constant under this selection, so samples "
         "leave it out\n");
   else
-    fmt::print("  kept         at least {} bonds apart, distance changes under this selection\n", checker.min_bonds());
+    fmt::print("  kept         at least {} bonds apart, distance changes under this selection\n", min_bonds);
   fmt::print("  verdict      {}\n", closer ? "closer than the threshold" : "not closer than the threshold");
 }
 

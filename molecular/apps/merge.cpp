@@ -118,9 +118,7 @@ class ShardFile {
     first = f;
     total = t;
     check_range();
-    std::string columns = csv_header();
-    columns.pop_back();
-    if (!next() || !line_.starts_with(columns)) refuse("its second line is damaged");
+    if (!next() || !line_.starts_with(csv_columns)) refuse("its second line is damaged");
     header = line_ + "\n";
     question = fmt::format("csv {} {} {}", digest, n, t);
   }

@@ -73,10 +73,10 @@ Json path_json(const Options& options, const Job& job, const Asked& asked) {
   json["half_width"] = answer.verdict == PathVerdict::undecided ? Json(answer.half_width) : Json();
   json["turns"] = answer.is_free() ? Json() : Json(in_degrees(answer.configuration));
   json["pairs"] = Json::array();
-  for (const Contact& pair : asked.pairs) json["pairs"].push_back(pair_json(s, pair));
+  for (const Contact& pair : asked.pairs) json["pairs"].push_back(pair_json(job, pair));
   json["undecided_pair"] = Json();
   if (answer.verdict == PathVerdict::undecided && answer.hit)
-    json["undecided_pair"] = pair_json(s, {*answer.hit, false});
+    json["undecided_pair"] = pair_json(job, {*answer.hit, false});
   json["states_looked_at"] = answer.counts.configurations;
   return json;
 }
@@ -108,11 +108,11 @@ void print_table(const Options& options, const Job& job, const Asked& asked) {
       break;
     case PathVerdict::colliding:
       fmt::print("collides at t = {}, {} pairs\n", answer.parameter, asked.pairs.size());
-      for (const Contact& pair : asked.pairs) fmt::print("{}\n", pair_line(s, pair));
+      for (const Contact& pair : asked.pairs) fmt::print("{}\n", pair_line(job, pair));
       break;
     case PathVerdict::undecided:
       fmt::print("undecided: nothing is proved within {:.3g} of t = {}\n", answer.half_width, answer.parameter);
-      if (answer.hit) fmt::print("{}\n", pair_line(s, {*answer.hit, false}));
+      if (answer.hit) fmt::print("{}\n", pair_line(job, {*answer.hit, false}));
       break;
   }
 }

@@ -4,10 +4,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <string_view>
 #include <utility>
 
 #include "hinge/core/id.hpp"
+#include "hinge/molecular/severity.hpp"
 #include "hinge/tool/csv_field.hpp"
 #include "scene.hpp"
 
@@ -18,11 +21,32 @@ namespace {
 using hinge::molecular::Checker;
 using hinge::molecular::Contact;
 using hinge::molecular::Mode;
+using hinge::molecular::Severity;
 using hinge::molecular::Structure;
 using hinge::molecular::Verdict;
 using hinge::tool::csv_field;
 
 std::uint32_t atom(hinge::PrimitiveId i) { return static_cast<std::uint32_t>(hinge::index(i)); }
+
+Severity severity(const Job& job, const Contact& pair) {
+  return severity_of(job.checker.thresholds(), pair.hit, pair.collides);
+}
+
+bool has_classes(std::string_view rules) { return rules != "biocd"; }
+bool has_relative_distance(std::string_view rules) { return rules == "posebusters"; }
+
+/// "d < 0.8 * (bondi v1 radii), pairs at least 4 bonds apart, hydrogen-bond rule on", or what the named rules are.
+std::string rule_line(const Checker& checker) {
+  const auto& t = checker.thresholds();
+  const auto bonds = checker.min_bonds();
+  std::string text =
+      t.rho ? fmt::format("d < {} * ({} v{} radii)", *t.rho, t.radii, t.radii_version)
+            : fmt::format("{} v{} ({} v{} radii)", t.rules->name, t.rules->version, t.radii, t.radii_version);
+  text += fmt::format(", pairs at least {} bonds apart", bonds.heavy);
+  if (bonds.hydrogen != bonds.heavy) text += fmt::format(" ({} with a hydrogen)", bonds.hydrogen);
+  if (!t.rules->inside_residues) text += ", not inside residues";
+  return text + fmt::format(", hydrogen-bond rule {}", t.hydrogen_bonds ? "on" : "off");
+}
 
 }  // namespace
 
@@ -46,12 +70,15 @@ Json model_json(const Options& options, const Job& job) {
               {"held_torsions", job.held.size()},
               {"excluded_pairs", checker.exclusions().excluded_pairs()},
               {"exempt_reference", options.check.exempt_reference},
-              {"radii", std::string(thresholds.set->name)},
-              {"radii_version", std::string(thresholds.set->version)},
-              {"rho", thresholds.rho},
-              {"min_bonds", checker.min_bonds()},
+              {"rules", std::string(thresholds.rules->name)},
+              {"rules_version", std::string(thresholds.rules->version)},
+              {"radii", std::string(thresholds.radii)},
+              {"radii_version", std::string(thresholds.radii_version)},
+              {"rho", thresholds.rho ? Json(*thresholds.rho) : Json()},
+              {"min_bonds", checker.min_bonds().heavy},
+              {"min_bonds_hydrogen", checker.min_bonds().hydrogen},
               {"hydrogen_bonds", thresholds.hydrogen_bonds},
-              {"hydrogen_bond_allowance", options.check.thresholds.hydrogen_bond_allowance},
+              {"hydrogen_bond_allowance", thresholds.hydrogen_bond_allowance},
               {"reference_collisions", checker.reference_collisions().size()},
               {"with", options.with},
               {"placed", placed_json(job)},
@@ -59,21 +86,28 @@ Json model_json(const Options& options, const Job& job) {
               {"inside", options.inside}};
 }
 
-Json pair_json(const Structure& structure, const Contact& pair) {
+Json pair_json(const Job& job, const Contact& pair) {
+  const Structure& structure = job.molecule->structure();
   const hinge::Hit& hit = pair.hit;
-  return Json{{"i", atom(hit.first)},
-              {"j", atom(hit.second)},
-              {"label_i", label(structure, atom(hit.first))},
-              {"label_j", label(structure, atom(hit.second))},
-              {"distance", hit.distance},
-              {"threshold", hit.threshold},
-              {"collides", pair.collides}};
+  const Severity of = severity(job, pair);
+  Json json{{"i", atom(hit.first)},
+            {"j", atom(hit.second)},
+            {"label_i", label(structure, atom(hit.first))},
+            {"label_j", label(structure, atom(hit.second))},
+            {"distance", hit.distance},
+            {"threshold", hit.threshold},
+            {"collides", pair.collides},
+            {"overlap", of.overlap}};
+  const std::string_view rules = job.checker.thresholds().rules->name;
+  if (has_classes(rules)) json["class"] = std::string(of.kind);
+  if (has_relative_distance(rules))
+    json["relative_distance"] = of.relative_distance ? Json(*of.relative_distance) : Json();
+  return json;
 }
 
 Json constant_contacts_json(const Job& job) {
   Json list = Json::array();
-  for (const hinge::Hit& hit : job.checker.constant_contacts())
-    list.push_back(pair_json(job.molecule->structure(), {hit, true}));
+  for (const hinge::Hit& hit : job.checker.constant_contacts()) list.push_back(pair_json(job, {hit, true}));
   return list;
 }
 
@@ -84,69 +118,87 @@ Json closures_json(const Job& job, const std::vector<double>& residuals) {
   return list;
 }
 
-Json verdict_json(const Structure& structure, std::uint64_t index, const Verdict& verdict, const Mode& mode) {
+Json verdict_json(const Job& job, std::uint64_t index, const Verdict& verdict, const Mode& mode) {
   Json json{{"index", index}, {"collides", verdict.collides}};
   if (mode.kind == Mode::Kind::all || mode.kind == Mode::Kind::within) {
     Json pairs = Json::array();
-    for (const Contact& pair : verdict.pairs) pairs.push_back(pair_json(structure, pair));
+    for (const Contact& pair : verdict.pairs) pairs.push_back(pair_json(job, pair));
     json["pairs"] = std::move(pairs);
   }
-  if (mode.kind == Mode::Kind::closest)
-    json["closest"] = verdict.closest ? pair_json(structure, *verdict.closest) : Json();
+  if (mode.kind == Mode::Kind::closest) json["closest"] = verdict.closest ? pair_json(job, *verdict.closest) : Json();
   return json;
 }
 
-std::string csv_header(const std::string& more) {
-  return "index,collides,i,j,label_i,label_j,distance,threshold,pair_collides" + more + "\n";
+std::string csv_header(const Options& options, const std::string& more) {
+  const std::string& rules = options.check.thresholds.rules;
+  return fmt::format("{}{}{}{}\n", csv_columns, has_classes(rules) ? ",class" : "",
+                     has_relative_distance(rules) ? ",relative_distance" : "", more);
 }
 
-std::string csv_rows(const Structure& structure, std::uint64_t index, const Verdict& verdict) {
+std::string csv_rows(const Job& job, std::uint64_t index, const Verdict& verdict) {
+  const Structure& structure = job.molecule->structure();
+  const std::string_view rules = job.checker.thresholds().rules->name;
   std::string rows;
   const auto add = [&](const Contact& pair) {
     const hinge::Hit& hit = pair.hit;
-    rows += fmt::format("{},{:d},{},{},{},{},{},{},{:d}\n", index, verdict.collides, atom(hit.first), atom(hit.second),
+    const Severity of = severity(job, pair);
+    rows += fmt::format("{},{:d},{},{},{},{},{},{},{:d},{}", index, verdict.collides, atom(hit.first), atom(hit.second),
                         csv_field(label(structure, atom(hit.first))), csv_field(label(structure, atom(hit.second))),
-                        hit.distance, hit.threshold, pair.collides);
+                        hit.distance, hit.threshold, pair.collides, of.overlap);
+    if (has_classes(rules)) rows += fmt::format(",{}", of.kind);
+    if (has_relative_distance(rules))
+      rows += of.relative_distance ? fmt::format(",{}", *of.relative_distance) : std::string(",");
+    rows += '\n';
   };
   for (const Contact& pair : verdict.pairs) add(pair);
   if (verdict.closest) add(*verdict.closest);
-  if (rows.empty()) rows = fmt::format("{},{:d},,,,,,,\n", index, verdict.collides);
+  if (rows.empty())
+    rows = fmt::format("{},{:d},,,,,,,,{}{}\n", index, verdict.collides, has_classes(rules) ? "," : "",
+                       has_relative_distance(rules) ? "," : "");
   return rows;
 }
 
-std::string pair_line(const Structure& structure, const Contact& pair) {
+std::string pair_line(const Job& job, const Contact& pair) {
+  const Structure& structure = job.molecule->structure();
   const hinge::Hit& hit = pair.hit;
-  return fmt::format("  {:<18} {:<18} {:8.3f} {} {:.3f}", label(structure, atom(hit.first)),
-                     label(structure, atom(hit.second)), hit.distance, pair.collides ? "<" : ">=", hit.threshold);
+  const Severity of = severity(job, pair);
+  std::string line = fmt::format("  {:<18} {:<18} {:8.3f} {} {:.3f}, overlap {:.3f}", label(structure, atom(hit.first)),
+                                 label(structure, atom(hit.second)), hit.distance,
+                                 pair.collides ? "<" : ">=", hit.threshold, of.overlap);
+  if (of.relative_distance) line += fmt::format(", relative distance {:.3f}", *of.relative_distance);
+  if (!of.kind.empty()) line += fmt::format(", {}", of.kind);
+  return line;
 }
 
 std::string heading(const Options& options, const Job& job) {
   const Structure& s = job.molecule->structure();
   const Checker& checker = job.checker;
-  const auto& thresholds = checker.thresholds();
   std::string text = fmt::format(
       "{}: {} atoms, {} residues, {} chains, {} bonds\nselection {}{}{}: {} DOF, {} rigid groups, {} closures\n"
-      "rule: d < {} * ({} v{} radii), pairs at least {} bonds apart, hydrogen-bond rule {}{}\n",
+      "rule: {}{}\n",
       options.file, s.atoms.size(), s.residues.size(), s.chains.size(), s.bonds.size(), options.free,
       options.omega ? " with omega" : "", options.loop.empty() ? "" : " and loop " + options.loop, checker.dof_count(),
-      checker.rigid_group_count(), job.molecule->model().tree().closures().size(), thresholds.rho, thresholds.set->name,
-      thresholds.set->version, checker.min_bonds(), thresholds.hydrogen_bonds ? "on" : "off",
+      checker.rigid_group_count(), job.molecule->model().tree().closures().size(), rule_line(checker),
       options.check.exempt_reference ? ", reference collisions exempt" : "");
   text += scene_lines(options, job);
   text += fmt::format("reference: {} colliding pairs; constant contacts under this selection: {}\n",
                       checker.reference_collisions().size(), checker.constant_contacts().size());
-  for (const hinge::Hit& hit : checker.constant_contacts()) text += pair_line(s, {hit, true}) + "  (constant)\n";
+  for (const hinge::Hit& hit : checker.constant_contacts()) text += pair_line(job, {hit, true}) + "  (constant)\n";
   return text;
 }
 
 void print_constant_contacts(const Job& job) {
   for (const hinge::Hit& hit : job.checker.constant_contacts())
-    std::fprintf(stderr, "constant contact: %s\n", pair_line(job.molecule->structure(), {hit, true}).c_str());
+    std::fprintf(stderr, "constant contact: %s\n", pair_line(job, {hit, true}).c_str());
 }
 
 void print_notes(const Job& job) {
   for (const std::string& note : job.molecule->structure().notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   for (const std::string& note : job.molecule->notes()) std::fprintf(stderr, "note: %s\n", note.c_str());
+  const auto& atoms = job.molecule->structure().atoms;
+  if (job.checker.thresholds().rules->name == "molprobity" &&
+      std::none_of(atoms.begin(), atoms.end(), [](const auto& one) { return one.element == "H"; }))
+    std::fprintf(stderr, "note: rules molprobity: the structure has no hydrogens, MolProbity would add them first\n");
   for (const std::size_t k : job.held) {
     const auto& torsion = job.molecule->torsions()[k];
     std::fprintf(stderr, "note: torsion %s of %s: held by closed cycles, stays at its reference\n",

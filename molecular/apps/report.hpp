@@ -18,22 +18,23 @@ namespace biocd {
 using Json = nlohmann::ordered_json;
 
 Json model_json(const Options& options, const Job& job);
-Json pair_json(const hinge::molecular::Structure& structure, const hinge::molecular::Contact& pair);
+Json pair_json(const Job& job, const hinge::molecular::Contact& pair);
 Json constant_contacts_json(const Job& job);
 /// Each closure of the molecule by name, with its residual (angstrom); empty without residuals.
 Json closures_json(const Job& job, const std::vector<double>& residuals);
-Json verdict_json(const hinge::molecular::Structure& structure, std::uint64_t index,
-                  const hinge::molecular::Verdict& verdict, const hinge::molecular::Mode& mode);
+Json verdict_json(const Job& job, std::uint64_t index, const hinge::molecular::Verdict& verdict,
+                  const hinge::molecular::Mode& mode);
 
-/// "index,collides,i,j,label_i,label_j,distance,threshold,pair_collides": a row per pair, or one without a pair.
-/// more: further columns, each after a comma.
-std::string csv_header(const std::string& more = "");
-std::string csv_rows(const hinge::molecular::Structure& structure, std::uint64_t index,
-                     const hinge::molecular::Verdict& verdict);
+/// What every CSV file has: a row per pair, or one without a pair.
+inline constexpr const char* csv_columns =
+    "index,collides,i,j,label_i,label_j,distance,threshold,pair_collides,overlap";
+/// And what else the rules have to say; more: further columns, each after a comma.
+std::string csv_header(const Options& options, const std::string& more);
+std::string csv_rows(const Job& job, std::uint64_t index, const hinge::molecular::Verdict& verdict);
 
-/// "A:LYS77:NZ  A:GLU18:OE1  2.310 < 2.456"; ">=" when the pair does not collide, whatever rounding made of its
-/// numbers.
-std::string pair_line(const hinge::molecular::Structure& structure, const hinge::molecular::Contact& pair);
+/// "A:LYS77:NZ  A:GLU18:OE1  2.310 < 2.456, overlap 0.760"; ">=" when the pair does not collide, whatever rounding made
+/// of its numbers.
+std::string pair_line(const Job& job, const hinge::molecular::Contact& pair);
 
 /// The rules of the check, the selection and its constant contacts, for people.
 std::string heading(const Options& options, const Job& job);

@@ -78,7 +78,7 @@ Results::Results(const Options& options, Json head, std::uint64_t total, const s
   }
   if (output_ == Output::csv) {
     if (sharded_) fmt::print("{}", csv_shard_line(*options.shard, total, head));
-    fmt::print("{}", csv_header(columns));
+    fmt::print("{}", csv_header(options, columns));
   }
 }
 

@@ -21,7 +21,7 @@ std::pair<std::uint64_t, std::uint64_t> shard_range(const Shard& shard, std::uin
 /// number and ends with a line end, so that text alone is enough to join shards.
 class Results {
  public:
-  /// Prints what stands before the first row. columns: of CSV, beyond those of csv_header(). ModelError: a shard of a
+  /// Prints what stands before the first row. columns: of CSV, beyond those of the rules. ModelError: a shard of a
   /// table.
   Results(const Options& options, Json head, std::uint64_t total, const std::string& columns = "");
 

@@ -131,13 +131,14 @@ Exit run_sample(const Options& options) {
     if (!sample.found) return;
     summary.add(s, sample.verdict);
     if (options.output == Output::json) {
-      Json row = verdict_json(s, k, sample.verdict, mode);
+      Json row = verdict_json(job, k, sample.verdict, mode);
       if (!sample.verdict.closure_residuals.empty())
         row["closures"] = closures_json(job, sample.verdict.closure_residuals);
       if (!sample.placements.empty()) row["placements"] = placements_json(job, sample.placements);
       results.add(row);
     }
-    if (options.output == Output::csv) results.add(with_placements(csv_rows(s, k, sample.verdict), sample.placements));
+    if (options.output == Output::csv)
+      results.add(with_placements(csv_rows(job, k, sample.verdict), sample.placements));
     file.add(sample.positions, static_cast<int>(k) + 1, sample.verdict.collides);
   };
   hinge::Ensemble(worker, options.threads)

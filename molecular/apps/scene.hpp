@@ -35,7 +35,7 @@ Json placed_json(const Job& job);
 std::string scene_lines(const Options& options, const Job& job);
 
 Json placements_json(const Job& job, const Placements& placements);
-/// Columns that follow those of csv_header and csv_rows: ",B.x,B.y,B.z,B.rx,B.ry,B.rz" per placed part.
+/// Columns that follow those of csv_rows: ",B.x,B.y,B.z,B.rx,B.ry,B.rz" per placed part.
 std::string placements_header(const Job& job);
 std::string with_placements(const std::string& rows, const Placements& placements);
 

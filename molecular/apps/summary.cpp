@@ -28,9 +28,16 @@ void Summary::add(const hinge::molecular::Structure& structure, const hinge::mol
   }
 }
 
+void Summary::add_clashscore(double clashscore) {
+  ++scored_;
+  clashscores_ += clashscore;
+  worst_clashscore_ = std::max(worst_clashscore_, clashscore);
+}
+
 void Summary::add(const Json& row) {
   ++checked_;
   colliding_ += row.at("collides").get<bool>() ? 1 : 0;
+  if (row.contains("clashscore")) add_clashscore(row.at("clashscore").get<double>());
   const auto pairs = row.find("pairs");
   if (pairs == row.end()) return;
   for (const Json& pair : *pairs) {
@@ -84,6 +91,10 @@ Json Summary::json(bool with_closures) const {
   for (const Offender& o : top())
     offenders.push_back({{"i", o.i}, {"j", o.j}, {"label_i", o.label_i}, {"label_j", o.label_j}, {"count", o.count}});
   Json summary{{"checked", checked_}, {"colliding", colliding_}};
+  if (scored_ > 0) {
+    summary["clashscore"] = clashscores_ / static_cast<double>(scored_);
+    summary["worst_clashscore"] = worst_clashscore_;
+  }
   if (with_closures) {
     summary["worst_closure_residual"] = worst_residual_;
     Json& closures = summary["closures"] = Json::array();

@@ -37,6 +37,8 @@ class Summary {
   Summary(std::vector<std::string> closures, bool closed);
 
   void add(const hinge::molecular::Structure& structure, const hinge::molecular::Verdict& verdict);
+  /// MolProbity's, of a conformation added before.
+  void add_clashscore(double clashscore);
   /// A row of verdict_json.
   void add(const Json& row);
   /// The first row of a conformation in CSV.
@@ -53,8 +55,9 @@ class Summary {
   const std::optional<Starts>& starts() const { return starts_; }
   /// The ten pairs that collide most often, most frequent first.
   std::vector<Offender> top() const;
-  /// checked, colliding, worst_closure_residual and closures where conformations were computed, offenders, and missing,
-  /// starts_unclosed, closed_refused where they were closed.
+  /// checked, colliding, clashscore (mean) and worst_clashscore where there are any, worst_closure_residual and
+  /// closures where conformations were computed, offenders, and missing, starts_unclosed, closed_refused where they
+  /// were closed.
   Json json(bool with_closures) const;
   /// With the keys that another summary has.
   Json json_like(const Json& other) const { return json(other.contains("worst_closure_residual")); }
@@ -66,6 +69,9 @@ class Summary {
   std::vector<std::string> closures_;
   std::vector<double> worst_residuals_;
   std::optional<Starts> starts_;
+  std::uint64_t scored_ = 0;
+  double clashscores_ = 0.0;  // sum
+  double worst_clashscore_ = 0.0;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Offender> offenders_;
 };
 

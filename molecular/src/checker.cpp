@@ -19,9 +19,14 @@ std::vector<Point> as_points(std::span<const Vec3> positions) {
   return points;
 }
 
-std::vector<std::pair<PrimitiveId, PrimitiveId>> pairs_of(const std::vector<Hit>& hits) {
+/// Pairs inside residues, where the rules leave them out.
+std::vector<std::pair<PrimitiveId, PrimitiveId>> never_counted(const Structure& structure, const ClashRules& rules) {
   std::vector<std::pair<PrimitiveId, PrimitiveId>> pairs;
-  for (const Hit& hit : hits) pairs.emplace_back(hit.first, hit.second);
+  if (rules.inside_residues) return pairs;
+  for (const Residue& residue : structure.residues)
+    for (std::uint32_t i = residue.first_atom; i < residue.last_atom; ++i)
+      for (std::uint32_t j = i + 1; j < residue.last_atom; ++j)
+        pairs.emplace_back(id<PrimitiveId>(i), id<PrimitiveId>(j));
   return pairs;
 }
 
@@ -126,18 +131,22 @@ Verdict ask(H& hierarchy, const Rule& rule, const Mode& mode) {
 Checker::Checker(std::shared_ptr<const Molecule> molecule, DofSelection selection, const CheckOptions& options)
     : molecule_(std::move(molecule)) {
   thresholds_ = std::make_shared<const Thresholds>(make_thresholds(molecule_->structure(), options.thresholds));
-  min_bonds_ = options.min_bonds.value_or(thresholds_->set->default_min_bonds);
-  exclusions_ =
-      std::make_shared<const BondExclusions>(BondExclusions(molecule_->structure(), min_bonds_, {}, options.scope));
+  if (options.min_bonds && thresholds_->rules->name != "biocd")
+    throw ModelError("clash rules " + options.thresholds.rules +
+                     ": fix the minimal bond distance, expected none beside");
+  min_bonds_ = options.min_bonds ? MinBonds(*options.min_bonds) : thresholds_->min_bonds;
+  auto exempt = never_counted(molecule_->structure(), *thresholds_->rules);
+  exclusions_ = std::make_shared<const BondExclusions>(molecule_->structure(), min_bonds_, exempt, options.scope);
 
   MolecularHierarchy<Wide> rigid(molecule_->model(), molecule_->select({}), *exclusions_, thresholds_->matrix);
   rigid.update_placed(as_points(molecule_->structure().models.front()));
   std::vector<Hit> reference;
   for (const Contact& contact : contacts(rigid, as_written(*thresholds_), 0.0)) reference.push_back(contact.hit);
   reference_ = std::make_shared<const std::vector<Hit>>(std::move(reference));
-  if (options.exempt_reference)
-    exclusions_ = std::make_shared<const BondExclusions>(molecule_->structure(), min_bonds_, pairs_of(*reference_),
-                                                         options.scope);
+  if (options.exempt_reference) {
+    for (const Hit& hit : *reference_) exempt.emplace_back(hit.first, hit.second);
+    exclusions_ = std::make_shared<const BondExclusions>(molecule_->structure(), min_bonds_, exempt, options.scope);
+  }
 
   hierarchy_.emplace(make(options.engine, std::move(selection)));
   std::vector<Hit> constant;

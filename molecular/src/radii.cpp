@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <tuple>
 #include <utility>
 
+#include "atom_traits.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
+#include "hinge/molecular/hydrogen_bonds.hpp"
 
 namespace hinge::molecular {
 
@@ -125,6 +128,8 @@ bool is_acceptor(AtomClass c) {
          c == AtomClass::sulphur;
 }
 
+}  // namespace
+
 std::string type_name(AtomClass c, const std::string& element) {
   switch (c) {
     case AtomClass::carbon: return "C";
@@ -145,8 +150,6 @@ std::string type_name(AtomClass c, const std::string& element) {
   }
   return element;
 }
-
-}  // namespace
 
 const std::vector<RadiiSet>& radii_sets() {
   static const std::vector<RadiiSet> sets{
@@ -170,6 +173,15 @@ const RadiiSet& radii_set(std::string_view name) {
 }
 
 Thresholds make_thresholds(const Structure& structure, const ThresholdOptions& options) {
+  const ClashRules& rules = clash_rules(options.rules);
+  if (rules.name != "biocd") {
+    const ThresholdOptions chosen{};
+    if (options.radii != chosen.radii || options.rho != chosen.rho || options.hydrogen_bonds ||
+        options.hydrogen_bond_allowance != chosen.hydrogen_bond_allowance)
+      throw ModelError("clash rules " + options.rules +
+                       ": fix radii, rho and hydrogen bonds, expected none of them beside");
+    return make_named_thresholds(structure, rules);
+  }
   const RadiiSet& set = radii_set(options.radii);
   if (!is_finite(options.rho) || options.rho <= 0.0)
     throw ModelError("rho " + std::to_string(options.rho) + ": expected a finite number above 0");
@@ -177,15 +189,20 @@ Thresholds make_thresholds(const Structure& structure, const ThresholdOptions& o
     throw ModelError("hydrogen-bond allowance " + std::to_string(options.hydrogen_bond_allowance) +
                      ": expected a finite length >= 0 (angstrom)");
   const std::vector<AtomClass> classes = classify_atoms(structure);
-  const bool rule = options.hydrogen_bonds.value_or(std::any_of(classes.begin(), classes.end(), is_hydrogen));
+  const bool has_hydrogens = std::any_of(classes.begin(), classes.end(), is_hydrogen);
+  const bool rule = options.hydrogen_bonds.value_or(has_hydrogens);
+  // Hydrogens say which atoms bond; without them the heavy atoms are asked.
+  std::vector<HydrogenBondRole> roles(classes.size());
+  if (rule && !has_hydrogens) roles = hydrogen_bond_roles(structure);
 
   // Types are the classes that occur, in class order, and one per further element.
-  std::map<std::pair<AtomClass, std::string>, std::uint16_t> type_of;
+  using Type = std::tuple<AtomClass, std::string, HydrogenBondRole>;
+  std::map<Type, std::uint16_t> type_of;
   const auto key = [&](std::size_t i) {
-    return std::pair(classes[i], classes[i] == AtomClass::other ? structure.atoms[i].element : std::string());
+    return Type(classes[i], classes[i] == AtomClass::other ? structure.atoms[i].element : std::string(), roles[i]);
   };
   for (std::size_t i = 0; i < classes.size(); ++i) type_of.emplace(key(i), 0);
-  std::vector<std::pair<AtomClass, std::string>> types;
+  std::vector<Type> types;
   for (auto& [type, number] : type_of) {
     number = static_cast<std::uint16_t>(types.size());
     types.push_back(type);
@@ -193,19 +210,30 @@ Thresholds make_thresholds(const Structure& structure, const ThresholdOptions& o
   std::vector<std::uint16_t> atom_types(classes.size());
   for (std::size_t i = 0; i < classes.size(); ++i) atom_types[i] = type_of.at(key(i));
 
-  std::vector<std::string> names;
-  std::vector<double> table;
-  for (const auto& [c, element] : types) {
-    names.push_back(type_name(c, element));
-    for (const auto& [d, other] : types) {
-      double m = options.rho * (set.radius(c, element) + set.radius(d, other));
-      const bool bonding = (is_polar_hydrogen(c) && is_acceptor(d)) || (is_polar_hydrogen(d) && is_acceptor(c));
+  Thresholds made;
+  for (const auto& [c, element, role] : types) {
+    made.type_names.push_back(type_name(c, element) + (role.donor ? ".donor" : "") +
+                              (role.acceptor ? ".acceptor" : ""));
+    for (const auto& [d, other, role_of_other] : types) {
+      const double sum = set.radius(c, element) + set.radius(d, other);
+      double m = options.rho * sum;
+      const bool bonding = (is_polar_hydrogen(c) && is_acceptor(d)) || (is_polar_hydrogen(d) && is_acceptor(c)) ||
+                           (role.donor && role_of_other.acceptor) || (role.acceptor && role_of_other.donor);
       if (rule && bonding) m = std::max(0.0, m - options.hydrogen_bond_allowance);
-      table.push_back(m);
+      made.table.push_back(m);
+      made.contact.push_back(sum);
+      made.allowance.push_back(0.0);
     }
   }
-  TypedThresholds matrix(std::move(atom_types), types.size(), table);
-  return {std::move(matrix), std::move(names), rule, &set, options.rho, std::move(table)};
+  made.matrix = TypedThresholds(std::move(atom_types), types.size(), made.table);
+  made.rules = &rules;
+  made.radii = set.name;
+  made.radii_version = set.version;
+  made.rho = options.rho;
+  made.hydrogen_bonds = rule;
+  made.hydrogen_bond_allowance = options.hydrogen_bond_allowance;
+  made.min_bonds = set.default_min_bonds;
+  return made;
 }
 
 }  // namespace hinge::molecular

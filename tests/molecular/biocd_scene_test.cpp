@@ -110,9 +110,9 @@ TEST(BiocdScene, AddsColumnsForEachPlacedPart) {
       lines.back() += ch;
   ASSERT_EQ(lines.size(), 5U);
   EXPECT_EQ(lines[0],
-            "index,collides,i,j,label_i,label_j,distance,threshold,pair_collides,file:2.x,file:2.y,file:2.z,file:2.rx,"
-            "file:2.ry,file:2.rz");
-  for (std::size_t k = 1; k <= 3; ++k) EXPECT_EQ(std::ranges::count(lines[k], ','), 14);
+            "index,collides,i,j,label_i,label_j,distance,threshold,pair_collides,overlap,file:2.x,file:2.y,file:2.z,"
+            "file:2.rx,file:2.ry,file:2.rz");
+  for (std::size_t k = 1; k <= 3; ++k) EXPECT_EQ(std::ranges::count(lines[k], ','), 15);
 }
 
 TEST(BiocdScene, SaysWhatItIsAbout) {

@@ -32,7 +32,7 @@ using hinge::Mode;
 
 struct CheckOptions {
   ThresholdOptions thresholds;
-  std::optional<int> min_bonds;   ///< pairs count from this bond distance on; none: the radii set's default
+  std::optional<int> min_bonds;   ///< pairs count from this bond distance on; none: the rules' or the radii set's
   bool exempt_reference = false;  ///< pairs that collide in the reference never count
   PairScope scope{};            ///< which pairs are asked about, made for the molecule's structure; none else is named
   std::string engine = "wide";  ///< "wide", "lazy" (the paper's) or "brute"
@@ -60,13 +60,13 @@ struct Verdict {
 /// One per thread; copies share everything constant.
 class Checker {
  public:
-  /// ModelError: unknown engine, radii set or numbers out of range.
+  /// ModelError: unknown engine, rules or radii set, numbers out of range or beside rules that fix them.
   Checker(std::shared_ptr<const Molecule> molecule, DofSelection selection, const CheckOptions& options);
 
   const Molecule& molecule() const noexcept { return *molecule_; }
   const Thresholds& thresholds() const noexcept { return *thresholds_; }
   const BondExclusions& exclusions() const noexcept { return *exclusions_; }
-  int min_bonds() const noexcept { return min_bonds_; }
+  MinBonds min_bonds() const noexcept { return min_bonds_; }
   /// Pairs that collide in the reference coordinates, as written, all admitted pairs looked at, sorted.
   std::span<const Hit> reference_collisions() const noexcept { return *reference_; }
   /// Those whose distance the selection cannot change (and which are not exempted).
@@ -96,7 +96,7 @@ class Checker {
   std::shared_ptr<const BondExclusions> exclusions_;
   std::shared_ptr<const std::vector<Hit>> reference_;
   std::shared_ptr<const std::vector<Hit>> constant_;
-  int min_bonds_;
+  MinBonds min_bonds_{4};
   std::optional<AnyHierarchy> hierarchy_;
 };
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hinge/molecular/clash_rules.hpp"
 #include "hinge/molecular/structure.hpp"
 #include "hinge/policy/distance_matrix.hpp"
 
@@ -53,23 +54,31 @@ std::vector<AtomClass> classify_atoms(const Structure& structure);
 struct ThresholdOptions {
   std::string radii = "bondi";
   double rho = 0.8;                      ///< M = rho * d0; finite, > 0
-  std::optional<bool> hydrogen_bonds;    ///< hydrogen-bond rule; none: on when the structure has hydrogens
-  double hydrogen_bond_allowance = 0.4;  ///< angstrom, taken from M(polar H, acceptor N, O or S)
+  std::optional<bool> hydrogen_bonds{};  ///< hydrogen-bond rule; none: on when the structure has hydrogens
+  /// Angstrom, taken from M(polar H, acceptor N, O or S), in a structure without hydrogens from M(N, O or S that may
+  /// bear one, acceptor).
+  double hydrogen_bond_allowance = 0.4;
+  std::string rules = "biocd";  ///< clash_rules(); others than biocd's fix all of the above
 };
 
-/// Thresholds with what is needed to print them.
+/// Thresholds with what is needed to print them. Tables are type x type, row-major, angstrom.
 struct Thresholds {
-  TypedThresholds matrix;
-  std::vector<std::string> type_names;  ///< per type: "C", "C.aromatic", "H.polar", "Zn"
+  TypedThresholds matrix{{}, 0, {}};
+  std::vector<std::string> type_names{};  ///< per type: "C", "C.aromatic", "H.polar", "Zn"
+  std::vector<double> table{};
+  std::vector<double> contact{};    ///< distance of two atoms whose overlap is 0 (Severity)
+  std::vector<double> allowance{};  ///< for a hydrogen bond, already taken off contact
+  const ClashRules* rules = nullptr;
+  std::string_view radii{}, radii_version{};
+  std::optional<double> rho{};  ///< none: the rules are not M = rho * d0
   bool hydrogen_bonds = false;
-  const RadiiSet* set = nullptr;
-  double rho = 0.8;
+  double hydrogen_bond_allowance = 0.0;  ///< angstrom
+  MinBonds min_bonds{4};                 ///< unless the user says otherwise
 
   double between(std::size_t s, std::size_t t) const noexcept { return table[s * type_names.size() + t]; }
-  std::vector<double> table;  ///< type x type, row-major, angstrom
 };
 
-/// ModelError: unknown set, rho or allowance out of range.
+/// ModelError: unknown rules or set, rho or allowance out of range, or chosen beside rules that fix them.
 Thresholds make_thresholds(const Structure& structure, const ThresholdOptions& options = {});
 
 }  // namespace hinge::molecular
