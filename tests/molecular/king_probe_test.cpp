@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Overlapping atoms of real proteins with hydrogens beside those of king-probe (Debian's Probe, which shares no code):
-// radius by radius and pair by pair, where it is installed.
+// radius by radius and pair by pair, where it is installed; and clashes beside those it has for MolProbity.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <ostream>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -22,6 +23,7 @@
 
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/checker.hpp"
+#include "hinge/molecular/severity.hpp"
 #include "hinge/molecular/write_structure.hpp"
 #include "molecular/test_files.hpp"
 #include "tool/run_tool.hpp"
@@ -33,7 +35,10 @@ using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
 constexpr int bonds_left_out = 3;      // Probe's -3: what up to three bonds join is no contact
 constexpr double probe_radius = 0.25;  // angstrom, Probe's default: pairs up to twice as far apart are contacts
-constexpr double dots_per_area = 32;   // on each atom's sphere, per square angstrom; Probe's default is 16
+constexpr double dots_per_area = 32;   // on each atom's sphere, per square angstrom
+constexpr double default_dots_per_area = 16;
+constexpr double many_dots_per_area = 64;
+constexpr double bad_overlap = 0.4;  // angstrom, Probe's -DIVLow: what MolProbity counts
 
 /// Angstrom: half of the last digit of a gap as Probe prints it, and its floats: five roundings of numbers below 4.
 constexpr double printed = 0.0005 + 5 * 0x1p-23;
@@ -49,6 +54,14 @@ struct ProbeContact {
   double gap = 0.0;            ///< distance less both radii, angstrom
   bool dots_inside = false;    ///< a dot of one atom is inside the other
   bool hydrogen_bond = false;  ///< one of them is excused as a hydrogen bond
+};
+
+/// The same at MolProbity's settings.
+struct ProbeClash {
+  double gap = 0.0;            ///< distance less both radii, angstrom
+  bool bad = false;            ///< a dot of one atom is deep inside the other
+  bool bad_if_denser = false;  ///< the same with many more dots
+  bool hydrogen_bond = false;
 };
 
 /// One conformer of a real protein, with hydrogens, as both programs are handed it.
@@ -85,6 +98,13 @@ class Subject {
   }
   double probe_radius_of(std::uint32_t i) const { return radii_.at(i); }
   const std::map<Pair, ProbeContact>& contacts() const { return contacts_; }
+  const std::map<Pair, ProbeClash>& clashes() const { return clashes_; }
+  /// By --rules molprobity.
+  Checker molprobity() const {
+    CheckOptions rules;
+    rules.thresholds.rules = "molprobity";
+    return {molecule_, molecule_->select({}), rules};
+  }
 
  private:
   /// As Probe prints an atom: chain, number, insertion code, residue, atom.
@@ -101,20 +121,23 @@ class Subject {
                      trimmed(text, name, 4));
   }
   void ask_probe();
+  /// Calls use(pair, kind, gap) for each line.
+  template <class Use>
+  void read_contacts(const std::string& arguments, const Use& use);
 
   test::TemporaryFile pdb_, dump_;
   std::shared_ptr<const Molecule> molecule_;
   std::map<std::string, std::uint32_t> atoms_;
   std::map<std::uint32_t, double> radii_;
   std::map<Pair, ProbeContact> contacts_;
+  std::map<Pair, ProbeClash> clashes_;
   std::optional<Checker> checker_;
 };
 
-void Subject::ask_probe() {
-  std::ostringstream arguments;
-  arguments << "-quiet -3 -mc -nolimit -nofacehbond -unformated -condense -density" << dots_per_area << " -dumpatoms "
-            << dump_.path().string() << " -self all " << pdb_.path().string() << " 2>/dev/null";
-  std::istringstream said(test::run_tool("king-probe", arguments.str()).out);
+template <class Use>
+void Subject::read_contacts(const std::string& arguments, const Use& use) {
+  std::istringstream said(
+      test::run_tool("king-probe", "-quiet -mc -unformated -condense " + arguments + " 2>/dev/null").out);
   for (std::string line; std::getline(said, line);) {
     std::vector<std::string> fields;
     std::istringstream parts(line);
@@ -122,11 +145,30 @@ void Subject::ask_probe() {
     ASSERT_GT(fields.size(), 6U) << line;
     // " A   1 ASN  CA "
     const std::uint32_t i = atom(fields[3], 0, 2, 7, 11), j = atom(fields[4], 0, 2, 7, 11);
-    ProbeContact& contact = contacts_[std::minmax(i, j)];
-    contact.gap = std::stod(fields[6]);
-    const std::string& kind = fields[2];  // wide contact, close contact, small overlap, bad overlap, hydrogen bond
+    use(Pair(std::minmax(i, j)), fields[2], std::stod(fields[6]));
+  }
+}
+
+void Subject::ask_probe() {
+  std::ostringstream all;
+  all << "-3 -nolimit -nofacehbond -density" << dots_per_area << " -dumpatoms " << dump_.path().string()
+      << " -self all " << pdb_.path().string();
+  // Wide contact, close contact, small overlap, bad overlap, hydrogen bond.
+  read_contacts(all.str(), [&](const Pair& pair, const std::string& kind, double gap) {
+    ProbeContact& contact = contacts_[pair];
+    contact.gap = gap;
     contact.dots_inside = contact.dots_inside || kind == "so" || kind == "bo" || kind == "hb";
     contact.hydrogen_bond = contact.hydrogen_bond || kind == "hb";
+  });
+  for (const double density : {default_dots_per_area, many_dots_per_area}) {
+    std::ostringstream arguments;
+    arguments << "-4H -het -density" << density << " -self all " << pdb_.path().string();
+    read_contacts(arguments.str(), [&](const Pair& pair, const std::string& kind, double gap) {
+      ProbeClash& clash = clashes_[pair];
+      clash.gap = gap;
+      (density == default_dots_per_area ? clash.bad : clash.bad_if_denser) |= kind == "bo";
+      clash.hydrogen_bond = clash.hydrogen_bond || kind == "hb";
+    });
   }
   std::ifstream dump(dump_.path());
   for (std::string line; std::getline(dump, line);)  // " A ASN  46 HD22 B  13.813   2.856  14.433  1.05 ..."
@@ -135,10 +177,12 @@ void Subject::ask_probe() {
 
 /// Probe's dots, recounted: how many of them a pair should have on the sphere of one of its atoms. A dot is put where
 /// the small probe that touches the sphere there touches the other atom too, no atom is deeper over it than the other,
-/// and no atom that is bonds_left_out bonds away or nearer covers it.
+/// and no atom that is too few bonds away covers it.
 class Dots {
  public:
-  explicit Dots(const Subject& subject) : subject_(subject) {
+  /// per_area: dots per square angstrom; left_out: what so many bonds join.
+  Dots(const Subject& subject, double per_area, MinBonds left_out)
+      : subject_(subject), per_area_(per_area), left_out_(left_out) {
     // A Fibonacci lattice: equal areas, and not Probe's dots.
     const double golden = std::numbers::pi * (1.0 + std::sqrt(5.0));
     for (std::size_t k = 0; k < count; ++k) {
@@ -148,16 +192,21 @@ class Dots {
     }
   }
 
-  double expected(std::uint32_t on, std::uint32_t with) const {
-    const std::vector<Neighbour> neighbours = around(on, with);
-    std::size_t seen = 0;
-    for (const Vec3& direction : directions_) seen += sees(on, with, neighbours, direction) ? 1 : 0;
-    const double r = subject_.radius(on);
-    return dots_per_area * 4 * std::numbers::pi * r * r * static_cast<double>(seen) / count;
+  /// Of those at least so deep inside the other atom (angstrom), on either of the two: the larger number.
+  double expected(const Pair& pair, double deep) const {
+    return std::max(expected(pair.first, pair.second, deep), expected(pair.second, pair.first, deep));
   }
 
  private:
   static constexpr std::size_t count = 20000;
+
+  double expected(std::uint32_t on, std::uint32_t with, double deep) const {
+    const std::vector<Neighbour> neighbours = around(on, with);
+    std::size_t seen = 0;
+    for (const Vec3& direction : directions_) seen += sees(on, with, neighbours, direction, deep) ? 1 : 0;
+    const double r = subject_.radius(on);
+    return per_area_ * 4 * std::numbers::pi * r * r * static_cast<double>(seen) / count;
+  }
 
   struct Neighbour {
     std::uint32_t atom;
@@ -170,28 +219,34 @@ class Dots {
     std::vector<Neighbour> found;
     for (std::uint32_t i = 0; i < subject_.size(); ++i)
       if (i != on && i != with && gap(subject_.position(on), i) <= subject_.radius(on) + 2 * probe_radius)
-        found.push_back({i, bond_distance(subject_.structure(), on, i, bonds_left_out) >= 0});
+        found.push_back(
+            {i, bond_distance(subject_.structure(), on, i, left_out_.of(subject_.structure(), on, i)) >= 0});
     return found;
   }
-  bool sees(std::uint32_t on, std::uint32_t with, const std::vector<Neighbour>& neighbours,
-            const Vec3& direction) const {
+  bool sees(std::uint32_t on, std::uint32_t with, const std::vector<Neighbour>& neighbours, const Vec3& direction,
+            double deep) const {
     const Vec3 dot = subject_.position(on) + subject_.radius(on) * direction;
     const Vec3 probe = dot + probe_radius * direction;
     if (gap(probe, with) > probe_radius) return false;
     const double depth = gap(dot, with);
+    if (depth > -deep) return false;
     return std::none_of(neighbours.begin(), neighbours.end(), [&](const Neighbour& n) {
       return n.bonded ? gap(dot, n.atom) <= 0.0 : gap(dot, n.atom) < depth && gap(probe, n.atom) <= probe_radius;
     });
   }
 
   const Subject& subject_;
+  double per_area_;
+  MinBonds left_out_;
   std::vector<Vec3> directions_;
 };
+
+constexpr double any_depth = -1.0;  // angstrom: dots outside of the other atom as well
 
 /// The parts of the comparison; each says what differs.
 class Comparison {
  public:
-  explicit Comparison(const std::string& file) : subject_(file), dots_(subject_) {}
+  explicit Comparison(const std::string& file) : subject_(file), dots_(subject_, dots_per_area, bonds_left_out) {}
 
   void radii() {
     std::size_t carbonyls_of_other_residues = 0;
@@ -230,7 +285,7 @@ class Comparison {
       ++overlapping;
       if (subject_.contacts().contains(pair)) continue;
       ++hidden;
-      const double dots = std::max(dots_.expected(pair.first, pair.second), dots_.expected(pair.second, pair.first));
+      const double dots = dots_.expected(pair, any_depth);
       // Less than the area of this many dots may lie between them.
       EXPECT_LT(dots, 2.0) << "without a dot: " << name(pair.first) << ' ' << name(pair.second) << ' ' << gap;
       deepest = std::min(deepest, gap);
@@ -264,8 +319,64 @@ class Comparison {
     std::printf("%zu overlaps with a threshold lowered for hydrogen bonds, %zu without a dot inside\n", bonds, shallow);
   }
 
+  /// How many clashes both have, and what explains those that one has alone.
+  struct Clashes {
+    std::size_t both = 0;
+    std::size_t between_dots = 0;    ///< ours: Probe has it as well with many more dots
+    std::size_t hidden = 0;          ///< ours: other atoms cover where the pair is so deep
+    std::size_t carbonyls = 0;       ///< Probe's: a carbonyl carbon of a residue it does not know is larger there
+    std::size_t hydrogen_bonds = 0;  ///< of both: with dots of a hydrogen bond beside, which MolProbity takes as one
+
+    friend bool operator==(const Clashes&, const Clashes&) = default;
+    friend std::ostream& operator<<(std::ostream& out, const Clashes& c) {
+      return out << c.both << " both, " << c.between_dots << " between dots, " << c.hidden << " hidden, " << c.carbonyls
+                 << " carbonyls, " << c.hydrogen_bonds << " hydrogen bonds";
+    }
+  };
+
+  Clashes clashes() {
+    Checker checker = subject_.molprobity();
+    const Thresholds& t = checker.thresholds();
+    const Verdict verdict = checker.check_coordinates(subject_.structure().models.front(), Mode::parse("all"));
+    const Dots dots(subject_, default_dots_per_area, {bonds_left_out, bonds_left_out + 1});
+    Clashes counted;
+    std::map<Pair, Contact> ours;
+    for (const Contact& contact : verdict.pairs) {
+      const Pair pair(static_cast<std::uint32_t>(index(contact.hit.first)),
+                      static_cast<std::uint32_t>(index(contact.hit.second)));
+      ours.emplace(pair, contact);
+      const double overlap = severity_of(t, contact.hit, true).overlap;
+      EXPECT_GE(overlap, bad_overlap - printed);
+      const auto probes = subject_.clashes().find(pair);
+      const double allowance =
+          t.allowance[t.matrix.type(contact.hit.first) * t.type_names.size() + t.matrix.type(contact.hit.second)];
+      if (probes != subject_.clashes().end()) {
+        EXPECT_NEAR(-probes->second.gap, overlap + allowance + larger(pair.first) + larger(pair.second), printed);
+      }
+      if (probes != subject_.clashes().end() && probes->second.bad) {
+        ++counted.both;
+        counted.hydrogen_bonds += probes->second.hydrogen_bond ? 1 : 0;
+        continue;
+      }
+      ++(probes != subject_.clashes().end() && probes->second.bad_if_denser ? counted.between_dots : counted.hidden);
+      // Less than the area of this many dots may lie between them.
+      EXPECT_LT(dots.expected(pair, bad_overlap + allowance), 2.0)
+          << name(pair.first) << ' ' << name(pair.second) << ' ' << overlap;
+    }
+    for (const auto& [pair, clash] : subject_.clashes()) {
+      if (!clash.bad || ours.contains(pair)) continue;
+      if (-clash.gap - larger(pair.first) - larger(pair.second) < bad_overlap && -clash.gap >= bad_overlap - printed)
+        ++counted.carbonyls;
+      else
+        ADD_FAILURE() << "Probe alone: " << name(pair.first) << ' ' << name(pair.second) << ' ' << clash.gap;
+    }
+    return counted;
+  }
+
  private:
   std::string name(std::uint32_t i) const { return label(subject_.structure(), i); }
+  /// By how much Probe's radius is larger, angstrom.
+  double larger(std::uint32_t i) const { return subject_.probe_radius_of(i) - subject_.radius(i); }
   bool standard(std::uint32_t i) const {
     static const std::string names =
         " ALA ARG ASN ASP CYS GLN GLU GLY HIS ILE LEU LYS MET PHE PRO SER THR TRP TYR VAL ";
@@ -277,26 +388,81 @@ class Comparison {
   Dots dots_;
 };
 
-class BesideKingProbe : public testing::TestWithParam<const char*> {};
+/// A hydrogen of SER or LYS beside an oxygen of another chain, `apart` angstrom from it.
+std::string polar_pair(const char* donor, const char* hydrogen, const char* bearer, const char* acceptor,
+                       const char* oxygen, double apart) {
+  std::string text;
+  const auto add = [&](const char* name, const char* residue, char chain, double x, double y) {
+    std::array<char, 100> line{};
+    std::snprintf(line.data(), line.size(), "ATOM      1 %-4s %3s %c   1    %8.3f%8.3f%8.3f  1.00  0.00\n", name,
+                  residue, chain, x, y, 0.0);
+    text += line.data();
+  };
+  add(hydrogen, donor, 'A', 0.0, 0.0);
+  add(bearer, donor, 'A', -0.98, 0.0);
+  add(bearer[1] == 'O' ? " CB" : " CE", donor, 'A', -1.5, 1.35);
+  add(oxygen, acceptor, 'B', apart, 0.0);
+  return text + "END\n";
+}
 
-TEST_P(BesideKingProbe, RadiiOverlapsAndHydrogenBondsAreTheSame) {
+TEST(BesideKingProbe, HydrogenBondsThatAreTooShortAreClashes) {
   if (test::run_tool("king-probe", "-version 2>/dev/null").status != 0) GTEST_SKIP() << "king-probe is not installed";
-  if (!std::filesystem::exists(test::shared_molecules() / GetParam())) GTEST_SKIP() << "shared data not found";
-  Comparison comparison(GetParam());
+  const auto expect = [](const std::string& text, bool clash) {
+    const test::TemporaryFile file(text);
+    const auto molecule = std::make_shared<const Molecule>(read_structure(file.path()));
+    CheckOptions rules;
+    rules.thresholds.rules = "molprobity";
+    Checker checker(molecule, molecule->select({}), rules);
+    const Verdict verdict = checker.check_coordinates(molecule->structure().models.front(), Mode::parse("all"));
+    const bool ours = std::any_of(verdict.pairs.begin(), verdict.pairs.end(), [&](const Contact& pair) {
+      return index(pair.hit.first) == 0 && index(pair.hit.second) == 3;
+    });
+    const auto said = test::run_tool(
+        "king-probe", "-quiet -4H -mc -unformated -density256 -self all " + file.path().string() + " 2>/dev/null");
+    bool probes = false;
+    std::istringstream lines(said.out);
+    for (std::string line; std::getline(lines, line);)
+      probes = probes || (line.find(":bo:") != std::string::npos && line.find(" H") != std::string::npos &&
+                          line.find(": B ") != std::string::npos && line.find(" C") == std::string::npos);
+    EXPECT_EQ(ours, clash) << text;
+    EXPECT_EQ(probes, clash) << text << said.out;
+  };
+  // 1.05 + 1.40 - 0.6 - 0.4 = 1.45; opposite charges: 1.25.
+  expect(polar_pair("SER", " HG", " OG", "ALA", " O", 1.46), false);
+  expect(polar_pair("SER", " HG", " OG", "ALA", " O", 1.44), true);
+  expect(polar_pair("LYS", " HZ1", " NZ", "ASP", " OD1", 1.46), false);
+  expect(polar_pair("LYS", " HZ1", " NZ", "ASP", " OD1", 1.24), true);
+}
+
+/// A file and its clashes by version 2.21.
+struct Case {
+  const char* file;
+  Comparison::Clashes clashes;
+
+  friend std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.file; }
+};
+
+class ProteinBesideKingProbe : public testing::TestWithParam<Case> {};
+
+TEST_P(ProteinBesideKingProbe, RadiiOverlapsHydrogenBondsAndClashesAreTheSame) {
+  if (test::run_tool("king-probe", "-version 2>/dev/null").status != 0) GTEST_SKIP() << "king-probe is not installed";
+  if (!std::filesystem::exists(test::shared_molecules() / GetParam().file)) GTEST_SKIP() << "shared data not found";
+  Comparison comparison(GetParam().file);
   if (HasFatalFailure()) return;
   comparison.radii();
   comparison.overlaps();
   comparison.hydrogen_bonds();
+  EXPECT_EQ(comparison.clashes(), GetParam().clashes);
 }
 
-std::vector<const char*> proteins() {
-  std::vector<const char*> files{"1l2y.pdb", "1ejg.pdb", "paper/nmr_neopetrosiamide.pdb"};
-  if (std::getenv("HINGE_TEST_ALL") != nullptr)
-    files.insert(files.end(), {"5pti.pdb", "paper/1vii_3frames.pdb", "paper/2axd.pdb.gz"});
-  return files;
-}
+constexpr std::array<Case, 6> proteins{{{"1l2y.pdb", {0, 0, 0, 0, 0}},
+                                        {"1ejg.pdb", {5, 1, 1, 0, 0}},
+                                        {"paper/nmr_neopetrosiamide.pdb", {14, 0, 2, 0, 0}},
+                                        {"5pti.pdb", {8, 1, 0, 0, 0}},
+                                        {"paper/1vii_3frames.pdb", {90, 5, 3, 0, 0}},
+                                        {"paper/2axd.pdb.gz", {8, 3, 1, 0, 0}}}};
 
-INSTANTIATE_TEST_SUITE_P(Proteins, BesideKingProbe, testing::ValuesIn(proteins()),
+INSTANTIATE_TEST_SUITE_P(Proteins, ProteinBesideKingProbe, testing::ValuesIn(proteins),
                          [](const auto& parameter) { return "n" + std::to_string(parameter.index); });
 
 }  // namespace
