@@ -15,8 +15,8 @@
 
 namespace hinge::molecular {
 
-/// The file's bytes, gunzipped where needed. first_model: not those behind the first ENDMDL when a model follows, which
-/// cut_short then says. LoadError: cannot be opened, damaged, empty.
+/// The file's bytes, gunzipped where needed. first_model: of those behind the first ENDMDL when a model follows, which
+/// cut_short then says, CONECT records alone. LoadError: cannot be opened, damaged, empty.
 std::string read_bytes(const std::filesystem::path& path, bool first_model = false, bool* cut_short = nullptr);
 
 /// mmCIF by content.

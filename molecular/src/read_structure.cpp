@@ -67,6 +67,14 @@ class FirstModel {
   std::size_t next_ = 0;  // the line to look at next
 };
 
+/// Takes whole lines off the start of `text`; CONECT records, which stand behind all models, go to the end of `bytes`.
+void move_conect(std::string& text, std::string& bytes) {
+  std::size_t line = 0;
+  for (std::size_t end = 0; (end = text.find('\n', line)) != std::string::npos; line = end + 1)
+    if (text.compare(line, 6, "CONECT") == 0) bytes.append(text, line, end + 1 - line);
+  text.erase(0, line);
+}
+
 }  // namespace
 
 std::string read_bytes(const std::filesystem::path& path, bool first_model, bool* cut_short) {
@@ -75,28 +83,35 @@ std::string read_bytes(const std::filesystem::path& path, bool first_model, bool
   errno = 0;
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), gzclose);
   if (!file) throw LoadError(path.string() + ": cannot be opened: " + std::strerror(errno != 0 ? errno : ENOMEM));
-  std::string bytes;
+  std::string bytes, rest;  // rest: what was read behind the first model and not looked at yet
   FirstModel first;
+  bool behind = false;
+  std::size_t total = 0;
   std::array<char, 1U << 16> chunk{};
   int got = 0;
   while ((got = gzread(file.get(), chunk.data(), static_cast<unsigned>(chunk.size()))) > 0) {
-    bytes.append(chunk.data(), static_cast<std::size_t>(got));
+    (behind ? rest : bytes).append(chunk.data(), static_cast<std::size_t>(got));
+    total += static_cast<std::size_t>(got);
     // Plain files never get there: they are as long as what was read of them.
     if (const auto read = gzoffset(file.get());
-        read >= 0 && bytes.size() > harmless + most_times * static_cast<std::size_t>(read))
+        read >= 0 && total > harmless + most_times * static_cast<std::size_t>(read))
       throw LoadError(path.string() + ": " + std::to_string(read) + " bytes unpack to more than " +
-                      std::to_string(bytes.size()) + ", expected at most 64 MiB + " + std::to_string(most_times) +
+                      std::to_string(total) + ", expected at most 64 MiB + " + std::to_string(most_times) +
                       " times as many; unpack it first if it is a structure");
-    if (const std::size_t end = first_model ? first.end(bytes) : std::string::npos; end != std::string::npos) {
+    if (const std::size_t end = first_model && !behind ? first.end(bytes) : std::string::npos;
+        end != std::string::npos) {
+      rest = bytes.substr(end);
       bytes.resize(end);
+      behind = true;
       if (cut_short != nullptr) *cut_short = true;
-      return bytes;
     }
+    if (behind) move_conect(rest, bytes);
   }
   int status = Z_OK;
   const char* message = gzerror(file.get(), &status);
   if (got < 0 || (status != Z_OK && status != Z_STREAM_END))
     throw LoadError(path.string() + ": cannot be read to its end: " + message);
+  if (behind) move_conect(rest += '\n', bytes);
   if (bytes.find_first_not_of(" \t\r\n") == std::string::npos)
     throw LoadError(path.string() + ": is empty, expected a PDB or mmCIF file");
   return bytes;

@@ -344,6 +344,34 @@ TEST(PdbModels, RefusesAnotherMoleculeAndBlankCoordinates) {
   const std::vector<Frame> frames(3, s.models[0]);
   const auto said = [&](const auto& change) -> std::string {
     const TemporaryFile file(pdb_of(s, frames, change));
+TEST(PdbModels, KnowsTheBondsThatAreListedBehindThem) {
+  const std::string atoms =
+      "HETATM    1  C1  LIG A   1       0.000   0.000   0.000  1.00  0.00           C\n"
+      "HETATM    2  C2  LIG A   1       1.340   0.000   0.000  1.00  0.00           C\n";
+  std::string models;
+  // Enough of them that bonds stand in another piece of the file than the first model does.
+  for (int k = 1; k <= 900; ++k) models += "MODEL     " + std::to_string(1000 + k) + "\n" + atoms + "ENDMDL\n";
+  const auto read = [&](const std::string& text, bool first_model) {
+    ReadOptions options;
+    options.hetero = true;
+    options.first_model = first_model;
+    const TemporaryFile file(text);
+    Structure s = read_structure(file.path(), options);
+    EXPECT_EQ(s.more_models, first_model);
+    return s;
+  };
+  for (const std::string end :
+       {"CONECT    1    2\nCONECT    1    2", "CONECT    1    2\nCONECT    1    2\nEND\n", "END\n"}) {
+    const Structure all = read(models + end, false), first = read(models + end, true);
+    ASSERT_EQ(first.bonds.size(), 1U);
+    EXPECT_EQ(first.bonds[0].origin, all.bonds[0].origin);
+    EXPECT_EQ(first.bonds[0].order, all.bonds[0].order);
+    EXPECT_EQ(first.bonds[0].origin == BondOrigin::record, end != "END\n");
+    EXPECT_EQ(first.links.size(), all.links.size());
+    EXPECT_EQ(first.atom_records, 2U);
+  }
+}
+
     try {
       const Trajectory trajectory(file.path(), s);
       EXPECT_NO_THROW(trajectory.frame(0));
