@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -81,8 +82,8 @@ NpyFile::NpyFile(BinaryFile file) : file_(std::move(file)) {
   width_ = type[3] == '4' ? 4 : 8;
   reversed_ = type[1] != '=' && (type[1] == '>') != is_big;
   const std::string_view order = behind(header, "fortran_order");
-  if (order.starts_with("True")) refuse("Fortran order, expected C order; save numpy.ascontiguousarray(x)");
-  if (!order.starts_with("False")) refuse("no fortran_order in its header");
+  fortran_ = order.starts_with("True");
+  if (!fortran_ && !order.starts_with("False")) refuse("no fortran_order in its header");
   std::vector<std::uint64_t> shape;
   const std::string_view tuple = behind(header, "shape");
   const bool is_tuple = read_tuple(tuple, shape);
@@ -95,7 +96,8 @@ NpyFile::NpyFile(BinaryFile file) : file_(std::move(file)) {
 
   const std::uint64_t frame_bytes = 3 * width_ * shape[1], rest = file_.size() - data_at_;
   const std::uint64_t begun = (rest + frame_bytes - 1) / frame_bytes;
-  if (begun > shape[0] || (begun == shape[0] && rest > shape[0] * frame_bytes))
+  if (begun > shape[0] || (begun == shape[0] && rest > shape[0] * frame_bytes) ||
+      (fortran_ && rest < shape[0] * frame_bytes))  // every frame would lack some
     refuse(std::to_string(rest) + " bytes of data, expected " + std::to_string(shape[0]) + " frames of " +
            std::to_string(frame_bytes));
   // One frame more than there are whole ones, if any is missing: whoever asks for it is told.
@@ -103,9 +105,19 @@ NpyFile::NpyFile(BinaryFile file) : file_(std::move(file)) {
 }
 
 std::vector<Vec3> NpyFile::frame(std::size_t k) const {
+  const std::string what = "frame " + std::to_string(k);
   const std::size_t size = 3 * width_ * atoms_;
-  const std::vector<char> bytes =
-      file_.read_all(data_at_ + k * std::uint64_t{size}, size, "frame " + std::to_string(k));
+  std::vector<char> bytes(size);
+  if (!fortran_) {
+    file_.read_all(data_at_ + k * std::uint64_t{size}, bytes, what);
+  } else {
+    // Frames change fastest, then atoms: each number of a frame stands alone, far from the next.
+    for (std::uint64_t n = 0; n < 3 * atoms_; ++n) {
+      const std::uint64_t atom = n / 3, axis = n % 3;
+      file_.read_all(data_at_ + width_ * (k + frames_ * (atom + atoms_ * axis)),
+                     std::span(bytes).subspan(n * width_, width_), what);
+    }
+  }
   std::vector<Vec3> positions(atoms_);
   const char* at = bytes.data();
   for (Vec3& x : positions)

@@ -11,10 +11,11 @@
 
 namespace hinge::molecular {
 
-/// float32 or float64 of either byte order, C order, angstrom; atoms x 3 is one frame. (NEP 1, numpy.lib.format.)
+/// float32 or float64 of either byte order, angstrom; atoms x 3 is one frame. (NEP 1, numpy.lib.format.) In Fortran
+/// order a frame lies scattered over the file and takes a read for each of its numbers.
 class NpyFile {
  public:
-  /// LoadError: another type, order or shape; no frame; bytes behind the last one.
+  /// LoadError: another type or shape; no frame; bytes behind the last one.
   explicit NpyFile(BinaryFile file);
 
   static bool is_one(const BinaryFile& file);
@@ -30,6 +31,7 @@ class NpyFile {
  private:
   BinaryFile file_;
   bool reversed_ = false;
+  bool fortran_ = false;
   std::size_t width_ = 8;
   std::size_t frames_ = 0;
   std::size_t atoms_ = 0;

@@ -113,9 +113,15 @@ inline std::string npy_file(const std::vector<Frame>& frames, const std::string&
   bytes += '\0';
   ByteWriter length(false), out(type[0] == '>');
   length.number(head.size(), version == 1 ? 2 : 4);
-  for (const Frame& frame : frames)
-    for (const Vec3& x : frame)
-      for (const double c : {x[0], x[1], x[2]}) type[2] == '4' ? out.f4(c) : out.f8(c);
+  const auto put = [&](double c) { type[2] == '4' ? out.f4(c) : out.f8(c); };
+  if (order == "True")
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+      for (std::size_t atom = 0; atom < atoms; ++atom)
+        for (const Frame& frame : frames) put(frame[atom][axis]);
+  else
+    for (const Frame& frame : frames)
+      for (const Vec3& x : frame)
+        for (const double c : {x[0], x[1], x[2]}) put(c);
   return bytes + length.bytes + head + out.bytes;
 }
 

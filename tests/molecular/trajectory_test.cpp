@@ -156,11 +156,14 @@ TEST(Npy, ReadsEveryType) {
     expect_frames(npy_file(floats, ">f4", version), floats);
   }
   expect_frames(npy_file({doubles[0]}, "<f8", 1, "False", "(7, 3)"), {doubles[0]});
+  expect_frames(npy_file(doubles, "<f8", 1, "True"), doubles);
+  expect_frames(npy_file(floats, ">f4", 1, "True"), floats);
+  expect_frames(npy_file({doubles[0]}, "<f8", 1, "True", "(7, 3)"), {doubles[0]});
 }
 
 TEST(Npy, RefusesWhatItCannotRead) {
   const auto frames = chains(2, 5, true);
-  EXPECT_NE(refusal(npy_file(frames, "<f4", 1, "True"), 5).find("Fortran order"), std::string::npos);
+  EXPECT_NE(refusal(npy_file(frames, "<f4", 1, "maybe"), 5).find("fortran_order"), std::string::npos);
   EXPECT_NE(refusal(npy_file(frames, "<i4"), 5).find("type '<i4'"), std::string::npos);
   EXPECT_NE(refusal(npy_file(frames, "<f4", 1, "False", "(2, 3, 5)"), 5).find("shape (2, 3, 5)"), std::string::npos);
   EXPECT_NE(refusal(npy_file(frames, "<f4", 1, "False", "(30,)"), 5).find("shape (30,)"), std::string::npos);
@@ -170,6 +173,8 @@ TEST(Npy, RefusesWhatItCannotRead) {
   EXPECT_NE(refusal(npy_file(frames, "<f4", 1, "False", "(1, 5, 3)"), 5).find("120 bytes of data"), std::string::npos);
   const std::string whole = npy_file(frames);
   EXPECT_NE(refusal(whole.substr(0, whole.size() - 1), 5).find("in frame 1"), std::string::npos);
+  const std::string scattered = npy_file(frames, "<f4", 1, "True");
+  EXPECT_NE(refusal(scattered.substr(0, scattered.size() - 1), 5).find("119 bytes of data"), std::string::npos);
   for (std::size_t size = 1; size < 128; ++size) EXPECT_NE(refusal(whole.substr(0, size), 5), "") << size;
 }
 
@@ -339,11 +344,6 @@ TEST(PdbModels, AreThoseOfTheWholeFile) {
   }
 }
 
-TEST(PdbModels, RefusesAnotherMoleculeAndBlankCoordinates) {
-  const Structure s = read_structure(test::ubiquitin());
-  const std::vector<Frame> frames(3, s.models[0]);
-  const auto said = [&](const auto& change) -> std::string {
-    const TemporaryFile file(pdb_of(s, frames, change));
 TEST(PdbModels, KnowsTheBondsThatAreListedBehindThem) {
   const std::string atoms =
       "HETATM    1  C1  LIG A   1       0.000   0.000   0.000  1.00  0.00           C\n"
@@ -372,6 +372,11 @@ TEST(PdbModels, KnowsTheBondsThatAreListedBehindThem) {
   }
 }
 
+TEST(PdbModels, RefusesAnotherMoleculeAndBlankCoordinates) {
+  const Structure s = read_structure(test::ubiquitin());
+  const std::vector<Frame> frames(3, s.models[0]);
+  const auto said = [&](const auto& change) -> std::string {
+    const TemporaryFile file(pdb_of(s, frames, change));
     try {
       const Trajectory trajectory(file.path(), s);
       EXPECT_NO_THROW(trajectory.frame(0));
