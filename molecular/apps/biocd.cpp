@@ -96,8 +96,11 @@ void add_model_options(CLI::App& command, Options& o) {
           "folder of a monomer dictionary, or none (default: $CLIBD_MON, else Debian's refmac-dictionary)")
       ->default_str(o.read.dictionary.string());
   for (const char* fixed : {"--radii", "--rho", "--min-bonds", "--hbond", "--hbond-allowance"}) rules->excludes(fixed);
-  command.add_flag("--exempt-reference", o.check.exempt_reference,
-                   "pairs that collide in the file's (first) model do not count");
+  CLI::Option* exempt =
+      command.add_flag("--exempt-reference", o.check.exempt_reference,
+                       "pairs that collide in the file's (first) model do not count, but for those of "
+                       "two files, or of a placed part and the rest");
+  command.add_flag("--exempt-interfaces", o.check.exempt_interfaces, "nor do these")->needs(exempt);
   command.add_option("--engine", o.check.engine, "wide, lazy (the paper's) or brute")->capture_default_str();
   command.add_option("--explain", o.explain, "say which rule keeps or drops the pair of atoms i,j (numbers from 0)");
 }

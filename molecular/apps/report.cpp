@@ -48,6 +48,13 @@ std::string rule_line(const Checker& checker) {
   return text + fmt::format(", hydrogen-bond rule {}", t.hydrogen_bonds ? "on" : "off");
 }
 
+/// Of the reference collisions; every one is asked about, so that what is left out is exempt.
+std::size_t exempted_pairs(const Job& job) {
+  return static_cast<std::size_t>(std::ranges::count_if(job.checker.reference_collisions(), [&](const hinge::Hit& hit) {
+    return !job.checker.exclusions().admits(hit.first, hit.second);
+  }));
+}
+
 }  // namespace
 
 Json model_json(const Options& options, const Job& job) {
@@ -70,6 +77,8 @@ Json model_json(const Options& options, const Job& job) {
               {"held_torsions", job.held.size()},
               {"excluded_pairs", checker.exclusions().excluded_pairs()},
               {"exempt_reference", options.check.exempt_reference},
+              {"exempt_interfaces", options.check.exempt_interfaces},
+              {"exempted_pairs", exempted_pairs(job)},
               {"rules", std::string(thresholds.rules->name)},
               {"rules_version", std::string(thresholds.rules->version)},
               {"radii", std::string(thresholds.radii)},
@@ -173,13 +182,18 @@ std::string pair_line(const Job& job, const Contact& pair) {
 std::string heading(const Options& options, const Job& job) {
   const Structure& s = job.molecule->structure();
   const Checker& checker = job.checker;
+  std::string exempt;
+  if (options.check.exempt_reference) {
+    exempt = ", reference collisions exempt";
+    if (const std::size_t rest = checker.reference_collisions().size() - exempted_pairs(job); rest > 0)
+      exempt += fmt::format(" but for {} between molecules (--exempt-interfaces)", rest);
+  }
   std::string text = fmt::format(
       "{}: {} atoms, {} residues, {} chains, {} bonds\nselection {}{}{}: {} DOF, {} rigid groups, {} closures\n"
       "rule: {}{}\n",
       options.file, s.atoms.size(), s.residues.size(), s.chains.size(), s.bonds.size(), options.free,
       options.omega ? " with omega" : "", options.loop.empty() ? "" : " and loop " + options.loop, checker.dof_count(),
-      checker.rigid_group_count(), job.molecule->model().tree().closures().size(), rule_line(checker),
-      options.check.exempt_reference ? ", reference collisions exempt" : "");
+      checker.rigid_group_count(), job.molecule->model().tree().closures().size(), rule_line(checker), exempt);
   text += scene_lines(options, job);
   text += fmt::format("reference: {} colliding pairs; constant contacts under this selection: {}\n",
                       checker.reference_collisions().size(), checker.constant_contacts().size());

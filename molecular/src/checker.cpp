@@ -30,6 +30,24 @@ std::vector<std::pair<PrimitiveId, PrimitiveId>> never_counted(const Structure& 
   return pairs;
 }
 
+/// Those of the hits that are exempt: what files put beside each other, or a placement does, is no part of a molecule.
+std::vector<std::pair<PrimitiveId, PrimitiveId>> exempt_pairs(const Molecule& molecule, const std::vector<Hit>& hits,
+                                                              bool interfaces) {
+  const Structure& s = molecule.structure();
+  // By atom: its file, and the placed part it is in.
+  std::vector<std::pair<std::uint32_t, std::size_t>> body(s.atoms.size());
+  for (std::size_t i = 0; i < body.size(); ++i) body[i].first = s.chains[s.residues[s.atoms[i].residue].chain].file;
+  for (std::size_t k = 0; k < molecule.placed_parts().size(); ++k) {
+    const std::vector<bool> in = atoms_in(s, molecule.placed_parts()[k].part);
+    for (std::size_t i = 0; i < body.size(); ++i)
+      if (in[i]) body[i].second = k + 1;
+  }
+  std::vector<std::pair<PrimitiveId, PrimitiveId>> pairs;
+  for (const Hit& hit : hits)
+    if (interfaces || body[index(hit.first)] == body[index(hit.second)]) pairs.emplace_back(hit.first, hit.second);
+  return pairs;
+}
+
 /// The rule of a check: what coordinates and thresholds, as doubles, stand for.
 struct Rule {
   bool as_written = false;  ///< decimals, where they are (closer_as_written); else the doubles themselves
@@ -144,7 +162,8 @@ Checker::Checker(std::shared_ptr<const Molecule> molecule, DofSelection selectio
   for (const Contact& contact : contacts(rigid, as_written(*thresholds_), 0.0)) reference.push_back(contact.hit);
   reference_ = std::make_shared<const std::vector<Hit>>(std::move(reference));
   if (options.exempt_reference) {
-    for (const Hit& hit : *reference_) exempt.emplace_back(hit.first, hit.second);
+    const auto collisions = exempt_pairs(*molecule_, *reference_, options.exempt_interfaces);
+    exempt.insert(exempt.end(), collisions.begin(), collisions.end());
     exclusions_ = std::make_shared<const BondExclusions>(molecule_->structure(), min_bonds_, exempt, options.scope);
   }
 

@@ -127,6 +127,27 @@ TEST(BiocdScene, SaysWhatItIsAbout) {
   EXPECT_NE(run_biocd("check " + file() + " --with " + file()).out.find("placed: nothing\n"), std::string::npos);
 }
 
+TEST(BiocdScene, ExemptsInterfacesOnlyWhenAsked) {
+  // A copy on top of the first: nearly every atom of it collides with the other.
+  const auto model = [&](const std::string& options) {
+    return Json::parse(
+        run_biocd("info " + file() + " --with " + file() + options + " --json 2>/dev/null").out)["model"];
+  };
+  const Json none = model(""), inside = model(" --exempt-reference"),
+             all = model(" --exempt-reference --exempt-interfaces");
+  EXPECT_EQ(none["exempted_pairs"], 0);
+  EXPECT_EQ(inside["exempted_pairs"], 2);  // one in each copy
+  EXPECT_GT(all["exempted_pairs"].get<int>(), 600);
+  EXPECT_EQ(all["exempted_pairs"], all["reference_collisions"]);
+  // Of one file, what is placed counts too; what is not is exempt.
+  const std::string pair = "info " + file() + " --with " + file() + " --exempt-reference --json 2>/dev/null --place ";
+  EXPECT_EQ(Json::parse(run_biocd(pair + "file:2").out)["model"]["exempted_pairs"], 2);
+  EXPECT_EQ(Json::parse(run_biocd(pair + "file:1+file:2").out)["model"]["exempted_pairs"], 2);
+  EXPECT_EQ(run_biocd("info " + file() + " --exempt-interfaces 2>/dev/null").status, 2);
+  const std::string table = run_biocd("check " + file() + " --with " + file() + " --exempt-reference --mode any").out;
+  EXPECT_NE(table.find(" between molecules (--exempt-interfaces)"), std::string::npos) << table;
+}
+
 TEST(BiocdScene, RefusesWhatDoesNotFit) {
   const auto said = [&](const std::string& options) { return run_biocd("info " + file() + " " + options + " 2>&1"); };
   const auto expect = [&](const std::string& options, const std::string& message) {

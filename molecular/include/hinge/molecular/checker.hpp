@@ -32,8 +32,9 @@ using hinge::Mode;
 
 struct CheckOptions {
   ThresholdOptions thresholds;
-  std::optional<int> min_bonds;   ///< pairs count from this bond distance on; none: the rules' or the radii set's
-  bool exempt_reference = false;  ///< pairs that collide in the reference never count
+  std::optional<int> min_bonds;    ///< pairs count from this bond distance on; none: the rules' or the radii set's
+  bool exempt_reference = false;   ///< pairs that collide in the reference never count, but for those of interfaces:
+  bool exempt_interfaces = false;  ///< of two files, or of a placed part and what is none of it; these neither, if set
   PairScope scope{};            ///< which pairs are asked about, made for the molecule's structure; none else is named
   std::string engine = "wide";  ///< "wide", "lazy" (the paper's) or "brute"
 };
