@@ -14,6 +14,7 @@
 #include "frames.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/ensemble/ensemble.hpp"
+#include "hinge/molecular/bond_gauge.hpp"
 #include "hinge/molecular/severity.hpp"
 #include "hinge/tool/progress_bar.hpp"
 #include "options.hpp"
@@ -29,6 +30,7 @@ using namespace hinge::molecular;
 
 struct Checked {
   Verdict verdict;
+  BondDeparture bond;
   std::vector<hinge::Vec3> positions;  // only when they are to be written
   std::string error;                   // why there is no verdict
 };
@@ -44,14 +46,37 @@ std::optional<double> clashscore_of(const Options& options, const Job& job, cons
   return clashscore(static_cast<std::size_t>(clashes), job.molecule->structure().atoms.size());
 }
 
-void print_table_row(const Job& job, const std::string& name, const Verdict& verdict, const Mode& mode,
+Json bond_json(const Structure& s, const BondDeparture& bond) {
+  if (bond.first == bond.second) return {};
+  return {{"i", bond.first},
+          {"j", bond.second},
+          {"label_i", label(s, bond.first)},
+          {"label_j", label(s, bond.second)},
+          {"length", bond.length},
+          {"reference", bond.reference},
+          {"residual", bond.residual}};
+}
+
+/// ", bonds within 0.012 angstrom, closures within 0.34"; what is the reference's to three decimals is left out.
+std::string departures_text(const Checked& checked) {
+  std::string text;
+  const auto add = [&](const char* what, double residual) {
+    if (residual >= 0.0005) text += fmt::format(", {} within {:.3f} angstrom", what, residual);
+  };
+  add("bonds", checked.bond.residual);
+  add("closures", checked.verdict.closure_residual);
+  return text;
+}
+
+void print_table_row(const Job& job, const std::string& name, const Checked& checked, const Mode& mode,
                      const std::optional<double>& clashscore) {
+  const Verdict& verdict = checked.verdict;
   fmt::print("{}: {}", name, verdict.collides ? "collides" : "free");
   if (mode.kind == Mode::Kind::all) fmt::print(", {} pairs", verdict.pairs.size());
   if (mode.kind == Mode::Kind::within)
     fmt::print(", {} pairs closer than their threshold + {}", verdict.pairs.size(), mode.margin);
   if (clashscore) fmt::print(", clashscore {:.2f}", *clashscore);
-  fmt::print("\n");
+  fmt::print("{}\n", departures_text(checked));
   for (const Contact& pair : verdict.pairs) fmt::print("{}\n", pair_line(job, pair));
   if (verdict.closest) fmt::print("{}  (closest)\n", pair_line(job, *verdict.closest));
 }
@@ -77,11 +102,15 @@ Exit run_check(const Options& options) {
   Json head{{"tool", "biocd"}, {"command", "check"}, {"model", model_json(options, job)}, {"mode", mode.text()}};
   frames.describe(head);
   head["constant_contacts"] = constant_contacts_json(job);
-  Results results(options, std::move(head), frames.size());
+  Results results(options, std::move(head), frames.size(), ",bond_residual,closure_residual");
   if (options.output == Output::csv) print_constant_contacts(job);
   if (options.output == Output::table) fmt::print("{}", heading(options, job));
 
-  Summary summary;
+  const BondGauge gauge(*job.molecule);
+  const bool has_closures = !job.molecule->closure_atoms().empty();
+  Summary summary(closure_names(job), false);
+  BondDeparture worst;  // of all bonds and conformations
+  std::string worst_name;
   hinge::tool::ProgressBar bar(end - begin);
   const auto judge = [&, begin = begin](Checker& checker, std::size_t n) {
     Checked checked;
@@ -92,6 +121,10 @@ Exit run_check(const Options& options) {
       if (file.wants_whole_frames()) checked.positions = whole;
       std::vector<hinge::Vec3> own = source.kept(std::move(whole));
       checked.verdict = checker.check_coordinates(own, mode);
+      checked.bond = gauge.worst_bond(own);
+      checked.verdict.closure_residuals = gauge.closure_residuals(own);
+      for (const double residual : checked.verdict.closure_residuals)
+        checked.verdict.closure_residual = std::max(checked.verdict.closure_residual, residual);
       if (!file.takes(checked.verdict.collides))
         checked.positions = {};
       else if (!file.wants_whole_frames())
@@ -111,18 +144,32 @@ Exit run_check(const Options& options) {
       Json row = verdict_json(job, k, checked.verdict, mode);
       frames.name(row, k);
       if (clashscore) row["clashscore"] = *clashscore;
+      row["worst_bond"] = bond_json(s, checked.bond);
+      if (has_closures) row["closures"] = closures_json(job, checked.verdict.closure_residuals);
       results.add(row);
     }
-    if (options.output == Output::csv) results.add(csv_rows(job, k, checked.verdict));
-    if (options.output == Output::table) print_table_row(job, frames.name(k), checked.verdict, mode, clashscore);
+    if (options.output == Output::csv)
+      results.add(with_columns(csv_rows(job, k, checked.verdict),
+                               fmt::format(",{},{}", checked.bond.residual, checked.verdict.closure_residual)));
+    if (options.output == Output::table) print_table_row(job, frames.name(k), checked, mode, clashscore);
+    if (checked.bond.residual > worst.residual) {
+      worst = checked.bond;
+      worst_name = frames.name(k);
+    }
     file.add(checked.positions, static_cast<int>(k) + 1, checked.verdict.collides);
     bar.show(n + 1);
   };
   const auto finish = [&](const std::string& error) {
-    results.finish(summary.json(false), error);
-    if (options.output == Output::table)
-      fmt::print("{} of {} {} collide\n", summary.colliding(), summary.checked(),
-                 frames.are_models() ? "models" : "frames");
+    results.finish(summary.json(has_closures), error);
+    if (options.output != Output::table) return;
+    if (worst.residual >= 0.0005)
+      fmt::print("bond farthest from its length in the reference: {} - {}, {:.3f} angstrom against {:.3f} ({})\n",
+                 label(s, worst.first), label(s, worst.second), worst.length, worst.reference, worst_name);
+    for (std::size_t k = 0; k < summary.worst_residuals().size(); ++k)
+      fmt::print("  closure {:<34} worst residual {:.3g} angstrom\n", closure_names(job)[k],
+                 summary.worst_residuals()[k]);
+    fmt::print("{} of {} {} collide\n", summary.colliding(), summary.checked(),
+               frames.are_models() ? "models" : "frames");
   };
   try {
     hinge::Ensemble(job.checker, options.threads)

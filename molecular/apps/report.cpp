@@ -127,6 +127,12 @@ Json closures_json(const Job& job, const std::vector<double>& residuals) {
   return list;
 }
 
+std::vector<std::string> closure_names(const Job& job) {
+  std::vector<std::string> names;
+  for (const hinge::Closure& closure : job.molecule->model().tree().closures()) names.push_back(closure.name);
+  return names;
+}
+
 Json verdict_json(const Job& job, std::uint64_t index, const Verdict& verdict, const Mode& mode) {
   Json json{{"index", index}, {"collides", verdict.collides}};
   if (mode.kind == Mode::Kind::all || mode.kind == Mode::Kind::within) {
@@ -165,6 +171,15 @@ std::string csv_rows(const Job& job, std::uint64_t index, const Verdict& verdict
     rows = fmt::format("{},{:d},,,,,,,,{}{}\n", index, verdict.collides, has_classes(rules) ? "," : "",
                        has_relative_distance(rules) ? "," : "");
   return rows;
+}
+
+std::string with_columns(const std::string& rows, const std::string& columns) {
+  std::string text;
+  for (const char c : rows) {
+    if (c == '\n') text += columns;
+    text += c;
+  }
+  return text;
 }
 
 std::string pair_line(const Job& job, const Contact& pair) {

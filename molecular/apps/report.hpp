@@ -22,6 +22,8 @@ Json pair_json(const Job& job, const hinge::molecular::Contact& pair);
 Json constant_contacts_json(const Job& job);
 /// Each closure of the molecule by name, with its residual (angstrom); empty without residuals.
 Json closures_json(const Job& job, const std::vector<double>& residuals);
+/// Their names, in the tree's order.
+std::vector<std::string> closure_names(const Job& job);
 Json verdict_json(const Job& job, std::uint64_t index, const hinge::molecular::Verdict& verdict,
                   const hinge::molecular::Mode& mode);
 
@@ -31,6 +33,9 @@ inline constexpr const char* csv_columns =
 /// And what else the rules have to say; more: further columns, each after a comma.
 std::string csv_header(const Options& options, const std::string& more);
 std::string csv_rows(const Job& job, std::uint64_t index, const hinge::molecular::Verdict& verdict);
+
+/// The rows with further columns, each after a comma.
+std::string with_columns(const std::string& rows, const std::string& columns);
 
 /// "A:LYS77:NZ  A:GLU18:OE1  2.310 < 2.456, overlap 0.760"; ">=" when the pair does not collide, whatever rounding made
 /// of its numbers.

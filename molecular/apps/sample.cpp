@@ -80,12 +80,6 @@ void print_table(const Job& job, const Summary& summary, double seconds) {
   for (const Offender& o : summary.top()) fmt::print("  {:<18} {:<18} {:8}\n", o.label_i, o.label_j, o.count);
 }
 
-std::vector<std::string> closure_names(const Job& job) {
-  std::vector<std::string> names;
-  for (const hinge::Closure& closure : job.molecule->model().tree().closures()) names.push_back(closure.name);
-  return names;
-}
-
 }  // namespace
 
 Exit run_sample(const Options& options) {

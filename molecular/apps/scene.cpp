@@ -136,14 +136,10 @@ std::string placements_header(const Job& job) {
 
 std::string with_placements(const std::string& rows, const Placements& placements) {
   if (placements.empty()) return rows;
-  std::string columns, text;
+  std::string columns;
   for (const auto& q : placements)
     columns += fmt::format(",{},{},{},{},{},{}", q[0], q[1], q[2], q[3] / degree, q[4] / degree, q[5] / degree);
-  for (const char c : rows) {
-    if (c == '\n') text += columns;
-    text += c;
-  }
-  return text;
+  return with_columns(rows, columns);
 }
 
 }  // namespace biocd

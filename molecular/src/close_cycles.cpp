@@ -51,7 +51,7 @@ class Closer {
     add(bond.first, bond.second, std::move(closure), "the bond");
   }
 
-  std::vector<Closure> take() { return std::move(closures_); }
+  std::vector<ClosedCycle> take() { return std::move(closures_); }
 
  private:
   const Vec3& at(std::uint32_t atom) const { return s_.models.front()[atom]; }
@@ -74,20 +74,20 @@ class Closer {
     text += what;
     text += ' ' + closure.name + " closes a cycle";
     notes_.push_back(std::move(text));
-    closures_.push_back(std::move(closure));
+    closures_.push_back({std::move(closure), {a, b}});
   }
 
   const Structure& s_;
   std::span<const std::uint32_t> link_;
   std::vector<std::string>& notes_;
-  std::vector<Closure> closures_;
+  std::vector<ClosedCycle> closures_;
 };
 
 }  // namespace
 
-std::vector<Closure> close_cycles(const Structure& structure, std::span<const Torsion> torsions,
-                                  const OpenCycles& cycles, std::span<const std::uint32_t> link_of_atom,
-                                  std::vector<std::string>& notes) {
+std::vector<ClosedCycle> close_cycles(const Structure& structure, std::span<const Torsion> torsions,
+                                      const OpenCycles& cycles, std::span<const std::uint32_t> link_of_atom,
+                                      std::vector<std::string>& notes) {
   Closer closer(structure, link_of_atom, notes);
   for (const std::uint32_t t : cycles.loop_ends)
     closer.close(torsions[t].atoms[1], torsions[t].atoms[2], "the end of a loop");

@@ -2,6 +2,7 @@
 // The closures of a molecule: what its spanning tree leaves out.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -20,10 +21,15 @@ struct OpenCycles {
   bool hydrogen_bonds = false;           ///< close those of the backbone too
 };
 
+struct ClosedCycle {
+  Closure closure;
+  std::array<std::uint32_t, 2> atoms{};  ///< that it joins
+};
+
 /// link_of_atom: the link each atom's rigid fragment is. Adds a note for each closure. What lies in one fragment is
 /// left out: nothing can open it.
-std::vector<Closure> close_cycles(const Structure& structure, std::span<const Torsion> torsions,
-                                  const OpenCycles& cycles, std::span<const std::uint32_t> link_of_atom,
-                                  std::vector<std::string>& notes);
+std::vector<ClosedCycle> close_cycles(const Structure& structure, std::span<const Torsion> torsions,
+                                      const OpenCycles& cycles, std::span<const std::uint32_t> link_of_atom,
+                                      std::vector<std::string>& notes);
 
 }  // namespace hinge::molecular

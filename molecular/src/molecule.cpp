@@ -238,8 +238,10 @@ class MoleculeBuilder {
     std::vector<std::uint32_t> link_of_atom;
     for (std::uint32_t atom = 0; atom < s_.atoms.size(); ++atom) link_of_atom.push_back(link_[rigid_.find(atom)]);
     const OpenCycles cycles{cuts_, closing_, cross_links_, options_.keep_hydrogen_bonds};
-    for (Closure& closure : close_cycles(s_, molecule_.torsions_, cycles, link_of_atom, molecule_.notes_))
+    for (auto& [closure, atoms] : close_cycles(s_, molecule_.torsions_, cycles, link_of_atom, molecule_.notes_)) {
       model_.add_closure(std::move(closure));
+      molecule_.closure_atoms_.push_back(atoms);
+    }
   }
 
   void note(std::uint32_t torsion, const char* what) {
@@ -287,13 +289,6 @@ Molecule::Molecule(Structure structure, const MoleculeOptions& options)
 DofSelection Molecule::select(std::span<const std::size_t> torsions) const {
   std::vector<DofId> free;
   for (const std::size_t k : torsions) free.push_back(dof_.at(k));
-  return {model_->tree(), std::move(free)};
-}
-
-DofSelection Molecule::select_placed(std::span<const std::size_t> torsions) const {
-  const DofSelection turning = select(torsions);
-  std::vector<DofId> free(turning.dofs().begin(), turning.dofs().end());
-  for (const PlacedPart& placed : placed_) free.insert(free.end(), placed.dofs.begin(), placed.dofs.end());
   return {model_->tree(), std::move(free)};
 }
 

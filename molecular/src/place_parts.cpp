@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "hinge/core/error.hpp"
 #include "hinge/kinematics/joint.hpp"
@@ -57,6 +58,13 @@ LinkId PartPlacer::base_of(std::uint32_t atom, ModelBuilder<Point>& model) {
       link = model.add_link(link, Revolute{axes[k - 3], one.centre, {}, name});
   }
   return link;
+}
+
+DofSelection Molecule::select_placed(std::span<const std::size_t> torsions) const {
+  const DofSelection turning = select(torsions);
+  std::vector<DofId> free(turning.dofs().begin(), turning.dofs().end());
+  for (const PlacedPart& placed : placed_) free.insert(free.end(), placed.dofs.begin(), placed.dofs.end());
+  return {model_->tree(), std::move(free)};
 }
 
 }  // namespace hinge::molecular

@@ -190,5 +190,49 @@ TEST(BiocdEnsemble, KeepsWhatWasCheckedBeforeAFileBreaksOff) {
   EXPECT_EQ(run_biocd("check " + file() + " --filter free 2>&1").status, 2);
 }
 
+TEST(BiocdEnsemble, SaysWhichBondsAndClosuresABrokenConformationHas) {
+  // Crambin's disulphides close cycles; its second half 3 angstrom away tears bonds, and some of them.
+  const auto crambin = test::shared_molecules() / "1crn.pdb";
+  if (!std::filesystem::exists(crambin)) GTEST_SKIP() << "shared data not found";
+  const Structure s = read_structure(crambin);
+  Frame torn = s.models[0];
+  for (std::size_t i = 0; i < torn.size(); ++i)
+    if (s.atoms[i].residue >= 23) torn[i][0] += 3.0;
+  const TemporaryFile frames(test::npy_file({s.models[0], torn}, "<f8"), ".npy");
+  const std::string question = "check " + crambin.string() + " " + frames.path().string() + " --mode any ";
+  const Json json = Json::parse(run_biocd(question + "--json 2>/dev/null").out);
+  const Json &whole = json["conformations"][0], &broken = json["conformations"][1];
+  EXPECT_EQ(whole["worst_bond"]["residual"], 0.0);
+  ASSERT_EQ(whole["closures"].size(), 3U);
+  for (const Json& closure : whole["closures"]) EXPECT_EQ(closure["residual"], 0.0);
+  // The distances that change are known from the coordinates alone.
+  const auto length = [&](const Frame& x, const Json& b) {
+    return (x[b["i"].get<std::size_t>()] - x[b["j"].get<std::size_t>()]).norm();
+  };
+  const Json& bond = broken["worst_bond"];
+  EXPECT_GT(bond["residual"].get<double>(), 1.0);
+  EXPECT_DOUBLE_EQ(bond["length"].get<double>(), length(torn, bond));
+  EXPECT_DOUBLE_EQ(bond["reference"].get<double>(), length(s.models[0], bond));
+  int open = 0;
+  for (const Json& closure : broken["closures"]) {
+    const double residual = closure["residual"].get<double>();
+    const std::string name = closure["bond"].get<std::string>();
+    EXPECT_LE(residual, 3.0) << name;
+    EXPECT_TRUE(residual < 1e-9 || residual > 0.2) << name << residual;
+    open += residual > 0.2 ? 1 : 0;
+  }
+  EXPECT_GE(open, 1);
+  EXPECT_EQ(json["summary"]["closures"].size(), 3U);
+  double most = 0.0;
+  for (const Json& closure : broken["closures"]) most = std::max(most, closure["residual"].get<double>());
+  EXPECT_EQ(json["summary"]["worst_closure_residual"], most);
+  const std::string table = run_biocd(question + "2>/dev/null").out;
+  EXPECT_NE(table.find("frame 1: collides, bonds within "), std::string::npos) << table;
+  EXPECT_NE(table.find("bond farthest from its length in the reference: A:"), std::string::npos) << table;
+  EXPECT_NE(table.find("frame 0: free\n"), std::string::npos) << table;
+  const std::string csv = run_biocd(question + "--csv 2>/dev/null").out;
+  EXPECT_NE(csv.find("pair_collides,bond_residual,closure_residual\n0,0,,,,,,,,0,0\n1,"), std::string::npos) << csv;
+}
+
 }  // namespace
 }  // namespace hinge::molecular

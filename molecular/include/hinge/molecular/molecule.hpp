@@ -69,6 +69,8 @@ class Molecule {
   std::span<const PlacedPart> placed_parts() const noexcept { return placed_; }
   /// What was decided while building: torsions inside cycles, closures.
   std::span<const std::string> notes() const noexcept { return notes_; }
+  /// The two atoms that each closure of the tree joins: of a bond, a hydrogen bond, or two whose parts are held.
+  std::span<const std::array<std::uint32_t, 2>> closure_atoms() const noexcept { return closure_atoms_; }
 
  private:
   friend class MoleculeBuilder;
@@ -81,6 +83,7 @@ class Molecule {
   std::vector<PlacedPart> placed_;
   std::optional<Model<Point>> model_;
 };
+  std::vector<std::array<std::uint32_t, 2>> closure_atoms_;
 
 /// BioCD's basic groups: pseudo-backbone (backbone and C-beta) and pseudo-side-chain of each residue, proline whole,
 /// the side chains a disulphide joins as one; for nucleotides backbone and base; any other residue whole. One label per
