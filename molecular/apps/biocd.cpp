@@ -42,6 +42,16 @@ void add_model_options(CLI::App& command, Options& o) {
   command.add_flag("--keep-hbonds", o.keep_hydrogen_bonds,
                    "hydrogen bonds of the backbone (Kabsch & Sander) are closures");
   command
+      .add_option(
+          "--rigid-from", o.rigid_from,
+          "conformations (DCD, XTC, .npy, PDB, mmCIF): torsions inside groups that these keep rigid stay at their "
+          "reference (repeatable)")
+      ->allow_extra_args(false);
+  command
+      .add_option("--rigid-tolerance", o.rigid_tolerance,
+                  "by how much distances inside a rigid group may vary: standard deviation, angstrom")
+      ->capture_default_str();
+  command
       .add_option("--place", o.place,
                   "PART[=DISTANCE[,DEGREES]]: a chain, ligand or file that moves and turns as one against the rest, in "
                   "samples by up to so many angstrom and degrees (default 10,180; repeatable)")

@@ -10,6 +10,7 @@
 #include "hinge/molecular/summary.hpp"
 #include "options.hpp"
 #include "report.hpp"
+#include "rigid_ensemble.hpp"
 
 namespace biocd {
 
@@ -104,6 +105,7 @@ void print_table(const Options& options, const Job& job) {
   for (const hinge::Hit& hit : job.checker.reference_collisions())
     fmt::print("{}  (reference)\n", pair_line(job, {hit, true}));
 }
+  if (job.ensemble) fmt::print("{}", rigid_groups_text(options, job));
 
 }  // namespace
 
@@ -127,6 +129,7 @@ Exit run_info(const Options& options) {
     json["constant_contacts"] = constant_contacts_json(job);
     if (options.atoms) {
       json["atoms"] = atoms_json(job);
+    if (job.ensemble) json["rigid_ensemble"] = rigid_groups_json(options, job);
       json["dofs"] = dofs_json(job);
       json["bonds"] = bonds_json(s);
       json["thresholds"] = thresholds_json(job.checker.thresholds());

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "hinge/primitive/grid_point.hpp"
 #include "hinge/primitive/point.hpp"
 #include "options.hpp"
+#include "rigid_ensemble.hpp"
 #include "scene.hpp"
 
 namespace biocd {
@@ -45,12 +47,20 @@ Job load(const Options& options) {
   auto molecule = std::make_shared<const Molecule>(std::move(structure), made);
   auto torsions = loops ? select_loop_torsions(*molecule, options.free, options.omega)
                         : select_torsions(*molecule, options.free, options.omega);
+  std::optional<EnsembleGroups> ensemble;
+  if (!options.rigid_from.empty()) {
+    if (loops) throw hinge::ModelError("--rigid-from with --loop: expected one of them, a loop stands still outside");
+    ensemble = find_rigid_groups(options, *molecule, torsions);
+    torsions = ensemble->torsions;
+    made.held = held_placements(*molecule, *ensemble);
+    if (!made.held.empty()) molecule = std::make_shared<const Molecule>(molecule->structure(), made);
+  }
   // A loop of six turns is held as well, but has other conformations to jump to.
   std::vector<std::size_t> held;
   if (options.keep_closures && !loops) held = find_held_torsions(*molecule, torsions);
   std::erase_if(torsions, [&](std::size_t k) { return std::binary_search(held.begin(), held.end(), k); });
   Checker checker(molecule, molecule->select_placed(torsions), rules);
-  return {std::move(molecule), std::move(checker), std::move(held), std::move(ranges)};
+  return {std::move(molecule), std::move(checker), std::move(held), std::move(ranges), std::move(ensemble)};
 }
 
 namespace {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "hinge/molecular/checker.hpp"
+#include "hinge/molecular/ensemble_groups.hpp"
 #include "hinge/molecular/molecule.hpp"
 #include "hinge/molecular/read_structure.hpp"
 #include "hinge/molecular/sampler.hpp"
@@ -44,9 +45,11 @@ struct Options {
   bool omega = false;
   std::string loop;  // residues of loops; empty: none
   bool keep_hydrogen_bonds = false;
-  bool keep_closures = false;      // sample: closed conformations only; loops are always closed
-  bool collision_free = false;     // sample: only those that do not collide
-  std::uint64_t most_tries = 100;  // sample: starts for each closed conformation
+  std::vector<std::string> rigid_from;  // conformations whose rigid groups stay rigid; empty: none
+  double rigid_tolerance = 0.5;         // angstrom
+  bool keep_closures = false;           // sample: closed conformations only; loops are always closed
+  bool collision_free = false;          // sample: only those that do not collide
+  std::uint64_t most_tries = 100;       // sample: starts for each closed conformation
   std::string mode = "all";
   Output output = Output::table;
   std::string explain;         // "i,j"; empty: nothing to explain
@@ -74,7 +77,8 @@ struct Job {
   std::shared_ptr<const hinge::molecular::Molecule> molecule;
   hinge::molecular::Checker checker;
   std::vector<std::size_t> held;  // torsions selected that closed cycles hold at the reference, and so not free
-  std::vector<hinge::molecular::PlacementRange> ranges;  // per placed part
+  std::vector<hinge::molecular::PlacementRange> ranges;        // per placed part
+  std::optional<hinge::molecular::EnsembleGroups> ensemble{};  // of --rigid-from
 };
 
 Job load(const Options& options);

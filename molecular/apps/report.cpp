@@ -74,6 +74,8 @@ Json model_json(const Options& options, const Job& job) {
               {"rigid_groups", checker.rigid_group_count()},
               {"closures", job.molecule->model().tree().closures().size()},
               {"loops", options.loop},
+              {"rigid_from", options.rigid_from},
+              {"rigid_tolerance", options.rigid_from.empty() ? Json() : Json(options.rigid_tolerance)},
               {"held_torsions", job.held.size()},
               {"excluded_pairs", checker.exclusions().excluded_pairs()},
               {"exempt_reference", options.check.exempt_reference},

@@ -51,6 +51,15 @@ class Closer {
     add(bond.first, bond.second, std::move(closure), "the bond");
   }
 
+  /// Four points that stay together.
+  void hold(const HeldPlacement& held) {
+    for (const std::size_t k : {0U, 2U}) {
+      Closure closure;
+      closure.in_first = closure.in_second = {at(held.points[k]), at(held.points[k + 1])};
+      add(held.atoms[0], held.atoms[1], std::move(closure), "the placement of");
+    }
+  }
+
   std::vector<ClosedCycle> take() { return std::move(closures_); }
 
  private:
@@ -101,6 +110,7 @@ std::vector<ClosedCycle> close_cycles(const Structure& structure, std::span<cons
   if (cycles.hydrogen_bonds)
     for (const HydrogenBond& bond : find_hydrogen_bonds(structure))
       closer.close(bond.nitrogen, bond.oxygen, "the hydrogen bond");
+  for (const HeldPlacement& held : cycles.held) closer.hold(held);
   return closer.take();
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hinge/kinematics/kinematic_tree.hpp"
+#include "hinge/molecular/held_placement.hpp"
 #include "hinge/molecular/structure.hpp"
 #include "hinge/molecular/torsions.hpp"
 
@@ -19,6 +20,7 @@ struct OpenCycles {
   std::vector<std::uint32_t> torsions;   ///< others that would close a cycle
   std::vector<Bond> bonds;               ///< that do not turn
   bool hydrogen_bonds = false;           ///< close those of the backbone too
+  std::span<const HeldPlacement> held;   ///< what torsions lie between
 };
 
 struct ClosedCycle {

@@ -44,20 +44,22 @@ Eigen::Matrix3d closest_rotation(std::span<const Vec3> moved, const Vec3& centre
 
 }  // namespace
 
+double turn_of(const Molecule& molecule, std::size_t k, std::span<const Vec3> positions) {
+  const Torsion& torsion = molecule.torsions()[k];
+  const auto& a = torsion.atoms;
+  const double angle = dihedral(positions[a[0]], positions[a[1]], positions[a[2]], positions[a[3]]);
+  if (std::isnan(angle))
+    throw LoadError("torsion " + torsion.name + " about " + label(molecule.structure(), a[1]) + " - " +
+                    label(molecule.structure(), a[2]) + " is undefined: three of its atoms lie on a line");
+  const double difference = std::remainder(angle - torsion.reference, whole_turn);
+  return difference == -std::numbers::pi ? std::numbers::pi : difference;
+}
+
 std::vector<double> fit_turns(const Molecule& molecule, const DofSelection& selection,
                               std::span<const Vec3> positions) {
   std::vector<double> turns;
   turns.reserve(selection.size());
-  for (const DofId dof : selection.dofs()) {
-    const Torsion& torsion = molecule.torsions()[molecule.torsion_of(dof)];
-    const auto& a = torsion.atoms;
-    const double angle = dihedral(positions[a[0]], positions[a[1]], positions[a[2]], positions[a[3]]);
-    if (std::isnan(angle))
-      throw LoadError("torsion " + torsion.name + " about " + label(molecule.structure(), a[1]) + " - " +
-                      label(molecule.structure(), a[2]) + " is undefined: three of its atoms lie on a line");
-    const double difference = std::remainder(angle - torsion.reference, whole_turn);
-    turns.push_back(difference == -std::numbers::pi ? std::numbers::pi : difference);
-  }
+  for (const DofId dof : selection.dofs()) turns.push_back(turn_of(molecule, molecule.torsion_of(dof), positions));
   return turns;
 }
 

@@ -237,7 +237,7 @@ class MoleculeBuilder {
     std::erase_if(cross_links_, is_hinge);
     std::vector<std::uint32_t> link_of_atom;
     for (std::uint32_t atom = 0; atom < s_.atoms.size(); ++atom) link_of_atom.push_back(link_[rigid_.find(atom)]);
-    const OpenCycles cycles{cuts_, closing_, cross_links_, options_.keep_hydrogen_bonds};
+    const OpenCycles cycles{cuts_, closing_, cross_links_, options_.keep_hydrogen_bonds, options_.held};
     for (auto& [closure, atoms] : close_cycles(s_, molecule_.torsions_, cycles, link_of_atom, molecule_.notes_)) {
       model_.add_closure(std::move(closure));
       molecule_.closure_atoms_.push_back(atoms);

@@ -234,5 +234,46 @@ TEST(BiocdEnsemble, SaysWhichBondsAndClosuresABrokenConformationHas) {
   EXPECT_NE(csv.find("pair_collides,bond_residual,closure_residual\n0,0,,,,,,,,0,0\n1,"), std::string::npos) << csv;
 }
 
+TEST(BiocdEnsemble, FindsRigidGroups) {
+  // Two halves that phi and psi of one residue move.
+  const Target frames(".npy");
+  run_biocd("sample " + file() + " --free A:35:backbone -n 30 --seed 3 --sigma 30 --out " + frames.path());
+  const std::string from = file() + " --rigid-from " + frames.path();
+  const Json json = Json::parse(run_biocd("info " + from + " --json --atoms 2>/dev/null").out);
+  const Json& found = json["rigid_ensemble"];
+  EXPECT_EQ(found["conformations"], 30);
+  ASSERT_EQ(found["torsions"].size(), 2U) << found;
+  EXPECT_EQ(found["torsions"][0]["torsion"], "A:GLY35:phi");
+  EXPECT_EQ(found["torsions"][1]["torsion"], "A:GLY35:psi");
+  EXPECT_NEAR(found["torsions"][0]["spread_degrees"].get<double>(), 30.0, 12.0);
+  ASSERT_EQ(found["groups"].size(), 3U) << found;
+  EXPECT_EQ(found["groups"][2]["atoms"], 1);  // C-alpha of the glycine, between the two
+  EXPECT_EQ(json["model"]["dof"], 2);
+  for (const Json& group : found["groups"]) {
+    EXPECT_LE(group["superposed"]["worst_rmsd"].get<double>(), 0.001);
+    EXPECT_EQ(group["segments"].size(), 1U);
+  }
+  EXPECT_LE(found["rebuilt"]["farthest"].get<double>(), 0.001);
+  const std::string table = run_biocd("info " + from + " 2>/dev/null").out;
+  EXPECT_NE(table.find("rigid groups of 30 conformations, tolerance 0.5 angstrom: 3\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("free A:GLY35:phi"), std::string::npos) << table;
+  // The same model wherever it is asked for.
+  EXPECT_EQ(Json::parse(run_biocd("sample " + from + " -n 2 --json 2>/dev/null").out)["model"]["dof"], 2);
+
+  const auto refused = [&](const std::string& more, const std::string& message, int status) {
+    const Said said = run_biocd("info " + more + " 2>&1");
+    EXPECT_EQ(said.status, status) << said.out;
+    EXPECT_NE(said.out.find(message), std::string::npos) << said.out;
+  };
+  refused(file() + " --rigid-from " + file(), "1 conformations, expected at least two", 2);
+  refused(from + " --rigid-tolerance 0", "tolerance 0.0", 2);
+  refused(from + " --loop A:7-11", "--rigid-from with --loop", 2);
+  refused(file() + " --rigid-from /nonexistent", "/nonexistent", 3);
+  Frame bad = read_structure(test::ubiquitin()).models[0];
+  bad[7][1] = std::numeric_limits<double>::quiet_NaN();
+  const TemporaryFile nan(test::npy_file({bad}, "<f8"), ".npy");
+  refused(from + " --rigid-from " + nan.path().string(), "frame 0: atom 7", 3);
+}
+
 }  // namespace
 }  // namespace hinge::molecular

@@ -2,6 +2,7 @@
 // The configuration whose torsions are those of given coordinates, and how far two sets of coordinates are apart.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,6 +12,10 @@
 #include "hinge/molecular/molecule.hpp"
 
 namespace hinge::molecular {
+
+/// The turn from the reference, rad in (-pi, pi], that gives torsions()[k] the dihedral angle it has in `positions`
+/// (angstrom, one per atom). LoadError: these positions leave it undefined.
+double turn_of(const Molecule& molecule, std::size_t k, std::span<const Vec3> positions);
 
 /// Turns from the reference (rad, in (-pi, pi]), one per selected DOF, that give its torsions the dihedral angles they
 /// have in `positions` (angstrom, one per atom). What else differs, bond lengths, bond angles and torsions that are not

@@ -13,6 +13,7 @@
 #include "hinge/core/vec3.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/model/model.hpp"
+#include "hinge/molecular/held_placement.hpp"
 #include "hinge/molecular/loop.hpp"
 #include "hinge/molecular/part.hpp"
 #include "hinge/molecular/structure.hpp"
@@ -33,8 +34,9 @@ struct MoleculeOptions {
   /// The molecule is cut at their ends (find_loops): what comes behind a loop does not hang on it, and psi of its last
   /// residue is no DOF but follows where the loop's closure holds.
   std::vector<Loop> loops{};
-  bool keep_hydrogen_bonds = false;  ///< backbone hydrogen bonds (find_hydrogen_bonds) are closures
-  std::vector<Part> placed{};        ///< parts that get six DOF each
+  bool keep_hydrogen_bonds = false;   ///< backbone hydrogen bonds (find_hydrogen_bonds) are closures
+  std::vector<Part> placed{};         ///< parts that get six DOF each
+  std::vector<HeldPlacement> held{};  ///< are closures
 };
 
 /// Every torsion of the structure is a joint; primitive i is atom i of model 0, in angstrom. Joint values are turns
@@ -67,10 +69,10 @@ class Molecule {
   DofSelection select_placed(std::span<const std::size_t> torsions) const;
   /// In the order they were given.
   std::span<const PlacedPart> placed_parts() const noexcept { return placed_; }
-  /// What was decided while building: torsions inside cycles, closures.
-  std::span<const std::string> notes() const noexcept { return notes_; }
   /// The two atoms that each closure of the tree joins: of a bond, a hydrogen bond, or two whose parts are held.
   std::span<const std::array<std::uint32_t, 2>> closure_atoms() const noexcept { return closure_atoms_; }
+  /// What was decided while building: torsions inside cycles, closures.
+  std::span<const std::string> notes() const noexcept { return notes_; }
 
  private:
   friend class MoleculeBuilder;
@@ -81,9 +83,9 @@ class Molecule {
   std::vector<DofId> dof_;
   std::vector<std::size_t> torsion_of_;
   std::vector<PlacedPart> placed_;
+  std::vector<std::array<std::uint32_t, 2>> closure_atoms_;
   std::optional<Model<Point>> model_;
 };
-  std::vector<std::array<std::uint32_t, 2>> closure_atoms_;
 
 /// BioCD's basic groups: pseudo-backbone (backbone and C-beta) and pseudo-side-chain of each residue, proline whole,
 /// the side chains a disulphide joins as one; for nucleotides backbone and base; any other residue whole. One label per

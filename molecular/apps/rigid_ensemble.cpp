@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Conformations gone through twice: for what they keep, then for what that leaves of them.
+#include "rigid_ensemble.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "frames.hpp"
+#include "hinge/core/error.hpp"
+#include "hinge/molecular/fit_turns.hpp"
+
+namespace biocd {
+
+using namespace hinge::molecular;
+
+namespace {
+
+/// What use(positions, name) says of each conformation; an error of a frame names it.
+template <class Use>
+void for_conformations(const Options& options, const Structure& s, const Use& use) {
+  const Frames frames(options.rigid_from, options.file, s, options.read);
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const Trajectory& source = frames.file(k);
+    const std::vector<hinge::Vec3> positions = source.kept(source.frame(frames.place(k).frame));
+    try {
+      use(positions, frames.name(k));
+    } catch (const hinge::LoadError& error) {
+      throw hinge::LoadError(frames.name(k) + ": " + error.what());
+    }
+  }
+}
+
+/// How far a rigid body is from what it stands for, over the conformations.
+struct Departure {
+  double sum = 0.0, worst = 0.0, farthest = 0.0;  // RMSD, RMSD, distance of an atom: angstrom
+  std::string worst_name;
+  std::uint32_t farthest_atom = 0;
+  std::size_t count = 0;
+
+  void add(const Superposition& found, std::uint32_t atom, const std::string& name) {
+    ++count;
+    sum += found.rmsd;
+    if (found.rmsd > worst || worst_name.empty()) {
+      worst = found.rmsd;
+      worst_name = name;
+    }
+    if (found.farthest > farthest || count == 1) {
+      farthest = found.farthest;
+      farthest_atom = atom;
+    }
+  }
+};
+
+struct Departures {
+  std::vector<Departure> groups;
+  Departure model;  // all of it, rebuilt by its free torsions
+};
+
+Departures measure(const Options& options, const Job& job) {
+  const Structure& s = job.molecule->structure();
+  const std::vector<hinge::Vec3>& reference = s.models.front();
+  const EnsembleGroups& found = *job.ensemble;
+  Departures all;
+  std::vector<std::vector<std::uint32_t>> atoms;
+  for (const EnsembleGroup& group : found.groups) atoms.push_back(group.atoms());
+  all.groups.resize(atoms.size());
+  Checker model = job.checker;
+  std::vector<hinge::Vec3> own, other;
+  for_conformations(options, s, [&](const std::vector<hinge::Vec3>& positions, const std::string& name) {
+    for (std::size_t g = 0; g < atoms.size(); ++g) {
+      own.clear();
+      other.clear();
+      for (const std::uint32_t i : atoms[g]) {
+        own.push_back(reference[i]);
+        other.push_back(positions[i]);
+      }
+      const Superposition superposed = superpose(own, other);
+      all.groups[g].add(superposed, atoms[g][superposed.atom], name);
+    }
+    if (!job.molecule->placed_parts().empty()) return;
+    model.check(fit_turns(*job.molecule, job.checker.selection(), positions), Mode{Mode::Kind::any});
+    const Superposition rebuilt = superpose(model.positions(), positions);
+    all.model.add(rebuilt, rebuilt.atom, name);
+  });
+  return all;
+}
+
+/// "A:1-29 A:60-121": the residues most of whose atoms are there, or all that have any.
+std::string residues_text(const Structure& s, const std::vector<std::uint32_t>& atoms) {
+  std::vector<std::uint32_t> count(s.residues.size(), 0);
+  for (const std::uint32_t i : atoms) ++count[s.atoms[i].residue];
+  const auto most = [&](std::uint32_t r) { return 2 * count[r] > s.residues[r].last_atom - s.residues[r].first_atom; };
+  bool any = false;
+  for (std::uint32_t r = 0; r < count.size(); ++r) any = any || most(r);
+  const auto in = [&](std::uint32_t r) { return r < count.size() && (any ? most(r) : count[r] > 0); };
+  const auto number = [&](std::uint32_t r) {
+    std::string text = std::to_string(s.residues[r].sequence_number);
+    if (s.residues[r].insertion_code != '\0') text += s.residues[r].insertion_code;
+    return text;
+  };
+  std::string text;
+  for (std::uint32_t r = 0; r < count.size(); ++r) {
+    if (!in(r)) continue;
+    const std::uint32_t first = r;
+    while (in(r + 1) && s.residues[r + 1].chain == s.residues[first].chain) ++r;
+    const std::string& chain = s.chains[s.residues[first].chain].name;
+    if (!text.empty()) text += ' ';
+    text += chain.empty() ? "_" : chain;
+    text += ':' + number(first);
+    if (r > first) text += '-' + number(r);
+  }
+  return text;
+}
+
+/// Superposed coordinates are rounded differently on different instruction sets.
+double rounded(double value) { return std::round(value * 1e3) / 1e3; }
+
+Json departure_json(const Structure& s, const Departure& departure) {
+  if (departure.count == 0) return {};
+  return {{"mean_rmsd", rounded(departure.sum / static_cast<double>(departure.count))},
+          {"worst_rmsd", rounded(departure.worst)},
+          {"worst", departure.worst_name},
+          {"farthest", rounded(departure.farthest)},
+          {"farthest_atom", label(s, departure.farthest_atom)}};
+}
+
+std::string departure_text(const Structure& s, const Departure& departure) {
+  return fmt::format("RMSD {:.2f}, at worst {:.2f} ({}), farthest atom {:.2f} ({})",
+                     departure.sum / static_cast<double>(departure.count), departure.worst, departure.worst_name,
+                     departure.farthest, label(s, departure.farthest_atom));
+}
+
+}  // namespace
+
+EnsembleGroups find_rigid_groups(const Options& options, const Molecule& molecule,
+                                 std::span<const std::size_t> torsions) {
+  EnsembleSpread spread(molecule, torsions);
+  for_conformations(options, molecule.structure(),
+                    [&](const std::vector<hinge::Vec3>& positions, const std::string&) { spread.add(positions); });
+  return find_ensemble_groups(spread, options.rigid_tolerance);
+}
+
+std::string rigid_groups_text(const Options& options, const Job& job) {
+  constexpr std::size_t most = 20;  // groups in a list for people
+  const Structure& s = job.molecule->structure();
+  const EnsembleGroups& found = *job.ensemble;
+  const Departures all = measure(options, job);
+  std::string text = fmt::format("rigid groups of {} conformations, tolerance {} angstrom: {}\n",
+                                 all.groups.front().count, options.rigid_tolerance, found.groups.size());
+  for (std::size_t g = 0; g < std::min(most, found.groups.size()); ++g) {
+    const EnsembleGroup& group = found.groups[g];
+    text += fmt::format("  {} atoms in {} segment{}, {}: distances vary by {:.2f}; {}\n", group.size(),
+                        group.segments.size(), group.segments.size() == 1 ? "" : "s", residues_text(s, group.atoms()),
+                        group.spread, departure_text(s, all.groups[g]));
+  }
+  if (found.groups.size() > most) text += fmt::format("  and {} smaller ones\n", found.groups.size() - most);
+  for (std::size_t k = 0; k < found.torsions.size(); ++k)
+    text += fmt::format("  free {:<22} spread {:.1f} degrees\n",
+                        torsion_label(s, job.molecule->torsions()[found.torsions[k]]), found.turn_spreads[k] / degree);
+  if (all.model.count > 0) text += "conformations rebuilt by these torsions: " + departure_text(s, all.model) + "\n";
+  return text;
+}
+
+Json rigid_groups_json(const Options& options, const Job& job) {
+  const Structure& s = job.molecule->structure();
+  const EnsembleGroups& found = *job.ensemble;
+  const Departures all = measure(options, job);
+  Json json{{"conformations", all.groups.front().count}, {"groups", Json::array()}, {"torsions", Json::array()}};
+  for (std::size_t g = 0; g < found.groups.size(); ++g) {
+    const EnsembleGroup& group = found.groups[g];
+    Json one{{"atoms", group.size()}, {"residues", residues_text(s, group.atoms())}, {"segments", Json::array()}};
+    for (const auto& segment : group.segments) one["segments"].push_back(segment);
+    one["distance_spread"] = rounded(group.spread);
+    one["superposed"] = departure_json(s, all.groups[g]);
+    json["groups"].push_back(std::move(one));
+  }
+  for (std::size_t k = 0; k < found.torsions.size(); ++k)
+    json["torsions"].push_back({{"torsion", torsion_label(s, job.molecule->torsions()[found.torsions[k]])},
+                                {"spread_degrees", rounded(found.turn_spreads[k] / degree)}});
+  json["rebuilt"] = departure_json(s, all.model);
+  return json;
+}
+
+}  // namespace biocd
