@@ -61,9 +61,12 @@ Json atoms_json(const Job& job) {
 Json dofs_json(const Job& job) {
   Json list = Json::array();
   for (const hinge::DofId dof : job.checker.selection().dofs()) {
-    const Torsion& torsion = job.molecule->torsions()[job.molecule->torsion_of(dof)];
-    list.push_back(Json{{"torsion", torsion_label(job.molecule->structure(), torsion)},
-                        {"reference_degrees", torsion.reference * 180.0 / std::numbers::pi}});
+    const std::size_t torsion = job.molecule->torsion_of(dof);
+    const bool places = torsion == Molecule::no_torsion;
+    list.push_back(
+        Json{{"torsion", dof_label(job, dof)},
+             {"reference_degrees",
+              places ? Json() : Json(job.molecule->torsions()[torsion].reference * 180.0 / std::numbers::pi)}});
   }
   return list;
 }
@@ -102,10 +105,10 @@ void print_table(const Options& options, const Job& job) {
   for (const auto& [name, count] : torsions_by_kind(s, job.molecule->torsions())) fmt::print(" {} {}", name, count);
   fmt::print("\nexcluded pairs: {}; secondary structure elements: {}\n", job.checker.exclusions().excluded_pairs(),
              s.secondary_structure.size());
+  if (job.ensemble) fmt::print("{}", rigid_groups_text(options, job));
   for (const hinge::Hit& hit : job.checker.reference_collisions())
     fmt::print("{}  (reference)\n", pair_line(job, {hit, true}));
 }
-  if (job.ensemble) fmt::print("{}", rigid_groups_text(options, job));
 
 }  // namespace
 
@@ -126,10 +129,10 @@ Exit run_info(const Options& options) {
     json["bond_sources"] = Json::array();
     for (const BondSource& source : s.bond_sources)
       json["bond_sources"].push_back({{"residue", source.residue}, {"source", source.source}, {"count", source.count}});
+    if (job.ensemble) json["rigid_ensemble"] = rigid_groups_json(options, job);
     json["constant_contacts"] = constant_contacts_json(job);
     if (options.atoms) {
       json["atoms"] = atoms_json(job);
-    if (job.ensemble) json["rigid_ensemble"] = rigid_groups_json(options, job);
       json["dofs"] = dofs_json(job);
       json["bonds"] = bonds_json(s);
       json["thresholds"] = thresholds_json(job.checker.thresholds());

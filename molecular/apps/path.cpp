@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,19 +34,14 @@ struct Asked {
   double closure_residual = 0.0;  // the worse of the ends, angstrom
 };
 
-std::vector<double> in_degrees(const std::vector<double>& turns) {
-  std::vector<double> degrees(turns);
-  for (double& value : degrees) value /= degree;
-  return degrees;
-}
-
 std::string shown(const PathEnd& end) {
   constexpr std::size_t most = 30;  // characters of a list, in a line for people
   return end.text.size() > most ? end.text.substr(0, most) + "..." : end.text;
 }
 
-Json end_json(const PathEnd& end) {
-  Json json{{"given", end.text}, {"turns", in_degrees(end.turns)}, {"model_rmsd", Json()}, {"model_farthest", Json()}};
+Json end_json(const Job& job, const PathEnd& end) {
+  Json json{
+      {"given", end.text}, {"turns", in_degrees(job, end.turns)}, {"model_rmsd", Json()}, {"model_farthest", Json()}};
   // Superposed coordinates are rounded differently on different instruction sets.
   const auto rounded = [](double length) { return std::round(length * 1e3) / 1e3; };
   if (end.from_model) json["model_rmsd"] = rounded(end.from_model->rmsd);
@@ -59,10 +55,9 @@ Json path_json(const Options& options, const Job& job, const Asked& asked) {
   Json json{{"tool", "biocd"}, {"command", "path"}, {"model", model_json(options, job)}};
   json["constant_contacts"] = constant_contacts_json(job);
   json["dofs"] = Json::array();
-  for (const hinge::DofId dof : job.checker.selection().dofs())
-    json["dofs"].push_back(torsion_label(s, job.molecule->torsions()[job.molecule->torsion_of(dof)]));
-  json["from"] = end_json(asked.from);
-  json["to"] = end_json(asked.to);
+  for (const hinge::DofId dof : job.checker.selection().dofs()) json["dofs"].push_back(dof_label(job, dof));
+  json["from"] = end_json(job, asked.from);
+  json["to"] = end_json(job, asked.to);
   json["closure_residual"] = asked.closure_residual;
   json["method"] = options.sampled_degrees ? "sampled" : "certified";
   json["resolution_degrees"] = options.sampled_degrees ? Json(*options.sampled_degrees) : Json();
@@ -71,7 +66,7 @@ Json path_json(const Options& options, const Job& job, const Asked& asked) {
   json["proved"] = answer.verdict == PathVerdict::colliding || (answer.is_free() && !options.sampled_degrees);
   json["parameter"] = answer.is_free() ? Json() : Json(answer.parameter);
   json["half_width"] = answer.verdict == PathVerdict::undecided ? Json(answer.half_width) : Json();
-  json["turns"] = answer.is_free() ? Json() : Json(in_degrees(answer.configuration));
+  json["turns"] = answer.is_free() ? Json() : Json(in_degrees(job, answer.configuration));
   json["pairs"] = Json::array();
   for (const Contact& pair : asked.pairs) json["pairs"].push_back(pair_json(job, pair));
   json["undecided_pair"] = Json();
@@ -85,14 +80,16 @@ void print_table(const Options& options, const Job& job, const Asked& asked) {
   const Structure& s = job.molecule->structure();
   const PathAnswer& answer = asked.answer;
   fmt::print("{}", heading(options, job));
-  std::size_t most = 0;
-  const auto turned = [&](std::size_t k) { return std::abs(asked.to.turns[k] - asked.from.turns[k]); };
-  for (std::size_t k = 0; k < asked.to.turns.size(); ++k) most = turned(k) > turned(most) ? k : most;
   fmt::print("path from {} to {}", shown(asked.from), shown(asked.to));
-  if (!asked.to.turns.empty()) {
-    const hinge::DofId dof = job.checker.selection().dofs()[most];
-    fmt::print("; largest turn {:.4g} degrees ({})", turned(most) / degree,
-               torsion_label(s, job.molecule->torsions()[job.molecule->torsion_of(dof)]));
+  const auto dofs = job.checker.selection().dofs();
+  for (const bool turning : {true, false}) {
+    std::size_t most = dofs.size();
+    const auto change = [&](std::size_t k) { return std::abs(asked.to.turns[k] - asked.from.turns[k]); };
+    for (std::size_t k = 0; k < dofs.size(); ++k)
+      if (turns(job, dofs[k]) == turning && (most == dofs.size() || change(k) > change(most))) most = k;
+    if (most == dofs.size()) continue;
+    fmt::print("; largest {} {:.4g} {} ({})", turning ? "turn" : "move", change(most) / (turning ? degree : 1.0),
+               turning ? "degrees" : "angstrom", dof_label(job, dofs[most]));
   }
   fmt::print("\n");
   if (asked.closure_residual > 0.0)
@@ -122,7 +119,6 @@ void print_table(const Options& options, const Job& job, const Asked& asked) {
 Exit run_path(const Options& options) {
   if (options.sampled_degrees && !hinge::is_finite(*options.sampled_degrees))
     throw hinge::ModelError("--sampled: expected a finite number of degrees");
-  if (!options.place.empty()) throw hinge::ModelError("--place: a path turns torsions, expected no placed parts");
   if (!options.loop.empty())
     throw hinge::ModelError("--loop: cycles are not closed along a path, expected no loops; sample closes them");
   const Job job = load(options);
@@ -133,10 +129,15 @@ Exit run_path(const Options& options) {
   }
   Asked asked{read_path_end("--from", options.from, job), read_path_end("--to", options.to, job), {}, {}};
   // What was measured is an angle: whole turns are the path's choice. Lists say how far to turn.
+  const auto shorten = [&](const PathEnd& near, PathEnd& end) {
+    for (std::size_t k = 0; k < end.turns.size(); ++k)
+      if (turns(job, job.checker.selection().dofs()[k]))
+        take_shorter_way(std::span(near.turns).subspan(k, 1), std::span(end.turns).subspan(k, 1));
+  };
   if (asked.to.from_model)
-    take_shorter_way(asked.from.turns, asked.to.turns);
+    shorten(asked.from, asked.to);
   else if (asked.from.from_model)
-    take_shorter_way(asked.to.turns, asked.from.turns);
+    shorten(asked.to, asked.from);
   for (const PathEnd* end : {&asked.from, &asked.to})
     if (const std::string note = note_of(*end, job); !note.empty()) std::fprintf(stderr, "note: %s\n", note.c_str());
 

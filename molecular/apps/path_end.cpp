@@ -17,6 +17,7 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
+#include "report.hpp"
 
 namespace biocd {
 
@@ -42,12 +43,14 @@ std::vector<double> read_degrees(std::string_view text, std::size_t count, const
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc{} || end != word.data() + word.size() || !hinge::is_finite(value))
       refuse(fmt::format("value {} is '{}', expected a finite number of degrees", turns.size() + 1, word));
-    turns.push_back(value * degree);
+    turns.push_back(value);
     if (comma && text.find_first_not_of(blanks) == std::string_view::npos) refuse("ends with a comma");
   }
   if (turns.size() != count)
-    refuse(fmt::format("{} values, expected {}: a turn from the reference, in degrees, for each DOF of the selection",
-                       turns.size(), count));
+    refuse(
+        fmt::format("{} values, expected {}: a turn from the reference, in degrees, for each DOF of the selection "
+                    "(moves of placed parts in angstrom)",
+                    turns.size(), count));
   return turns;
 }
 
@@ -73,6 +76,32 @@ std::size_t find_model(const std::string& option, std::string_view number, const
                   s.model_numbers.size() > 1 ? fmt::format(" ... {}", s.model_numbers.back()) : ""));
 }
 
+/// Torsions first, then placements: a part is laid over what it was after its own torsions have turned.
+std::vector<double> fit(const Job& job, const std::vector<hinge::Vec3>& model) {
+  const Molecule& molecule = *job.molecule;
+  const auto dofs = job.checker.selection().dofs();
+  std::vector<double> q(dofs.size(), 0.0);
+  for (std::size_t k = 0; k < q.size(); ++k)
+    if (const std::size_t torsion = molecule.torsion_of(dofs[k]); torsion != Molecule::no_torsion)
+      q[k] = turn_of(molecule, torsion, model);
+  if (molecule.placed_parts().empty()) return q;
+  Checker rebuilt = job.checker;
+  rebuilt.check(q, Mode{Mode::Kind::any});
+  const auto placements = fit_placements(molecule, rebuilt.positions(), model);
+  for (std::size_t part = 0; part < placements.size(); ++part)
+    for (std::size_t c = 0; c < 6; ++c)
+      q[static_cast<std::size_t>(std::ranges::lower_bound(dofs, molecule.placed_parts()[part].dofs[c]) -
+                                 dofs.begin())] = placements[part][c];
+  return q;
+}
+
+/// To rad.
+std::vector<double> turned(const Job& job, std::vector<double> values) {
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (turns(job, job.checker.selection().dofs()[k])) values[k] *= degree;
+  return values;
+}
+
 }  // namespace
 
 PathEnd read_path_end(const char* option, const std::string& text, const Job& job) {
@@ -84,7 +113,7 @@ PathEnd read_path_end(const char* option, const std::string& text, const Job& jo
     const Structure& s = job.molecule->structure();
     const std::vector<hinge::Vec3>& model = s.models[find_model(option, std::string_view(text).substr(6), s)];
     try {
-      end.turns = fit_turns(*job.molecule, job.checker.selection(), model);
+      end.turns = fit(job, model);
     } catch (const hinge::LoadError& error) {
       throw hinge::LoadError(fmt::format("{} {}: {}", option, text, error.what()));
     }
@@ -93,12 +122,12 @@ PathEnd read_path_end(const char* option, const std::string& text, const Job& jo
     end.from_model = superpose(rebuilt.positions(), model);
   } else if (text.starts_with('@')) {
     const std::string path = text.substr(1);
-    end.turns = read_degrees(read_text(path), count,
-                             [&](const std::string& what) { throw hinge::LoadError(path + ": " + what); });
+    end.turns = turned(job, read_degrees(read_text(path), count,
+                                         [&](const std::string& what) { throw hinge::LoadError(path + ": " + what); }));
   } else {
-    end.turns = read_degrees(text, count, [&](const std::string& what) {
-      throw hinge::ModelError(fmt::format("{} '{}': {}", option, text, what));
-    });
+    end.turns = turned(job, read_degrees(text, count, [&](const std::string& what) {
+                         throw hinge::ModelError(fmt::format("{} '{}': {}", option, text, what));
+                       }));
   }
   return end;
 }

@@ -129,6 +129,25 @@ Json closures_json(const Job& job, const std::vector<double>& residuals) {
   return list;
 }
 
+std::string dof_label(const Job& job, hinge::DofId dof) {
+  const std::size_t torsion = job.molecule->torsion_of(dof);
+  if (torsion != hinge::molecular::Molecule::no_torsion)
+    return torsion_label(job.molecule->structure(), job.molecule->torsions()[torsion]);
+  const hinge::KinematicTree& tree = job.molecule->model().tree();
+  return tree.joint(tree.link_of(dof)).name;
+}
+
+bool turns(const Job& job, hinge::DofId dof) {
+  const hinge::KinematicTree& tree = job.molecule->model().tree();
+  return tree.joint(tree.link_of(dof)).kind == hinge::JointKind::revolute;
+}
+
+std::vector<double> in_degrees(const Job& job, std::vector<double> q) {
+  for (std::size_t k = 0; k < q.size(); ++k)
+    if (turns(job, job.checker.selection().dofs()[k])) q[k] /= degree;
+  return q;
+}
+
 std::vector<std::string> closure_names(const Job& job) {
   std::vector<std::string> names;
   for (const hinge::Closure& closure : job.molecule->model().tree().closures()) names.push_back(closure.name);

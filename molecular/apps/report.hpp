@@ -22,6 +22,13 @@ Json pair_json(const Job& job, const hinge::molecular::Contact& pair);
 Json constant_contacts_json(const Job& job);
 /// Each closure of the molecule by name, with its residual (angstrom); empty without residuals.
 Json closures_json(const Job& job, const std::vector<double>& residuals);
+/// "A:LYS77:chi1" or "move B x".
+std::string dof_label(const Job& job, hinge::DofId dof);
+/// Does it turn (rad), or move (angstrom)?
+bool turns(const Job& job, hinge::DofId dof);
+/// A configuration's values as people give and read them: degrees, and angstrom of placed parts' moves.
+std::vector<double> in_degrees(const Job& job, std::vector<double> q);
+
 /// Their names, in the tree's order.
 std::vector<std::string> closure_names(const Job& job);
 Json verdict_json(const Job& job, std::uint64_t index, const hinge::molecular::Verdict& verdict,

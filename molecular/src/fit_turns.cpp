@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -65,6 +66,48 @@ std::vector<double> fit_turns(const Molecule& molecule, const DofSelection& sele
 
 void take_shorter_way(std::span<const double> near, std::span<double> turns) {
   for (std::size_t k = 0; k < turns.size(); ++k) turns[k] -= whole_turn * std::round((turns[k] - near[k]) / whole_turn);
+}
+
+std::vector<std::array<double, 6>> fit_placements(const Molecule& molecule, std::span<const Vec3> rebuilt,
+                                                  std::span<const Vec3> positions) {
+  const Structure& s = molecule.structure();
+  std::vector<std::vector<bool>> in;
+  for (const PlacedPart& placed : molecule.placed_parts()) in.push_back(atoms_in(s, placed.part));
+  std::vector<Vec3> moved, onto;
+  const auto gather = [&](const auto& wanted) {
+    moved.clear();
+    onto.clear();
+    for (std::size_t i = 0; i < s.atoms.size(); ++i) {
+      if (!wanted(i)) continue;
+      moved.push_back(rebuilt[i]);
+      onto.push_back(positions[i]);
+    }
+    return !moved.empty();
+  };
+  // From the frame of the positions to that of the rest, which stands still.
+  Eigen::Matrix3d back = Eigen::Matrix3d::Identity();
+  Vec3 from = Vec3::Zero(), to = Vec3::Zero();
+  if (gather([&](std::size_t i) {
+        return std::none_of(in.begin(), in.end(), [&](const auto& part) { return part[i]; });
+      })) {
+    from = centre(onto);
+    to = centre(moved);
+    back = closest_rotation(onto, from, moved, to);
+  }
+  std::vector<std::array<double, 6>> all;
+  for (std::size_t k = 0; k < in.size(); ++k) {
+    gather([&](std::size_t i) { return in[k][i]; });
+    for (Vec3& x : onto) x = back * (x - from) + to;
+    const Vec3 here = centre(moved), there = centre(onto), c = molecule.placed_parts()[k].centre;
+    const Eigen::Matrix3d r = closest_rotation(moved, here, onto, there);
+    const Vec3 move = r * (c - here) + there - c;
+    // r = Rx(a) Ry(b) Rz(c): each angle from what the ones before leave, which needs no b off a right angle.
+    const double a = std::atan2(-r(1, 2), r(2, 2)), sin = std::sin(a), cos = std::cos(a);
+    const double b = std::atan2(r(0, 2), cos * r(2, 2) - sin * r(1, 2));
+    const double turn = std::atan2(cos * r(1, 0) + sin * r(2, 0), cos * r(1, 1) + sin * r(2, 1));
+    all.push_back({move[0], move[1], move[2], a, b, turn});
+  }
+  return all;
 }
 
 Superposition superpose(std::span<const Vec3> moved, std::span<const Vec3> onto) {

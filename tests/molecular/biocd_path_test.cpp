@@ -119,11 +119,46 @@ TEST(BiocdPath, TakesEndsFromAFile) {
   };
   EXPECT_EQ(said(list), "3: ends with a comma\n");
   EXPECT_EQ(said(empty),
-            "3: 0 values, expected 2: a turn from the reference, in degrees, for each DOF of the selection\n");
+            "3: 0 values, expected 2: a turn from the reference, in degrees, for each DOF of the selection "
+            "(moves of placed parts in angstrom)\n");
   EXPECT_EQ(said(words), "3: value 2 is 'x', expected a finite number of degrees\n");
   EXPECT_EQ(said(comma), "3: value 2 is '', expected a finite number of degrees\n");
   EXPECT_EQ(path(two + "/nonexistent 2>&1").out, "biocd: /nonexistent: cannot be opened: No such file or directory\n");
   EXPECT_EQ(path(two + "/tmp 2>&1").out, "biocd: /tmp: is a directory, expected a file\n");
+}
+
+TEST(BiocdPath, MovesPlacedParts) {
+  const std::string u = test::ubiquitin().string();
+  const std::string two = u + " --with " + u + " --between A B --free B:48:chi1 ";
+  const auto ask = [](const std::string& arguments) {
+    const test::Said said = test::run_biocd("path " + arguments + " --json 2>/dev/null");
+    return nlohmann::json::parse(said.out);
+  };
+  // Beside each other, and through each other; values in the order in which dofs names them.
+  const auto beside = ask(two + "--place B --from 60,0,0,0,0,0,0 --to 60,20,0,90,-30,170,60");
+  EXPECT_EQ(beside["dofs"], (std::vector<std::string>{"move B x", "move B y", "move B z", "turn B x", "turn B y",
+                                                      "turn B z", "B:LYS48:chi1"}));
+  EXPECT_EQ(beside["verdict"], "free");
+  EXPECT_EQ(beside["proved"], true);
+  EXPECT_EQ(beside["to"]["turns"][1], 20.0);
+  EXPECT_NEAR(beside["to"]["turns"][5].get<double>(), 170.0, 1e-9);
+  const auto through = ask(two + "--place B --from 60,0,0,0,0,0,0 --to -60,0,0,0,0,0,0");
+  EXPECT_EQ(through["verdict"], "colliding");
+  EXPECT_FALSE(through["pairs"].empty());
+  EXPECT_EQ(ask(two + "--place B --from 60,0,0,0,0,0,0 --to -60,0,0,0,0,0,0 --sampled 30")["verdict"], "colliding");
+  EXPECT_NE(test::run_biocd("path " + two + "--place B --from 60,0,0,0,0,0,0 --to 60,20,0,90,0,0,0")
+                .out.find("largest turn 90 degrees (turn B x); largest move 20 angstrom (move B y)"),
+            std::string::npos);
+
+  // Models are rebuilt with their placements: what sample wrote comes back within the decimals of its file.
+  const test::TemporaryFile poses("");
+  test::run_biocd("sample " + two + " --place B=40,180 -n 6 --seed 8 --sigma 60 --out " + poses.path().string());
+  const std::string models = poses.path().string() + " --place B --free B:48:chi1 --between A B --from model:1 --to ";
+  for (int k = 2; k <= 6; ++k) {
+    const auto answer = ask(models + "model:" + std::to_string(k));
+    EXPECT_LE(answer["to"]["model_farthest"].get<double>(), 0.01) << k;
+    for (const auto& turn : answer["from"]["turns"]) EXPECT_NEAR(turn.get<double>(), 0.0, 0.01);
+  }
 }
 
 TEST(BiocdPath, RefusesEndsThatDoNotFit) {
@@ -133,7 +168,7 @@ TEST(BiocdPath, RefusesEndsThatDoNotFit) {
             "2: biocd: --from 'nan': value 1 is 'nan', expected a finite number of degrees\n");
   EXPECT_EQ(refusal("--from 1,2 --to 1"),
             "2: biocd: --from '1,2': 2 values, expected 1: a turn from the reference, in degrees, for each DOF of the "
-            "selection\n");
+            "selection (moves of placed parts in angstrom)\n");
   EXPECT_EQ(refusal("--from model:1 --to model:2"), "2: biocd: --to model '2': the models are numbered 1\n");
   EXPECT_EQ(refusal("--from model:x --to 1"), "2: biocd: --from model 'x': the models are numbered 1\n");
   for (const char* options : {"--from 0", "--to 0", "--from 0 --to 1 --sampled 0", "--from 0 --to 1 --sampled -1",

@@ -2,6 +2,7 @@
 // The configuration whose torsions are those of given coordinates, and how far two sets of coordinates are apart.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -21,6 +22,12 @@ double turn_of(const Molecule& molecule, std::size_t k, std::span<const Vec3> po
 /// have in `positions` (angstrom, one per atom). What else differs, bond lengths, bond angles and torsions that are not
 /// selected, stays as in the reference: see superpose. LoadError: a torsion that these positions leave undefined.
 std::vector<double> fit_turns(const Molecule& molecule, const DofSelection& selection, std::span<const Vec3> positions);
+
+/// The values of PlacedPart::dofs, part by part, that lay the parts of `rebuilt`, where they are in their place, over
+/// their atoms in `positions`, once what is not placed lies over its own (both angstrom, one per atom; molecules whose
+/// every atom is placed lie in one frame). Angles in [-pi, pi].
+std::vector<std::array<double, 6>> fit_placements(const Molecule& molecule, std::span<const Vec3> rebuilt,
+                                                  std::span<const Vec3> positions);
 
 /// Each turn by as many whole turns as take it within half a turn of `near`. As many values in both.
 void take_shorter_way(std::span<const double> near, std::span<double> turns);
