@@ -43,6 +43,15 @@ namespace hinge::simd {
 #endif
 }
 
+/// Copies the lanes of every set bit; the others keep what they hold.
+[[gnu::always_inline]] inline void copy_lanes(Bits mask, const float* from, float* to) noexcept {
+#if defined(__AVX512F__)
+  _mm512_mask_storeu_ps(to, static_cast<__mmask16>(mask), _mm512_loadu_ps(from));
+#else
+  for (; mask != 0; mask &= mask - 1) to[std::countr_zero(mask)] = from[std::countr_zero(mask)];
+#endif
+}
+
 /// Sixteen numbers below 16, prepared for look_up. (The zero-masked forms because g++ 12 warns about the others'
 /// undefined pass-through operand.)
 class Index16 {

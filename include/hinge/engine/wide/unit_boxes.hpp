@@ -2,6 +2,7 @@
 // UnitBoxes: the boxes of all units in rows of sixteen, boxes around rows above them, and the sweep through both.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +15,47 @@
 #include "hinge/simd/gather_bits.hpp"
 
 namespace hinge {
+
+/// Which units a sweep of UnitBoxes looks at, whatever their boxes.
+class ShownUnits {
+ public:
+  explicit ShownUnits(std::size_t units) : units_(units) {
+    do {
+      units = (units + simd::width - 1) / simd::width;
+      lanes_.emplace_back(units);
+    } while (units > simd::width);
+    show_all();
+  }
+  void show_all() noexcept {
+    std::size_t units = units_;
+    for (std::vector<simd::Bits>& level : lanes_) {
+      std::ranges::fill(level, simd::all_bits);
+      if (units % simd::width != 0) level.back() = (simd::Bits{1} << units % simd::width) - 1;
+      units = level.size();
+    }
+  }
+  void hide(std::size_t begin, std::size_t end) noexcept {
+    for (std::vector<simd::Bits>& level : lanes_) {
+      if (begin == end) return;
+      const std::size_t first = begin / simd::width, last = (end - 1) / simd::width;
+      for (std::size_t row = first; row <= last; ++row) {
+        const std::size_t from = row == first ? begin % simd::width : 0;
+        const std::size_t to = row == last ? (end - 1) % simd::width + 1 : simd::width;
+        level[row] &= ~(((simd::Bits{1} << (to - from)) - 1) << from);
+      }
+      // Rows with nothing left: all between, and maybe those at the ends.
+      begin = level[first] == 0 ? first : first + 1;
+      end = level[last] == 0 ? last + 1 : last;
+      if (begin > end) return;
+    }
+  }
+  /// Of a row of a level: of units those that are shown, above them rows with any.
+  simd::Bits lanes(std::size_t level, std::size_t row) const noexcept { return lanes_[level][row]; }
+
+ private:
+  std::size_t units_;
+  std::vector<std::vector<simd::Bits>> lanes_;  // per level, the units' first
+};
 
 /// Units come up to date in order, and a sweep looks at those before a given one. More than sixteen rows have a level
 /// of boxes around rows above them, and so on; a row is only looked at from above when all of its units were closed.
@@ -59,18 +101,34 @@ class UnitBoxes {
     const BoxLanes probe(box);
     const std::size_t top = levels_.size() - 1;
     // Rows of the top level all of whose units come before the end: there are sixteen at most.
-    static constexpr std::array<std::uint32_t, simd::width> first = {0, 1, 2,  3,  4,  5,  6,  7,
-                                                                     8, 9, 10, 11, 12, 13, 14, 15};
-    std::span<const std::uint32_t> rows(first.data(), end >> (shift * (top + 1)));
+    std::span<const std::uint32_t> rows(first_rows.data(), end >> (shift * (top + 1)));
     for (std::size_t l = top; l > 0; --l) {
       rows = through(l, end, probe, rows, next_rows_.data(), counts);
       rows_.swap(next_rows_);
     }
     return through(0, end, probe, rows, found_.data(), counts);
   }
+  /// The same of the units that are shown; rows are covered.
+  std::span<const std::uint32_t> sweep(const FloatBox& box, const ShownUnits& shown, QueryCounts& counts) noexcept {
+    const BoxLanes probe(box);
+    std::span<const std::uint32_t> rows(first_rows.data(), levels_.back().size());
+    for (std::size_t l = levels_.size(); l-- > 0;) {
+      std::vector<std::uint32_t>& to = l == 0 ? found_ : next_rows_;
+      std::size_t n = 0;
+      for (const std::uint32_t r : rows)
+        n += simd::append_lanes(overlapping(levels_[l][r], probe) & shown.lanes(l, r),
+                                r * static_cast<std::uint32_t>(simd::width), to.data() + n);
+      counts.boxes_tested += rows.size();
+      rows = {to.data(), n};
+      if (l > 0) rows_.swap(next_rows_);
+    }
+    return rows;
+  }
 
  private:
   static constexpr std::size_t shift = 4;
+  static constexpr std::array<std::uint32_t, simd::width> first_rows = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                                        8, 9, 10, 11, 12, 13, 14, 15};
   static_assert(std::size_t{1} << shift == simd::width);
 
   /// Lanes of some complete rows of a level, and of the one that the end cuts.
