@@ -69,6 +69,7 @@ class ChainMover {
   void prepare(const Step& step) {
     joints_.clear();
     for (const DofChange& change : step.changes) joints_.push_back(place_of_[change.dof]);
+    std::ranges::sort(joints_);
     parts_.cut(joints_);
     moved_.clear();
     for (std::uint32_t i = 0; i < body_.size(); ++i) {

@@ -98,7 +98,8 @@ void walk(const Model<P>& model, const DofSelection& selection, const F& filter,
     if (testing::Test::HasFailure()) return;
     ++tally.moves;
     tally.free += expected.empty() ? 1 : 0;
-    if (random.one_in(20)) continue;  // the next one drops it
+    if (random.one_in(20)) expect_fresh(moves, reference);  // of the state, while the move is pending
+    if (random.one_in(20)) continue;                        // the next one drops it
     if (random.one_in(30)) {
       moves.set(q);
     } else if (expected.empty() ? !random.one_in(4) : random.one_in(6)) {
@@ -215,6 +216,35 @@ TEST(MoveChecker, LeavesNoTraceAfterManyMoves) {
   auto fresh = one_threshold<Chain>(model, 0.08);
   expect_fresh(moves, fresh);
   EXPECT_FALSE(fresh.self_collides());
+}
+
+TEST(MoveChecker, AnswersForThousandsOfPointsAsFullQueries) {
+  // More than 256 blocks: there are boxes above rows of boxes, and rows that move as a whole.
+  Random random(seed + 6);
+  const Model<Point> model = comb(random, 1400, Vec3::Zero());
+  ASSERT_GT(model.size(), 256 * simd::width);
+  MoveChecker moves(one_threshold<Chain>(model, 0.3));
+  auto reference = one_threshold<Chain>(model, 0.3);
+  std::size_t verdicts[2] = {0, 0};
+  for (int step = 0; step < (test_all() ? 20'000 : 1000); ++step) {
+    std::vector<DofChange> changes;
+    for (std::size_t k = 1 + random.below(4); k-- > 0;) {
+      const std::size_t dof = random.below(moves.dof_count());
+      if (std::ranges::any_of(changes, [&](const DofChange& c) { return c.dof == dof; })) continue;
+      changes.push_back({dof, moves.configuration()[dof] + random.uniform(-1.5, 1.5)});
+    }
+    std::vector<double> q(moves.configuration().begin(), moves.configuration().end());
+    for (const DofChange& change : changes) q[change.dof] = change.value;
+    reference.update(q);
+    const bool is_free = moves.try_move(changes);
+    ASSERT_EQ(is_free, !reference.self_collides()) << "step " << step;
+    ++verdicts[is_free ? 1 : 0];
+    if (is_free && !random.one_in(4)) moves.accept();
+  }
+  std::printf("%zu colliding, %zu free\n", verdicts[0], verdicts[1]);
+  EXPECT_GT(verdicts[0], 20U);
+  EXPECT_GT(verdicts[1], 20U);
+  EXPECT_EQ(moves.counts().full_queries, 0U);
 }
 
 TEST(MoveChecker, AllocatesNothingOnceItIsWarm) {

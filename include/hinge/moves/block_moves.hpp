@@ -10,7 +10,6 @@
 #include <limits>
 #include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "hinge/core/id.hpp"
@@ -24,6 +23,7 @@
 #include "hinge/moves/move_frames.hpp"
 #include "hinge/moves/moved_blocks.hpp"
 #include "hinge/moves/moving_parts.hpp"
+#include "hinge/moves/near_rows.hpp"
 #include "hinge/policy/distance_matrix.hpp"
 #include "hinge/policy/pair_filter.hpp"
 #include "hinge/policy/primitive.hpp"
@@ -32,8 +32,8 @@
 
 namespace hinge {
 
-/// For primitives whose batches turn (TurnsBatch). Blocks of one part keep their mutual placement and never meet: they
-/// are hidden while they are swept, each against all that stands still or was turned before.
+/// For primitives whose batches turn (TurnsBatch). Blocks of one part keep their mutual placement and never meet: each
+/// is swept against all that stands still and what was turned before its part.
 template <Primitive P>
 class BlockMoves {
  public:
@@ -45,34 +45,28 @@ class BlockMoves {
   void set(std::span<const double> q, const MovingParts& parts) {
     frames_.set(q, parts);
     blocks_.forget_extent();
-    for (std::uint32_t b = 0; b < layout().block_count(); ++b) {
-      blocks_.place(b, frames_.frames());
-      blocks_.show(b);
-    }
-    cover_all();
+    for (std::uint32_t b = 0; b < layout().block_count(); ++b) blocks_.place(b, frames_.frames());
+    blocks_.cover_all();
   }
   /// Moves to other values of joints, which `parts` are cut at, without asking for pairs.
   void jump(std::span<const JointValue> values, const MovingParts& parts) {
-    frames_.try_values(values, parts);
-    frames_.keep(parts);
+    frames_.jump(values, parts);
     moved_.find(parts);
-    for (const auto& some : {moved_.whole(), moved_.cut()})
-      for (const std::uint32_t b : some) {
-        blocks_.place(b, frames_.frames());
-        blocks_.show(b);
-      }
-    cover_moved();
+    for (const MovedBlocks::Range& range : moved_.whole())
+      for (std::uint32_t r = range.begin; r < range.end; ++r) blocks_.place(blocks_.block(r), frames_.frames());
+    for (const MovedBlocks::Cut& cut : moved_.cut()) blocks_.place(blocks_.block(cut.rank), frames_.frames());
+    blocks_.cover_all();
   }
 
   /// Can floats hold the present coordinates?
   bool holds() const noexcept { return std::isfinite(blocks_.extent()); }
   std::size_t block_count() const noexcept { return layout().block_count(); }
 
-  /// Moves joints to other values, `parts` being cut at them; returns the number of blocks that this takes along.
+  /// Moves joints to other values, most_kept at most, `parts` being cut at them; returns the number of blocks that this
+  /// takes along.
   std::size_t begin(std::span<const JointValue> values, const MovingParts& parts) {
     frames_.try_values(values, parts);
     moved_.find(parts);
-    turned_ = 0;
     return moved_.count();
   }
 
@@ -80,7 +74,7 @@ class BlockMoves {
   /// visit(i, j), which answers false to stop. Exclusions that a filter lists were regarded. motion_error: model unit.
   /// False when floats cannot hold the new coordinates: take the move back then.
   template <class Visit>
-  bool search(double cutoff, double motion_error, QueryCounts& counts, const Visit& visit);
+  bool search(const MovingParts& parts, double cutoff, double motion_error, QueryCounts& counts, const Visit& visit);
 
   /// The move stays, or is taken back.
   void accept(const MovingParts& parts);
@@ -92,26 +86,12 @@ class BlockMoves {
   template <PairFilter F>
   BlockMoves(std::shared_ptr<const WideParts<P>> wide, const SelectedModel<P>& model, const F& filter,
              const MovingParts& parts)
-      : near_(std::make_shared<const NearMasks>(wide->layout, model, filter, false)),
-        table_(wide->classes.table(wide->layout.scale)),
-        blocks_(wide, parts),
+      : table_(wide->classes.table(wide->layout.scale)),
         moved_(wide->layout, model, parts),
-        frames_(model.groups(), parts) {
-    // A pair of near blocks is listed for both.
-    std::vector<std::vector<Near>> lists(layout().block_count());
-    for (std::uint32_t b = 0; b < lists.size(); ++b)
-      for (const std::uint32_t a : near_->partners(b))
-        if (a != b) {
-          lists[b].push_back({a, near_->find(b, a)});
-          lists[a].push_back({b, near_->find(b, a)});
-        }
-    for (auto& list : lists) {
-      near_start_.push_back(static_cast<std::uint32_t>(near_list_.size()));
-      std::sort(list.begin(), list.end(), [](const Near& x, const Near& y) { return x.partner < y.partner; });
-      near_list_.insert(near_list_.end(), list.begin(), list.end());
-      near_list_.push_back({std::numeric_limits<std::uint32_t>::max(), nullptr});
-    }
-  }
+        blocks_(wide, parts, moved_.order()),
+        frames_(model.groups(), parts),
+        near_(std::make_shared<const NearRows>(NearMasks(wide->layout, model, filter, false), blocks_.ranks())),
+        met_(wide->layout.block_count() + 1) {}
   /// Primitives that no pair can hold are left out.
   template <DistanceMatrix D>
   static std::shared_ptr<const WideParts<P>> wide_parts(const SelectedModel<P>& model, const D& matrix) {
@@ -123,36 +103,24 @@ class BlockMoves {
 
   const BlockLayout& layout() const noexcept { return blocks_.layout(); }
   void set_thresholds(double cutoff, double motion_error) noexcept;
-  void face(std::uint32_t b, QueryCounts& counts);
-  void cover_all() noexcept {
-    for (std::uint32_t b = 0; b < block_count(); b += simd::width) blocks_.cover(b);
-  }
-  void cover_moved() noexcept {
-    for (const auto& some : {moved_.whole(), moved_.cut()}) cover(some);
-  }
-  void cover(std::span<const std::uint32_t> some) noexcept {
-    if (block_count() <= simd::width * simd::width) return;  // no boxes above rows
-    std::size_t row = block_count();
-    for (const std::uint32_t b : some)
-      if (std::exchange(row, b / simd::width) != b / simd::width) blocks_.cover(b);
-  }
+  void face(std::uint32_t b, std::size_t turned, std::span<const PartLanes> pieces, QueryCounts& counts);
+  void face_itself(std::uint32_t b, std::span<const PartLanes> pieces);
 
-  struct Near {
-    std::uint32_t partner;
-    const simd::Bits* rows;
+  struct Met {
+    std::uint32_t block, rank;
+    simd::Bits in_b;
   };
   /// Tasks listed before they are run: a hit among the first saves turning the rest.
   static constexpr std::size_t longest_run = 16 * simd::width;
 
-  std::shared_ptr<const NearMasks> near_;
   ThresholdTable table_;
-  MoveBlocks<P> blocks_;
   MovedBlocks moved_;
+  MoveBlocks<P> blocks_;
   MoveFrames frames_;
-  std::vector<Near> near_list_;  // per block, by partner, with an end
-  std::vector<std::uint32_t> near_start_;
-  std::vector<FloatMotion> motions_;  // per part
-  std::size_t turned_ = 0;            // of moved_.cut(), then of its parts, last first
+  std::shared_ptr<const NearRows> near_;
+  std::vector<FloatMotion> motions_;         // per part
+  std::vector<std::uint32_t> turned_parts_;  // of what was turned, but for blocks that are cut
+  std::vector<Met> met_;                     // scratch
   Tasks tasks_;
   Thresholds16 thresholds_;
   double cutoff_ = 0.0, motion_error_ = 0.0;  // that thresholds_ are for
@@ -170,40 +138,70 @@ void BlockMoves<P>::set_thresholds(double cutoff, double motion_error) noexcept 
                   float_above(beyond + blocks_.band(static_cast<double>(table_.largest) + beyond, motion_error)));
 }
 
-/// Lists the tasks of a block against all that are shown, as TaskLister does.
+/// Lists the tasks of a block against all that stands still and the first `turned` of what was turned, as TaskLister
+/// does. pieces: when it is cut; lanes that moved with the other block are left out.
 template <Primitive P>
-void BlockMoves<P>::face(std::uint32_t b, QueryCounts& counts) {
+void BlockMoves<P>::face(std::uint32_t b, std::size_t turned, std::span<const PartLanes> pieces, QueryCounts& counts) {
   const float more = thresholds_.margin();
   const FloatBox& own = blocks_.box(b);
+  const FloatBox probe = own.grown(more);
   const typename Batch<P>::Grown lanes(blocks_.floats(b), more + blocks_.reach(b));
   const BoxLanes box(own.grown(more + blocks_.largest_reach()));
   const simd::Bits real = layout().blocks[b].real;
-  const Near* near = near_list_.data() + near_start_[b];
-  for (const std::uint32_t a : blocks_.sweep(own.grown(more), counts)) {
+  const auto apart_from = [&](std::uint32_t part) {
+    for (const PartLanes& piece : pieces)
+      if (piece.part == part) return real & ~piece.lanes;
+    return real;
+  };
+  // Those that no lane of b comes near are most, and neither foreseen nor looked at closely.
+  std::size_t count = 0;
+  const auto meet = [&](std::uint32_t rank, simd::Bits mine) __attribute__((always_inline)) {
+    const std::uint32_t a = blocks_.block(rank);
+    met_[count] = {a, rank, lanes.meets(blocks_.box(a)) & mine};
+    count += met_[count].in_b != 0;
+  };
+  const simd::Bits moving = apart_from(0);
+  for (const std::uint32_t rank : blocks_.standing(probe, counts)) meet(rank, moving);
+  const std::size_t in_order = count;
+  if (turned > 0)
+    for (const std::uint32_t k : blocks_.turned(probe, turned, counts))
+      meet(blocks_.rank(blocks_.turned()[k]), k < turned_parts_.size() ? apart_from(turned_parts_[k]) : real);
+  const NearRows::Near* const first = near_->of(b);
+  const NearRows::Near* near = first;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto& [a, rank, in_b] = met_[k];
     const simd::Bits real_a = layout().blocks[a].real;
-    const simd::Bits in_b = lanes.meets(blocks_.box(a)) & real;
     const simd::Bits in_a = Batch<P>::inside(blocks_.floats(a), box) & real_a;
-    while (near->partner < a) ++near;
-    if (near->partner == a) [[unlikely]] {
-      // Rows belong to the later block.
-      if (a < b)
-        tasks_.add_rows(in_b, blocks_.position(b), blocks_.position(a), near->rows);
-      else
-        tasks_.add_rows(in_a, blocks_.position(a), blocks_.position(b), near->rows);
-      continue;
-    }
     const bool b_by_one = std::popcount(in_b) <= std::popcount(in_a);
-    tasks_.add(b_by_one ? in_b : in_a, blocks_.position(b_by_one ? b : a), blocks_.position(b_by_one ? a : b),
-               b_by_one ? real_a : real);
+    const std::uint32_t one = blocks_.position(b_by_one ? b : a), sixteen = blocks_.position(b_by_one ? a : b);
+    if (k >= in_order) near = first;
+    while (near->partner < rank) ++near;
+    if (near->partner == rank) [[unlikely]]
+      tasks_.add_rows(b_by_one ? in_b : in_a, one, sixteen, near_->rows(b_by_one ? near->mine : near->its).data());
+    else
+      tasks_.add(b_by_one ? in_b : in_a, one, sixteen, b_by_one ? real_a : real);
+  }
+}
+
+/// Each piece of a cut block against the pieces after it.
+template <Primitive P>
+void BlockMoves<P>::face_itself(std::uint32_t b, std::span<const PartLanes> pieces) {
+  simd::Bits rest = simd::all_bits;
+  for (const PartLanes& piece : pieces.first(pieces.size() - 1)) {
+    rest &= ~piece.lanes;
+    LaneRows rows = near_->self(b);
+    for (simd::Bits& row : rows) row &= rest;
+    tasks_.add_rows(piece.lanes & layout().blocks[b].real, blocks_.position(b), blocks_.position(b), rows.data());
   }
 }
 
 template <Primitive P>
 template <class Visit>
-bool BlockMoves<P>::search(double cutoff, double motion_error, QueryCounts& counts, const Visit& visit) {
+bool BlockMoves<P>::search(const MovingParts& parts, double cutoff, double motion_error, QueryCounts& counts,
+                           const Visit& visit) {
   const float extent = blocks_.extent();
-  for (const auto& some : {moved_.whole(), moved_.cut()})
-    for (const std::uint32_t b : some) blocks_.hide(b);
+  for (const MovedBlocks::Range& range : moved_.whole()) blocks_.hide(range.begin, range.end);
+  for (const MovedBlocks::Cut& cut : moved_.cut()) blocks_.hide(cut.rank, cut.rank + 1);
   motions_.resize(moved_.part_count());
   for (std::uint32_t part = 1; part < motions_.size(); ++part)
     motions_[part] = FloatMotion(frames_.transform(part), layout().origin, layout().scale);
@@ -224,43 +222,38 @@ bool BlockMoves<P>::search(double cutoff, double motion_error, QueryCounts& coun
         });
     tasks_.clear();
   };
-  const auto look = [&] {
-    if (blocks_.extent() == extent_) return;
-    wanted = holds();
-    if (wanted) set_thresholds(cutoff, motion_error);
-  };
   std::size_t patience = 1;
-  const auto run_some = [&] {
+  const auto face_it = [&](std::uint32_t b, std::size_t turned, std::span<const PartLanes> pieces) {
+    if (blocks_.extent() != extent) {
+      wanted = holds();
+      if (!wanted) return;
+      set_thresholds(cutoff, motion_error);
+    }
+    face(b, turned, pieces, counts);
     if (tasks_.size() < patience) return;
     patience = std::min(2 * patience, longest_run);
     run();
   };
-  // What a joint cuts first: it is next to what stands still.
-  for (std::size_t k = 0; wanted && k < moved_.cut().size(); ++k) {
-    const std::uint32_t b = moved_.cut()[k];
-    blocks_.turn(b, moved_.lane_parts(k), motions_);
-    ++turned_;
-    look();
-    if (const simd::Bits lanes = near_->self_lanes(b); lanes != 0)
-      tasks_.add_rows(lanes, blocks_.position(b), blocks_.position(b), near_->self_rows(b));
-    face(b, counts);
-    blocks_.show(b);
-    blocks_.cover(b);
-    run_some();
-  }
-  // Then what is farthest down the tree.
+  // What is farthest down the tree first.
+  turned_parts_.clear();
   for (std::uint32_t part = moved_.part_count(); wanted && part-- > 1;) {
-    const std::span<const std::uint32_t> some = moved_.of_part(part);
-    for (std::size_t k = some.size(); wanted && k-- > 0;) {
-      blocks_.turn(some[k], motions_[part]);
-      ++turned_;
-      look();
-      face(some[k], counts);
-      run_some();
-    }
-    if (part == 1) break;  // nothing is left to meet them
-    for (const std::uint32_t b : some) blocks_.show(b);
-    cover(some);
+    const std::span<const MovedBlocks::Range> ranges = moved_.of_part(part);
+    const std::size_t before = turned_parts_.size();
+    for (std::size_t k = ranges.size(); wanted && k-- > 0;)
+      for (std::uint32_t r = ranges[k].end; wanted && r-- > ranges[k].begin;) {
+        const std::uint32_t b = blocks_.block(r);
+        blocks_.turn(b, motions_[part]);
+        turned_parts_.push_back(part);
+        face_it(b, before, {});
+      }
+  }
+  // Then what joints cut: it hardly moved against what it is next to, and costs most.
+  for (std::size_t k = 0; wanted && k < moved_.cut().size(); ++k) {
+    const std::uint32_t b = blocks_.block(moved_.cut()[k].rank);
+    const std::span<const PartLanes> pieces = moved_.pieces(moved_.cut()[k], parts);
+    blocks_.turn(b, pieces, motions_);
+    face_itself(b, pieces);
+    face_it(b, blocks_.turned().size() - 1, pieces);
   }
   if (wanted) run();
   if (holds()) return true;
@@ -271,30 +264,17 @@ bool BlockMoves<P>::search(double cutoff, double motion_error, QueryCounts& coun
 template <Primitive P>
 void BlockMoves<P>::accept(const MovingParts& parts) {
   frames_.keep(parts);
-  for (const auto& some : {moved_.whole(), moved_.cut()})
-    for (const std::uint32_t b : some) {
-      if (blocks_.is_worn(b)) blocks_.place(b, frames_.frames());
-      blocks_.show(b);
-    }
-  cover_moved();
+  if (!blocks_.keep()) return;
+  frames_.settle(parts);
+  for (std::uint32_t b = 0; b < layout().block_count(); ++b)
+    if (blocks_.is_worn(b)) blocks_.place(b, frames_.frames());
+  blocks_.cover_all();
 }
 
 template <Primitive P>
 void BlockMoves<P>::reject() noexcept {
   frames_.undo();
-  const auto back = [&](std::uint32_t b) {
-    if (turned_ > 0) {
-      blocks_.turn_back(b);
-      --turned_;
-    }
-    blocks_.show(b);
-  };
-  for (const std::uint32_t b : moved_.cut()) back(b);
-  for (std::uint32_t part = moved_.part_count(); part-- > 1;) {
-    const std::span<const std::uint32_t> some = moved_.of_part(part);
-    for (std::size_t k = some.size(); k-- > 0;) back(some[k]);
-  }
-  cover_moved();
+  blocks_.turn_back();
 }
 
 }  // namespace hinge

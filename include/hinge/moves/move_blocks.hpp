@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -23,9 +22,11 @@
 #include "hinge/engine/wide/unit_boxes.hpp"
 #include "hinge/engine/wide/wide_state.hpp"
 #include "hinge/kinematics/frame.hpp"
+#include "hinge/moves/moved_blocks.hpp"
 #include "hinge/moves/moving_parts.hpp"
 #include "hinge/primitive/batch.hpp"
 #include "hinge/query/query_options.hpp"
+#include "hinge/simd/gather_bits.hpp"
 #include "hinge/simd/lanes.hpp"
 
 namespace hinge {
@@ -33,30 +34,37 @@ namespace hinge {
 /// x -> R x + t for the floats of blocks.
 struct FloatMotion {
   FloatMotion() = default;
-  FloatMotion(const Pose& motion, const Vec3& origin, double scale) noexcept {
-    const Vec3 moved = (motion * origin - origin) * scale;
-    for (std::size_t k = 0; k < 9; ++k) rotation[k] = static_cast<float>(motion.rotation.data()[k]);
-    for (std::size_t k = 0; k < 3; ++k) translation[k] = static_cast<float>(moved[static_cast<Eigen::Index>(k)]);
+  FloatMotion(const Frame& motion, const Vec3& origin, double scale) noexcept {
+    std::array<double, 4> moved;
+    FrameColumns(motion).place(origin[0], origin[1], origin[2]).store(moved.data());
+    for (std::size_t k = 0; k < 9; ++k) rotation[k] = static_cast<float>(motion.column[k / 3 * 4 + k % 3]);
+    for (std::size_t k = 0; k < 3; ++k)
+      translation[k] = static_cast<float>((moved[k] - origin[static_cast<Eigen::Index>(k)]) * scale);
   }
   std::array<float, 9> rotation{};
   std::array<float, 3> translation{};
 };
 
-/// Every block has two places: one holds its coordinates, a move writes those after it to the other. A block that is
-/// hidden is found by no sweep.
+/// Every block has two places: one holds its coordinates, a move writes those after it to the other. Sweeps go through
+/// what stands still and, in the order of turning, through what was turned.
 template <Primitive P>
 class MoveBlocks {
  public:
   /// After so many moves coordinates are placed in double again: rounding adds up.
   static constexpr unsigned most_turns = 16;
 
-  MoveBlocks(std::shared_ptr<const WideParts<P>> wide, const MovingParts& parts)
+  /// order: of MovedBlocks.
+  MoveBlocks(std::shared_ptr<const WideParts<P>> wide, const MovingParts& parts, std::span<const std::uint32_t> order)
       : wide_(std::move(wide)),
         floats_(2 * wide_->layout.block_count() * Batch<P>::floats),
         class_(floats_.size()),
         box_(2 * wide_->layout.block_count()),
         turns_(2 * wide_->layout.block_count(), 0),
-        boxes_(wide_->layout.block_count()) {
+        order_(order.begin(), order.end()),
+        rank_(order.size()),
+        boxes_(wide_->layout.block_count()),
+        standing_(wide_->layout.block_count()),
+        turned_boxes_(wide_->layout.block_count()) {
     constexpr std::size_t n = Batch<P>::floats;
     for (std::size_t place = 0; place < box_.size(); ++place)
       std::copy_n(wide_->position_class.data() + place / 2 * n, n, class_.data() + place * n);
@@ -64,6 +72,7 @@ class MoveBlocks {
       at_.push_back(2 * b);
       group_place_.push_back(parts.place(layout().groups_of(layout().blocks[b]).front()));
     }
+    for (std::uint32_t r = 0; r < rank_.size(); ++r) rank_[order_[r]] = r;
     for (const std::uint32_t g : wide_->mixed_group) mixed_place_.push_back(parts.place(id<GroupId>(g)));
     double away = 0.0;
     for (const double x : layout().origin) away += 2.0 * std::abs(x);
@@ -108,53 +117,75 @@ class MoveBlocks {
     }
     box_[at_[b]] = box.grown(reach(b));
     turns_[at_[b]] = 0;
+    boxes_.set(rank_[b], box_[at_[b]]);
     see(b);
   }
 
+  std::uint32_t block(std::uint32_t rank) const noexcept { return order_[rank]; }
+  std::uint32_t rank(std::uint32_t b) const noexcept { return rank_[b]; }
+  std::span<const std::uint32_t> ranks() const noexcept { return rank_; }
+  /// Blocks of ranks begin ... end - 1 are going to move: no sweep of what stands still is to find them.
+  void hide(std::uint32_t begin, std::uint32_t end) noexcept { standing_.hide(begin, end); }
   /// Turns a block into its other place.
   void turn(std::uint32_t b, const FloatMotion& by) noexcept {
-    const std::uint32_t from = at_[b];
+    const float* from = floats(b);
     at_[b] ^= 1U;
-    box_[at_[b]] = Batch<P>::turn(floats_.data() + from * Batch<P>::floats, by.rotation, by.translation,
-                                  floats_.data() + position(b))
-                       .grown(reach(b));
-    turns_[at_[b]] = static_cast<std::uint8_t>(turns_[from] + 1);
-    see(b);
+    finish(b, Batch<P>::turn(from, by.rotation, by.translation, floats_.data() + position(b)));
   }
   /// The same where lanes belong to different parts; motions: by part, that of part 0 is not looked at.
-  void turn(std::uint32_t b, std::span<const std::uint32_t> lane_parts, std::span<const FloatMotion> motions) noexcept {
-    const float* from = floats_.data() + position(b);
-    turns_[at_[b] ^ 1U] = static_cast<std::uint8_t>(turns_[at_[b]] + 1);
+  void turn(std::uint32_t b, std::span<const PartLanes> pieces, std::span<const FloatMotion> motions) noexcept {
+    const float* from = floats(b);
     at_[b] ^= 1U;
     float* to = floats_.data() + position(b);
     alignas(64) std::array<float, Batch<P>::floats> turned;
-    simd::Bits left = simd::all_bits;
-    while (left != 0) {
-      const std::uint32_t part = lane_parts[static_cast<std::size_t>(std::countr_zero(left))];
+    for (const PartLanes& piece : pieces) {
       const float* source = from;
-      if (part != 0) {
-        Batch<P>::turn(from, motions[part].rotation, motions[part].translation, turned.data());
+      if (piece.part != 0) {
+        Batch<P>::turn(from, motions[piece.part].rotation, motions[piece.part].translation, turned.data());
         source = turned.data();
       }
-      for (std::size_t lane = 0; lane < simd::width; ++lane) {
-        if (lane_parts[lane] != part) continue;
-        for (std::size_t k = lane; k < Batch<P>::floats; k += simd::width) to[k] = source[k];
-        left &= ~(simd::Bits{1} << lane);
-      }
+      for (std::size_t k = 0; k < Batch<P>::floats; k += simd::width) simd::copy_lanes(piece.lanes, source + k, to + k);
     }
-    box_[at_[b]] = Batch<P>::hull(to).grown(reach(b));
-    see(b);
+    finish(b, Batch<P>::hull(to));
   }
-  /// Back to the place before the move.
-  void turn_back(std::uint32_t b) noexcept { at_[b] ^= 1U; }
-  bool is_worn(std::uint32_t b) const noexcept { return turns_[at_[b]] >= most_turns; }
+  /// Those of the present move, in order.
+  std::span<const std::uint32_t> turned() const noexcept { return turned_; }
+  /// Back to the places before the move.
+  void turn_back() noexcept {
+    for (const std::uint32_t b : turned_) at_[b] ^= 1U;
+    forget_turned();
+  }
+  /// To the places after the move, which turned all that was hidden. True when one was turned so often that what is
+  /// worn is to be placed.
+  bool keep() noexcept {
+    unsigned most = 0;
+    for (const std::uint32_t b : turned_) {
+      boxes_.set(rank_[b], box(b));
+      most = std::max<unsigned>(most, turns_[at_[b]]);
+    }
+    if (boxes_.rows() > simd::width) {  // there are boxes above rows
+      std::size_t row = boxes_.rows();
+      for (const std::uint32_t b : turned_)
+        if (std::exchange(row, rank_[b] / simd::width) != rank_[b] / simd::width) boxes_.cover(rank_[b]);
+    }
+    forget_turned();
+    return most >= most_turns;
+  }
+  /// Was it turned half as often as it may be?
+  bool is_worn(std::uint32_t b) const noexcept { return 2 * turns_[at_[b]] >= most_turns; }
 
-  void hide(std::uint32_t b) noexcept { boxes_.set(b, FloatBox{}); }
-  void show(std::uint32_t b) noexcept { boxes_.set(b, box(b)); }
-  /// To be called for one block of each row after blocks were shown, before the next sweep.
-  void cover(std::uint32_t b) noexcept { boxes_.cover(b); }
-  std::span<const std::uint32_t> sweep(const FloatBox& box, QueryCounts& counts) noexcept {
-    return boxes_.sweep(box, layout().block_count(), counts);
+  /// To be called when blocks were placed, before the next sweep.
+  void cover_all() noexcept {
+    for (std::size_t b = 0; b < layout().block_count(); b += simd::width) boxes_.cover(b);
+  }
+
+  /// Ranks of blocks that stand still and meet a box, in order; valid until the next sweep.
+  std::span<const std::uint32_t> standing(const FloatBox& box, QueryCounts& counts) noexcept {
+    return boxes_.sweep(box, standing_, counts);
+  }
+  /// Which of the first `end` turned blocks do.
+  std::span<const std::uint32_t> turned(const FloatBox& box, std::size_t end, QueryCounts& counts) noexcept {
+    return turned_boxes_.sweep(box, end, counts);
   }
 
   /// Largest magnitude of a coordinate met so far, reaches included, scaled, rounded up; infinite when floats cannot
@@ -176,6 +207,20 @@ class MoveBlocks {
   }
 
  private:
+  /// It was turned into its present place.
+  void finish(std::uint32_t b, const FloatBox& around) noexcept {
+    const std::uint32_t at = at_[b];
+    box_[at] = around.grown(reach(b));
+    turns_[at] = static_cast<std::uint8_t>(turns_[at ^ 1U] + 1);
+    turned_boxes_.set(turned_.size(), box_[at]);
+    turned_boxes_.close(turned_.size());
+    turned_.push_back(b);
+    see(b);
+  }
+  void forget_turned() noexcept {
+    turned_.clear();
+    standing_.show_all();
+  }
   void see(std::uint32_t b) noexcept {
     const float extent = box(b).extent();
     if (extent <= extent_) [[likely]]
@@ -195,7 +240,11 @@ class MoveBlocks {
   std::vector<std::uint32_t> at_;           // per block: which of its places
   std::vector<std::uint32_t> group_place_;  // per block: of its first group
   std::vector<std::uint32_t> mixed_place_;  // where WideParts has mixed_group
-  UnitBoxes boxes_;                         // of the blocks that are shown
+  std::vector<std::uint32_t> order_, rank_;
+  UnitBoxes boxes_;  // of all blocks before the present move, by rank
+  ShownUnits standing_;
+  std::vector<std::uint32_t> turned_;
+  UnitBoxes turned_boxes_;  // of turned_
   double rounding_size_ = 0.0;
   float extent_ = 0.0F;
 };

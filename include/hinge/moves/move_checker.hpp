@@ -182,15 +182,17 @@ class MoveChecker {
   /// Answers by blocks, in tried_known_; false when the full query is to be asked.
   bool try_blocks(bool all) {
     if constexpr (by_blocks) {
-      if (!rounding_.is_small() || least_blocks_per_joint * changes_.size() > blocks_->block_count()) return false;
+      if (!rounding_.is_small() || least_blocks_per_joint * changes_.size() > blocks_->block_count() ||
+          changes_.size() > MoveFrames::most_kept)
+        return false;
       catch_up();
+      if (!blocks_->holds()) return false;
       cut_.cut(changes_);
-      if (!blocks_->holds() || parts().depth() > MoveRounding::most_nested) return false;
       counts_.blocks_turned += blocks_->begin(cut_.values(), parts());
       pending_ = Pending::blocks;
       if (recheck(all) && !all) return true;
       const auto visit = [&](PrimitiveId i, PrimitiveId j) { return find_near(std::min(i, j), std::max(i, j), all); };
-      if (blocks_->search(rounding_.tolerance(), rounding_.motion_error(), counts_.query, visit)) return true;
+      if (blocks_->search(parts(), rounding_.tolerance(), rounding_.motion_error(), counts_.query, visit)) return true;
       reject();
     }
     return false;
@@ -284,6 +286,7 @@ template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, c
 const Frame& MoveChecker<P, F, D, EngineOf>::frame(GroupId group) {
   if constexpr (by_blocks) {
     catch_up();  // not behind while a move by blocks, which needs its cut, is pending
+    blocks_->frames().settle(parts());
     return blocks_->frames().frame(parts().place(group));
   }
   hierarchy_.go_to_state(q_);

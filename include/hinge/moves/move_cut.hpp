@@ -29,28 +29,28 @@ using JointValue = std::pair<std::uint32_t, double>;
 /// Holds what checking and cutting take, so that no move costs an allocation.
 class MoveCut {
  public:
-  MoveCut(const RigidGroups& groups, std::size_t dof_count)
-      : parts_(groups), place_(dof_count, 0), slides_(dof_count, 0), named_at_(dof_count, 0) {
+  MoveCut(const RigidGroups& groups, std::size_t dof_count) : parts_(groups), dofs_(dof_count) {
     for (std::size_t g = 1; g < groups.size(); ++g) {
       const RigidGroup& group = groups[id<GroupId>(g)];
-      place_[group.dof] = parts_.place(id<GroupId>(g));
-      if (group.joint.kind == JointKind::prismatic) slides_[group.dof] = 1;
+      dofs_[group.dof].place = parts_.place(id<GroupId>(g));
+      dofs_[group.dof].slides = group.joint.kind == JointKind::prismatic;
     }
   }
 
-  bool is_slide(std::size_t dof) const noexcept { return slides_[dof] != 0; }
+  bool is_slide(std::size_t dof) const noexcept { return dofs_[dof].slides; }
 
   /// ConfigurationError: a DOF that does not exist or is named twice, a value that is not finite, a slide beyond
   /// largest_length.
   void check(std::span<const DofChange> changes) {
     ++list_;
     for (const DofChange& change : changes) {
-      if (change.dof >= place_.size())
-        refuse(change, "the selection has " + std::to_string(place_.size()) + " values, counted from 0");
-      if (named_at_[change.dof] == list_) refuse(change, "it is changed twice in one move");
-      named_at_[change.dof] = list_;
+      if (change.dof >= dofs_.size())
+        refuse(change, "the selection has " + std::to_string(dofs_.size()) + " values, counted from 0");
+      Dof& dof = dofs_[change.dof];
+      if (dof.named_at == list_) refuse(change, "it is changed twice in one move");
+      dof.named_at = list_;
       if (!is_finite(change.value)) refuse(change, "expected a finite number");
-      if (is_slide(change.dof) && !is_length(change.value)) refuse(change, "expected a slide of at most 2^1000");
+      if (dof.slides && !is_length(change.value)) refuse(change, "expected a slide of at most 2^1000");
     }
   }
 
@@ -58,14 +58,14 @@ class MoveCut {
   void cut(std::span<const DofChange> changes) {
     values_.clear();
     joints_.clear();
-    for (const DofChange& change : changes) {
-      values_.emplace_back(place_[change.dof], change.value);
-      joints_.push_back(place_[change.dof]);
-    }
+    for (const DofChange& change : changes) values_.emplace_back(dofs_[change.dof].place, change.value);
+    std::ranges::sort(values_);
+    for (const auto& [place, value] : values_) joints_.push_back(place);
     parts_.cut(joints_);
   }
-  /// As cut last.
+  /// As cut last. Part k + 1 moves with joint k.
   const MovingParts& parts() const noexcept { return parts_; }
+  /// Sorted by place.
   std::span<const JointValue> values() const noexcept { return values_; }
 
  private:
@@ -77,10 +77,14 @@ class MoveCut {
     throw ConfigurationError(what + ": " + why);
   }
 
+  struct Dof {
+    std::uint64_t named_at = 0;  // the last list that names it
+    std::uint32_t place = 0;
+    bool slides = false;
+  };
+
   MovingParts parts_;
-  std::vector<std::uint32_t> place_;     // per DOF
-  std::vector<std::uint8_t> slides_;     // per DOF
-  std::vector<std::uint64_t> named_at_;  // per DOF: the last list that names it
+  std::vector<Dof> dofs_;
   std::uint64_t list_ = 0;
   std::vector<JointValue> values_;
   std::vector<std::uint32_t> joints_;  // scratch

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "hinge/core/id.hpp"
@@ -17,106 +19,150 @@
 
 namespace hinge {
 
+/// Lanes of a block that one part takes along.
+struct PartLanes {
+  std::uint32_t part;
+  simd::Bits lanes;
+};
+
 class MovedBlocks {
  public:
   template <Primitive P>
   MovedBlocks(const BlockLayout& layout, const SelectedModel<P>& model, const MovingParts& parts)
-      : first_(layout.block_count()), last_(layout.block_count()), seen_(layout.block_count(), 0) {
-    for (const std::uint32_t i : layout.primitive)
-      lane_place_.push_back(parts.place(model.group_of(id<PrimitiveId>(i))));
+      : last_(layout.block_count()),
+        seen_(layout.block_count(), 0),
+        reaching_(parts.size() + 1),
+        from_(parts.size() + 1) {
+    std::vector<std::uint32_t> first(layout.block_count());
     for (std::uint32_t b = 0; b < layout.block_count(); ++b) {
-      const auto lanes = std::span(lane_place_).subspan(b * simd::width, simd::width);
-      first_[b] = *std::min_element(lanes.begin(), lanes.end());
-      last_[b] = *std::max_element(lanes.begin(), lanes.end());
+      run_start_.push_back(static_cast<std::uint32_t>(runs_.size()));
+      std::vector<Run> runs;
+      for (std::size_t lane = 0; lane < simd::width; ++lane) {
+        const PrimitiveId i = id<PrimitiveId>(layout.primitive[b * simd::width + lane]);
+        const std::uint32_t place = parts.place(model.group_of(i));
+        const auto at = std::ranges::lower_bound(runs, place, {}, &Run::place);
+        const simd::Bits bit = simd::Bits{1} << lane;
+        if (at != runs.end() && at->place == place)
+          at->lanes |= bit;
+        else
+          runs.insert(at, {place, bit});
+      }
+      first[b] = runs.front().place;
+      last_[b] = runs.back().place;
+      runs_.insert(runs_.end(), runs.begin(), runs.end());
       order_.push_back(b);
     }
-    std::sort(order_.begin(), order_.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return first_[a] != first_[b] ? first_[a] < first_[b] : a < b; });
-    // Blocks nearly follow each other along the tree: those before the first that reaches a place are not looked at.
-    reaching_.assign(parts.size(), 0);
-    std::uint32_t k = 0;
-    for (std::uint32_t p = 0; p < parts.size(); ++p) {
-      while (k < order_.size() && last_[order_[k]] < p) ++k;
-      reaching_[p] = k;
+    run_start_.push_back(static_cast<std::uint32_t>(runs_.size()));
+    std::ranges::sort(order_, {}, [&](std::uint32_t b) { return std::pair(first[b], b); });
+    std::uint32_t reaching = 0, from = 0;
+    for (std::uint32_t p = 0; p <= parts.size(); ++p) {
+      while (reaching < order_.size() && last_[order_[reaching]] < p) ++reaching;
+      while (from < order_.size() && first[order_[from]] < p) ++from;
+      reaching_[p] = reaching;
+      from_[p] = from;
     }
   }
+
+  /// All blocks by the first of their places. Ranks are positions in it.
+  std::span<const std::uint32_t> order() const noexcept { return order_; }
 
   /// Finds what the parts of a cut take along.
   void find(const MovingParts& parts);
 
-  std::size_t count() const noexcept { return whole_.size() + cut_.size(); }
-  std::uint32_t part_count() const noexcept { return static_cast<std::uint32_t>(start_.size()) - 1; }
-  /// Blocks that lie in one part.
-  std::span<const std::uint32_t> of_part(std::uint32_t part) const noexcept {
-    return std::span(whole_).subspan(start_[part], start_[part + 1] - start_[part]);
-  }
-  std::span<const std::uint32_t> whole() const noexcept { return whole_; }
-  /// Blocks that lie in several, and the parts of their lanes.
-  std::span<const std::uint32_t> cut() const noexcept { return cut_; }
-  std::span<const std::uint32_t> lane_parts(std::size_t k) const noexcept {
-    return std::span(lane_part_).subspan(k * simd::width, simd::width);
-  }
-
- private:
-  struct Found {
-    std::uint32_t block, part;
+  /// Ranks begin ... end - 1 lie in one part.
+  struct Range {
+    std::uint32_t begin, end, part;
   };
 
-  std::vector<std::uint32_t> lane_place_;    // per slot
-  std::vector<std::uint32_t> first_, last_;  // per block: its places
-  std::vector<std::uint32_t> order_;         // blocks by their first place
-  std::vector<std::uint32_t> reaching_;      // per place: the first in order_ whose last place is not before it
-  std::vector<std::uint64_t> seen_;          // per block: the last call of find() that met it
+  /// How many blocks move.
+  std::size_t count() const noexcept { return count_; }
+  std::uint32_t part_count() const noexcept { return static_cast<std::uint32_t>(start_.size()) - 1; }
+  /// Those of a part, and of all parts.
+  std::span<const Range> of_part(std::uint32_t part) const noexcept {
+    return std::span(whole_).subspan(start_[part], start_[part + 1] - start_[part]);
+  }
+  std::span<const Range> whole() const noexcept { return whole_; }
+  /// Blocks that may lie in several.
+  struct Cut {
+    std::uint32_t rank, stretch;  ///< no stretch before that one holds any of its places
+  };
+  std::span<const Cut> cut() const noexcept { return cut_; }
+  /// What each part takes of such a block, what most lanes belong to last; valid until the next call.
+  std::span<const PartLanes> pieces(const Cut& cut, const MovingParts& parts);
+
+ private:
+  struct Run {
+    std::uint32_t place;
+    simd::Bits lanes;
+  };
+  /// A block that is not known to lie in stretch t.
+  void add_cut(std::uint32_t rank, const MovingParts::Stretch& stretch, std::size_t t) {
+    const std::uint32_t b = order_[rank];
+    if (last_[b] < stretch.begin || seen_[b] == call_) return;
+    seen_[b] = call_;
+    cut_.push_back({rank, static_cast<std::uint32_t>(t)});
+  }
+
+  std::vector<std::uint32_t> run_start_;  // per block
+  std::vector<Run> runs_;                 // of one place, places in order
+  std::vector<std::uint32_t> last_;       // per block: its last place
+  std::vector<std::uint64_t> seen_;       // per block: the last call of find() that met it
+  std::vector<std::uint32_t> order_;
+  std::vector<std::uint32_t> reaching_;  // per place: no rank before reaches it; blocks nearly follow the tree
+  std::vector<std::uint32_t> from_;      // per place: the first rank that does not start before it
   std::uint64_t call_ = 0;
-  std::vector<Found> found_;
-  std::vector<std::uint32_t> whole_, cut_, lane_part_;
+  std::size_t count_ = 0;
+  std::vector<Range> found_, whole_;
+  std::vector<Cut> cut_;
+  std::vector<PartLanes> pieces_;           // scratch
   std::vector<std::uint32_t> start_{0, 0};  // per part, in whole_
 };
+
+inline std::span<const PartLanes> MovedBlocks::pieces(const Cut& cut, const MovingParts& parts) {
+  const std::span<const MovingParts::Stretch> stretches = parts.stretches();
+  const std::uint32_t b = order_[cut.rank];
+  std::size_t t = cut.stretch;
+  pieces_.clear();
+  for (std::uint32_t r = run_start_[b]; r < run_start_[b + 1]; ++r) {
+    const std::uint32_t place = runs_[r].place;
+    while (t + 1 < stretches.size() && stretches[t].end <= place) ++t;
+    const std::uint32_t part = stretches[t].begin <= place && place < stretches[t].end ? stretches[t].part : 0;
+    const auto piece = std::ranges::find(pieces_, part, &PartLanes::part);
+    if (piece == pieces_.end())
+      pieces_.push_back({part, runs_[r].lanes});
+    else
+      piece->lanes |= runs_[r].lanes;
+  }
+  const auto most = std::ranges::max_element(pieces_, {}, [](const PartLanes& p) { return std::popcount(p.lanes); });
+  std::swap(*most, pieces_.back());
+  return pieces_;
+}
 
 inline void MovedBlocks::find(const MovingParts& parts) {
   ++call_;
   found_.clear();
   cut_.clear();
-  lane_part_.clear();
   start_.assign(parts.parts().size() + 1, 0);
   const std::span<const MovingParts::Stretch> stretches = parts.stretches();
   for (std::size_t t = 0; t < stretches.size(); ++t) {
     const MovingParts::Stretch& s = stretches[t];
-    for (std::size_t k = reaching_[s.begin]; k < order_.size() && first_[order_[k]] < s.end; ++k) {
-      const std::uint32_t b = order_[k];
-      if (last_[b] < s.begin || seen_[b] == call_) continue;
-      seen_[b] = call_;
-      std::uint32_t part = s.part;
-      if (first_[b] < s.begin || last_[b] >= s.end) {
-        // Places of lanes mostly ascend, and none is in an earlier stretch, which would have met the block.
-        const std::size_t at = lane_part_.size();
-        std::size_t in = t;
-        bool same = true;
-        std::uint32_t before = 0;
-        for (std::size_t lane = 0; lane < simd::width; ++lane) {
-          const std::uint32_t place = lane_place_[b * simd::width + lane];
-          if (place < before) in = t;
-          before = place;
-          while (in + 1 < stretches.size() && stretches[in].end <= place) ++in;
-          const bool inside = stretches[in].begin <= place && place < stretches[in].end;
-          lane_part_.push_back(inside ? stretches[in].part : 0);
-          same = same && lane_part_.back() == lane_part_[at];
-        }
-        part = lane_part_[at];
-        if (!same) {
-          cut_.push_back(b);
-          continue;
-        }
-        lane_part_.resize(at);
-        if (part == 0) continue;
-      }
-      found_.push_back({b, part});
-      ++start_[part + 1];
+    // Blocks that start before the stretch, those that lie in it, and those that may reach beyond.
+    const std::uint32_t begin = from_[s.begin], end = from_[s.end];
+    const std::uint32_t beyond = std::clamp(reaching_[s.end], begin, end);
+    for (std::uint32_t rank = reaching_[s.begin]; rank < begin; ++rank) add_cut(rank, s, t);
+    if (begin < beyond) {
+      found_.push_back({begin, beyond, s.part});
+      ++start_[s.part + 1];
     }
+    for (std::uint32_t rank = beyond; rank < end; ++rank) add_cut(rank, s, t);
   }
+  count_ = cut_.size();
   for (std::size_t part = 1; part < start_.size(); ++part) start_[part] += start_[part - 1];
   whole_.resize(found_.size());
-  for (const Found& f : found_) whole_[start_[f.part]++] = f.block;
+  for (const Range& f : found_) {
+    whole_[start_[f.part]++] = f;
+    count_ += f.end - f.begin;
+  }
   for (std::size_t part = start_.size() - 1; part > 0; --part) start_[part] = start_[part - 1];
   start_[0] = 0;
 }

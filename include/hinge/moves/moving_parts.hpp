@@ -41,17 +41,15 @@ class MovingParts {
   struct Stretch {
     std::uint32_t begin, end, part;
   };
-  /// Moves with the joint at place `joint`, which hangs on part `parent` and, through `depth` changed joints in all, on
-  /// what stands still; `top` is the place of the first of those.
+  /// Moves with the joint at place `joint`, which hangs on part `parent`; `top` is the place of the first changed joint
+  /// between it and what stands still.
   struct Part {
-    std::uint32_t joint = 0, parent = 0, top = 0, depth = 0;
+    std::uint32_t joint = 0, parent = 0, top = 0;
   };
 
-  /// changed: places of the joints of a move; sorted here. Without 0.
-  void cut(std::vector<std::uint32_t>& changed) {
-    std::sort(changed.begin(), changed.end());
+  /// changed: places of the joints of a move, sorted, without 0. Joint k moves part k + 1.
+  void cut(std::span<const std::uint32_t> changed) {
     stretches_.clear();
-    depth_ = 0;
     parts_.resize(1);
     open_.clear();
     std::uint32_t at = 0;
@@ -68,8 +66,7 @@ class MovingParts {
       at = joint;
       const std::uint32_t parent = open_.empty() ? 0 : open_.back();
       open_.push_back(static_cast<std::uint32_t>(parts_.size()));
-      parts_.push_back({joint, parent, parent == 0 ? joint : parts_[parent].top, parts_[parent].depth + 1});
-      depth_ = std::max(depth_, parts_.back().depth);
+      parts_.push_back({joint, parent, parent == 0 ? joint : parts_[parent].top});
     }
     close(size());
   }
@@ -78,8 +75,6 @@ class MovingParts {
   std::span<const Stretch> stretches() const noexcept { return stretches_; }
   /// Part 0 stands still; the others come after those they hang on.
   std::span<const Part> parts() const noexcept { return parts_; }
-  /// The most changed joints between a part and what stands still.
-  std::uint32_t depth() const noexcept { return depth_; }
   /// The part of the last cut that a place belongs to.
   std::uint32_t part_of(std::uint32_t place) const noexcept {
     const auto after = std::upper_bound(stretches_.begin(), stretches_.end(), place,
@@ -98,7 +93,6 @@ class MovingParts {
   std::vector<std::uint32_t> parent_, end_;
   std::vector<Part> parts_;
   std::vector<Stretch> stretches_;
-  std::uint32_t depth_ = 0;
   std::vector<std::uint32_t> open_;  // scratch: parts around a place, the innermost last
 };
 

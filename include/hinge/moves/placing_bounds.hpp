@@ -27,10 +27,13 @@ class PlacingBounds {
   /// How much the distance of two primitives that a joint moves together can change by rounding between any two
   /// configurations, model unit.
   double distance_error() const noexcept { return 4.0 * (64.0 * half_ulp * (steps_ + 1.0) + 4.0 * skew_) * size_; }
-  /// How far a point may be from where forward kinematics places it when the motion of its part, composed from up to
-  /// `most_nested` changed joints, takes it there from where forward kinematics placed it before; model unit.
-  double motion_error() const noexcept { return (512.0 * half_ulp * (steps_ + 1.0) + 40.0 * skew_) * size_; }
-  static constexpr std::uint32_t most_nested = 16;
+  /// How far a point may be from where forward kinematics places it when motions of parts take it there from where
+  /// forward kinematics placed it once, `most_kept` joints having been changed since; model unit.
+  double motion_error() const noexcept {
+    constexpr double kept = most_kept;
+    return ((128.0 * (steps_ + 1.0) + 384.0 * kept * (kept + 1.0)) * half_ulp + (2.0 * kept + 4.0) * skew_) * size_;
+  }
+  static constexpr std::size_t most_kept = 32;
 
  private:
   static constexpr double half_ulp = 0x1p-53;
@@ -82,8 +85,6 @@ PlacingBounds::PlacingBounds(const SelectedModel<P>& model, double largest_slide
 /// What rounding may do to a move; slides are known up to a limit.
 class MoveRounding {
  public:
-  static constexpr std::uint32_t most_nested = PlacingBounds::most_nested;
-
   template <Primitive P>
   explicit MoveRounding(const SelectedModel<P>& model) {
     Aabb around;
