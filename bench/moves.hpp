@@ -106,12 +106,12 @@ class ChainMover {
   std::span<const Frame> poses_;
 };
 
-/// Steps change `dofs` DOF by N(0, 3 degrees) each. Contestants take turns on runs of steps, as a walk is long in
-/// practice and finds its data in the cache, and the walk is gone through several times; the best time of each step
-/// counts, so that no pre-emption does.
+/// Steps change `dofs` DOF by N(0, 3 degrees) each. Contestants take turns on runs of steps long enough to find their
+/// data in the cache, as a walk of thousands does in practice, and the walk is gone through several times; the best
+/// time of each step counts, so that no pre-emption does.
 inline Walk walk(Scene& scene, std::size_t dofs, std::size_t steps) {
   constexpr double sigma = 3.0 * std::numbers::pi / 180.0;
-  constexpr std::size_t run = 50;
+  constexpr std::size_t run = 500;
   auto full = scene.make<Wide>(), moved_only = full;
   MoveChecker moves(full);
   ChainMover<ScalarLeaves<BoxVolume>> chain(scene);
