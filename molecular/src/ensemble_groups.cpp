@@ -165,6 +165,12 @@ EnsembleGroups find_ensemble_groups(const EnsembleSpread& spread, double toleran
 
 std::vector<HeldPlacement> held_placements(const Molecule& molecule, const EnsembleGroups& groups) {
   const std::vector<Vec3>& x = molecule.structure().models.front();
+  // Atoms on an axis are placed with one of its sides and bonded into the other: they do not tell which is meant.
+  std::vector<bool> on_axis(x.size(), false);
+  for (const Torsion& torsion : molecule.torsions()) on_axis[torsion.atoms[1]] = on_axis[torsion.atoms[2]] = true;
+  const auto aside = [&](const std::vector<std::uint32_t>& segment) {
+    return *std::find_if_not(segment.begin(), segment.end() - 1, [&](std::uint32_t i) { return on_axis[i]; });
+  };
   std::vector<HeldPlacement> held;
   for (const EnsembleGroup& group : groups.groups)
     for (std::size_t k = 1; k < group.segments.size(); ++k) {
@@ -182,7 +188,7 @@ std::vector<HeldPlacement> held_placements(const Molecule& molecule, const Ensem
       p[2] = farthest([&](const Vec3& a) { return squared_norm(cross(Vec3(a - x[p[0]]), Vec3(x[p[1]] - x[p[0]]))); });
       const Vec3 normal = cross(Vec3(x[p[1]] - x[p[0]]), Vec3(x[p[2]] - x[p[0]]));
       p[3] = farthest([&](const Vec3& a) { return std::abs(dot(normal, Vec3(a - x[p[0]]))); });
-      held.push_back({{first[0], other[0]}, p});
+      held.push_back({{aside(first), aside(other)}, p});
     }
   return held;
 }
