@@ -50,7 +50,6 @@ Json end_json(const Job& job, const PathEnd& end) {
 }
 
 Json path_json(const Options& options, const Job& job, const Asked& asked) {
-  const Structure& s = job.molecule->structure();
   const PathAnswer& answer = asked.answer;
   Json json{{"tool", "biocd"}, {"command", "path"}, {"model", model_json(options, job)}};
   json["constant_contacts"] = constant_contacts_json(job);
@@ -77,7 +76,6 @@ Json path_json(const Options& options, const Job& job, const Asked& asked) {
 }
 
 void print_table(const Options& options, const Job& job, const Asked& asked) {
-  const Structure& s = job.molecule->structure();
   const PathAnswer& answer = asked.answer;
   fmt::print("{}", heading(options, job));
   fmt::print("path from {} to {}", shown(asked.from), shown(asked.to));
