@@ -231,7 +231,8 @@ TEST(BiocdEnsemble, SaysWhichBondsAndClosuresABrokenConformationHas) {
   EXPECT_NE(table.find("bond farthest from its length in the reference: A:"), std::string::npos) << table;
   EXPECT_NE(table.find("frame 0: free\n"), std::string::npos) << table;
   const std::string csv = run_biocd(question + "--csv 2>/dev/null").out;
-  EXPECT_NE(csv.find("pair_collides,bond_residual,closure_residual\n0,0,,,,,,,,0,0\n1,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("pair_collides,overlap,bond_residual,closure_residual\n0,0,,,,,,,,,0,0\n1,"), std::string::npos)
+      << csv;
 }
 
 TEST(BiocdEnsemble, FindsRigidGroups) {
