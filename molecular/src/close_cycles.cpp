@@ -56,7 +56,7 @@ class Closer {
     for (const std::size_t k : {0U, 2U}) {
       Closure closure;
       closure.in_first = closure.in_second = {at(held.points[k]), at(held.points[k + 1])};
-      add(held.atoms[0], held.atoms[1], std::move(closure), "the placement of");
+      add(held.atoms[0], held.atoms[1], std::move(closure), k == 0 ? "the placement of" : nullptr);
     }
   }
 
@@ -74,15 +74,20 @@ class Closer {
     return std::nullopt;
   }
 
+  /// what: for the note; none where the same was said of the closure before.
   void add(std::uint32_t a, std::uint32_t b, Closure closure, const char* what) {
     if (link_[a] == link_[b]) return;
     closure.first = id<LinkId>(link_[a]);
     closure.second = id<LinkId>(link_[b]);
     closure.name = label(s_, a) + " - " + label(s_, b);
-    std::string text = "closure: ";
-    text += what;
-    text += ' ' + closure.name + " closes a cycle";
-    notes_.push_back(std::move(text));
+    if (what != nullptr) {
+      std::string text = "closure: ";
+      text += what;
+      text += ' ' + closure.name + " closes a cycle";
+      notes_.push_back(std::move(text));
+    } else {
+      closure.name += ", second axis";
+    }
     closures_.push_back({std::move(closure), {a, b}});
   }
 
