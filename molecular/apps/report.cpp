@@ -245,9 +245,7 @@ void print_constant_contacts(const Job& job) {
 void print_notes(const Job& job) {
   for (const std::string& note : job.molecule->structure().notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   for (const std::string& note : job.molecule->notes()) std::fprintf(stderr, "note: %s\n", note.c_str());
-  const auto& atoms = job.molecule->structure().atoms;
-  if (job.checker.thresholds().rules->name == "molprobity" &&
-      std::none_of(atoms.begin(), atoms.end(), [](const auto& one) { return one.element == "H"; }))
+  if (job.checker.thresholds().rules->name == "molprobity" && !has_hydrogens(job.molecule->structure()))
     std::fprintf(stderr, "note: rules molprobity: the structure has no hydrogens, MolProbity would add them first\n");
   for (const std::size_t k : job.held) {
     const auto& torsion = job.molecule->torsions()[k];

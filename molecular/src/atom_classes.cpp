@@ -80,15 +80,14 @@ AtomClass classify_hydrogen(const Structure& s, const Neighbours& near, std::uin
 
 std::vector<AtomClass> classify_atoms(const Structure& structure) {
   const Neighbours near = bonded_neighbours(structure);
-  const bool has_hydrogens =
-      std::any_of(structure.atoms.begin(), structure.atoms.end(), [](const Atom& atom) { return atom.element == "H"; });
+  const bool hydrogens = has_hydrogens(structure);
   std::vector<AtomClass> classes;
   classes.reserve(structure.atoms.size());
   for (std::uint32_t i = 0; i < structure.atoms.size(); ++i) {
     const std::string_view element = structure.atoms[i].element;
     AtomClass c = AtomClass::other;
     if (element == "C") c = classify_carbon(structure, near, i);
-    if (element == "N") c = classify_nitrogen(structure, near, i, has_hydrogens);
+    if (element == "N") c = classify_nitrogen(structure, near, i, hydrogens);
     if (element == "O") c = classify_oxygen(structure, near, i);
     if (element == "S") c = AtomClass::sulphur;
     if (element == "P") c = AtomClass::phosphorus;

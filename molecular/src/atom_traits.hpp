@@ -33,6 +33,10 @@ std::vector<AtomTraits> molprobity_atoms(const Structure& structure);
 std::vector<AtomTraits> chimerax_atoms(const Structure& structure);
 std::vector<AtomTraits> posebusters_atoms(const Structure& structure);
 
+/// In hydrogen bonds of a structure whose hydrogens are there.
+bool is_polar_hydrogen(AtomClass c);
+bool is_acceptor(AtomClass c);
+
 /// "C.aromatic"; of other atoms the element.
 std::string type_name(AtomClass c, const std::string& element);
 

@@ -79,14 +79,13 @@ std::vector<AtomTraits> chimerax_atoms(const Structure& structure) {
   const std::vector<Valence> all = valences(structure);
   const std::vector<HydrogenBondRole> roles = hydrogen_bond_roles(structure);
   const auto is_hydrogen = [&](std::uint32_t i) { return structure.atoms[i].element == "H"; };
-  bool has_hydrogens = false;
-  for (std::uint32_t i = 0; i < structure.atoms.size(); ++i) has_hydrogens = has_hydrogens || is_hydrogen(i);
+  const bool hydrogens = has_hydrogens(structure);
   std::vector<AtomTraits> atoms;
   atoms.reserve(structure.atoms.size());
   for (std::uint32_t i = 0; i < structure.atoms.size(); ++i) {
     const std::string_view element = structure.atoms[i].element;
     std::optional<double> radius;
-    if (has_hydrogens && all[i].bonds <= all[i].present) radius = explicit_radius(element, all[i]);
+    if (hydrogens && all[i].bonds <= all[i].present) radius = explicit_radius(element, all[i]);
     bool bears = false;
     for (const std::uint32_t j : near[i]) bears = bears || is_hydrogen(j);
     AtomTraits atom;

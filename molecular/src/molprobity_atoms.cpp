@@ -86,9 +86,8 @@ std::vector<AtomTraits> molprobity_atoms(const Structure& structure) {
     AtomTraits atom;
     atom.name = type_name(c, element);
     atom.radius = probe.radius(c, element);
-    atom.donor = c == AtomClass::hydrogen_polar || c == AtomClass::hydrogen_hydroxyl;
-    atom.acceptor = c == AtomClass::nitrogen_acceptor || c == AtomClass::oxygen || c == AtomClass::oxygen_hydroxyl ||
-                    c == AtomClass::sulphur || is_face(structure, i, c);
+    atom.donor = is_polar_hydrogen(c);
+    atom.acceptor = is_acceptor(c) || is_face(structure, i, c);
     if (atom.donor || atom.acceptor) atom.charge = charges.of(i);
     atoms.push_back(std::move(atom));
   }

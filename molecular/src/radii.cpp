@@ -121,14 +121,13 @@ double amber(AtomClass c, std::string_view element) {
   return element_radius(element);
 }
 
-bool is_hydrogen(AtomClass c) { return c >= AtomClass::hydrogen && c <= AtomClass::hydrogen_hydroxyl; }
+}  // namespace
+
 bool is_polar_hydrogen(AtomClass c) { return c == AtomClass::hydrogen_polar || c == AtomClass::hydrogen_hydroxyl; }
 bool is_acceptor(AtomClass c) {
   return c == AtomClass::nitrogen_acceptor || c == AtomClass::oxygen || c == AtomClass::oxygen_hydroxyl ||
          c == AtomClass::sulphur;
 }
-
-}  // namespace
 
 std::string type_name(AtomClass c, const std::string& element) {
   switch (c) {
@@ -189,11 +188,11 @@ Thresholds make_thresholds(const Structure& structure, const ThresholdOptions& o
     throw ModelError("hydrogen-bond allowance " + std::to_string(options.hydrogen_bond_allowance) +
                      ": expected a finite length >= 0 (angstrom)");
   const std::vector<AtomClass> classes = classify_atoms(structure);
-  const bool has_hydrogens = std::any_of(classes.begin(), classes.end(), is_hydrogen);
-  const bool rule = options.hydrogen_bonds.value_or(has_hydrogens);
+  const bool hydrogens = has_hydrogens(structure);
+  const bool rule = options.hydrogen_bonds.value_or(hydrogens);
   // Hydrogens say which atoms bond; without them the heavy atoms are asked.
   std::vector<HydrogenBondRole> roles(classes.size());
-  if (rule && !has_hydrogens) roles = hydrogen_bond_roles(structure);
+  if (rule && !hydrogens) roles = hydrogen_bond_roles(structure);
 
   // Types are the classes that occur, in class order, and one per further element.
   using Type = std::tuple<AtomClass, std::string, HydrogenBondRole>;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Labels.
+// Labels; what atoms there are.
 #include "hinge/molecular/structure.hpp"
+
+#include <algorithm>
 
 namespace hinge::molecular {
 
@@ -11,6 +13,11 @@ std::string label(const Structure& structure, std::uint32_t atom) {
   text += ":" + residue.name + std::to_string(residue.sequence_number);
   if (residue.insertion_code != '\0') text += residue.insertion_code;
   return text + ":" + structure.atoms[atom].name;
+}
+
+bool has_hydrogens(const Structure& structure) noexcept {
+  return std::any_of(structure.atoms.begin(), structure.atoms.end(),
+                     [](const Atom& atom) { return atom.element == "H"; });
 }
 
 }  // namespace hinge::molecular

@@ -20,11 +20,10 @@ class Valences {
       : s_(structure),
         near_(covalent_neighbours(structure)),
         multiple_(structure.atoms.size(), false),
-        classes_(classify_atoms(structure)) {
+        classes_(classify_atoms(structure)),
+        has_hydrogens_(has_hydrogens(structure)) {
     for (const Bond& bond : s_.bonds)
       if (bond.order == BondOrder::multiple) multiple_[bond.first] = multiple_[bond.second] = true;
-    has_hydrogens_ =
-        std::any_of(s_.atoms.begin(), s_.atoms.end(), [](const Atom& atom) { return atom.element == "H"; });
   }
 
   Valence of(std::uint32_t i) const {
@@ -113,7 +112,7 @@ class Valences {
   std::vector<std::vector<std::uint32_t>> near_;
   std::vector<bool> multiple_;
   std::vector<AtomClass> classes_;
-  bool has_hydrogens_ = false;
+  bool has_hydrogens_;
 };
 
 }  // namespace

@@ -109,4 +109,7 @@ struct Structure {
 /// "A:LYS77:NZ" (insertion code behind the number: "A:SER60A:OG"); a blank chain name is printed as "_".
 std::string label(const Structure& structure, std::uint32_t atom);
 
+/// Is any of its atoms a hydrogen?
+bool has_hydrogens(const Structure& structure) noexcept;
+
 }  // namespace hinge::molecular
