@@ -77,7 +77,7 @@ std::vector<AtomTraits> chimerax_atoms(const Structure& structure) {
   const auto near = covalent_neighbours(structure);
   const auto bonded = bonded_neighbours(structure);
   const std::vector<Valence> all = valences(structure);
-  const std::vector<HydrogenBondRole> roles = hydrogen_bond_roles(structure);
+  const std::vector<HydrogenBondRole> roles = hydrogen_bond_roles(structure, near, all);
   const auto is_hydrogen = [&](std::uint32_t i) { return structure.atoms[i].element == "H"; };
   const bool hydrogens = has_hydrogens(structure);
   std::vector<AtomTraits> atoms;

@@ -136,8 +136,12 @@ std::vector<Valence> valences(const Structure& structure) {
 }
 
 std::vector<HydrogenBondRole> hydrogen_bond_roles(const Structure& structure) {
-  const auto near = covalent_neighbours(structure);
-  const std::vector<Valence> all = valences(structure);
+  return hydrogen_bond_roles(structure, covalent_neighbours(structure), valences(structure));
+}
+
+std::vector<HydrogenBondRole> hydrogen_bond_roles(const Structure& structure,
+                                                  const std::vector<std::vector<std::uint32_t>>& near,
+                                                  const std::vector<Valence>& all) {
   const auto is_polar = [&](std::uint32_t i) {
     const std::string_view element = structure.atoms[i].element;
     return element == "N" || element == "O" || element == "S";

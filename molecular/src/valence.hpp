@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "hinge/molecular/hydrogen_bonds.hpp"
 #include "hinge/molecular/structure.hpp"
 
 namespace hinge::molecular {
@@ -22,5 +23,10 @@ std::vector<Valence> valences(const Structure& structure);
 
 /// As bonded_neighbours, without coordination bonds.
 std::vector<std::vector<std::uint32_t>> covalent_neighbours(const Structure& structure);
+
+/// hydrogen_bond_roles of a structure whose covalent_neighbours and valences are at hand.
+std::vector<HydrogenBondRole> hydrogen_bond_roles(const Structure& structure,
+                                                  const std::vector<std::vector<std::uint32_t>>& near,
+                                                  const std::vector<Valence>& all);
 
 }  // namespace hinge::molecular
