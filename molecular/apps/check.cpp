@@ -30,7 +30,7 @@ using namespace hinge::molecular;
 
 struct Checked {
   Verdict verdict;
-  BondDeparture bond;
+  BondDeviation bond;
   std::vector<hinge::Vec3> positions;  // only when they are to be written
   std::string error;                   // why there is no verdict
 };
@@ -46,7 +46,7 @@ std::optional<double> clashscore_of(const Options& options, const Job& job, cons
   return clashscore(static_cast<std::size_t>(clashes), job.molecule->structure().atoms.size());
 }
 
-Json bond_json(const Structure& s, const BondDeparture& bond) {
+Json bond_json(const Structure& s, const BondDeviation& bond) {
   if (bond.first == bond.second) return {};
   return {{"i", bond.first},
           {"j", bond.second},
@@ -58,7 +58,7 @@ Json bond_json(const Structure& s, const BondDeparture& bond) {
 }
 
 /// ", bonds within 0.012 angstrom, closures within 0.34"; what is the reference's to three decimals is left out.
-std::string departures_text(const Checked& checked) {
+std::string deviations_text(const Checked& checked) {
   std::string text;
   const auto add = [&](const char* what, double residual) {
     if (residual >= 0.0005) text += fmt::format(", {} within {:.3f} angstrom", what, residual);
@@ -76,7 +76,7 @@ void print_table_row(const Job& job, const std::string& name, const Checked& che
   if (mode.kind == Mode::Kind::within)
     fmt::print(", {} pairs closer than their threshold + {}", verdict.pairs.size(), mode.margin);
   if (clashscore) fmt::print(", clashscore {:.2f}", *clashscore);
-  fmt::print("{}\n", departures_text(checked));
+  fmt::print("{}\n", deviations_text(checked));
   for (const Contact& pair : verdict.pairs) fmt::print("{}\n", pair_line(job, pair));
   if (verdict.closest) fmt::print("{}  (closest)\n", pair_line(job, *verdict.closest));
 }
@@ -109,7 +109,7 @@ Exit run_check(const Options& options) {
   const BondGauge gauge(*job.molecule);
   const bool has_closures = !job.molecule->closure_atoms().empty();
   Summary summary(closure_names(job), false);
-  BondDeparture worst;  // of all bonds and conformations
+  BondDeviation worst;  // of all bonds and conformations
   std::string worst_name;
   hinge::tool::ProgressBar bar(end - begin);
   const auto judge = [&, begin = begin](Checker& checker, std::size_t n) {
@@ -165,9 +165,7 @@ Exit run_check(const Options& options) {
     if (worst.residual >= 0.0005)
       fmt::print("bond farthest from its length in the reference: {} - {}, {:.3f} angstrom against {:.3f} ({})\n",
                  label(s, worst.first), label(s, worst.second), worst.length, worst.reference, worst_name);
-    for (std::size_t k = 0; k < summary.worst_residuals().size(); ++k)
-      fmt::print("  closure {:<34} worst residual {:.3g} angstrom\n", closure_names(job)[k],
-                 summary.worst_residuals()[k]);
+    print_closures(job, summary.worst_residuals());
     fmt::print("{} of {} {} collide\n", summary.colliding(), summary.checked(),
                frames.are_models() ? "models" : "frames");
   };

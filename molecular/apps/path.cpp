@@ -42,8 +42,6 @@ std::string shown(const PathEnd& end) {
 Json end_json(const Job& job, const PathEnd& end) {
   Json json{
       {"given", end.text}, {"turns", in_degrees(job, end.turns)}, {"model_rmsd", Json()}, {"model_farthest", Json()}};
-  // Superposed coordinates are rounded differently on different instruction sets.
-  const auto rounded = [](double length) { return std::round(length * 1e3) / 1e3; };
   if (end.from_model) json["model_rmsd"] = rounded(end.from_model->rmsd);
   if (end.from_model) json["model_farthest"] = rounded(end.from_model->farthest);
   return json;

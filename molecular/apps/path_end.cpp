@@ -18,6 +18,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
 #include "report.hpp"
+#include "scene.hpp"
 
 namespace biocd {
 
@@ -90,8 +91,7 @@ std::vector<double> fit(const Job& job, const std::vector<hinge::Vec3>& model) {
   const auto placements = fit_placements(molecule, rebuilt.positions(), model);
   for (std::size_t part = 0; part < placements.size(); ++part)
     for (std::size_t c = 0; c < 6; ++c)
-      q[static_cast<std::size_t>(std::ranges::lower_bound(dofs, molecule.placed_parts()[part].dofs[c]) -
-                                 dofs.begin())] = placements[part][c];
+      q[position_of(job, molecule.placed_parts()[part].dofs[c])] = placements[part][c];
   return q;
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string_view>
 #include <utility>
@@ -153,6 +154,14 @@ std::vector<std::string> closure_names(const Job& job) {
   for (const hinge::Closure& closure : job.molecule->model().tree().closures()) names.push_back(closure.name);
   return names;
 }
+
+void print_closures(const Job& job, const std::vector<double>& residuals) {
+  for (std::size_t k = 0; k < residuals.size(); ++k)
+    fmt::print("  closure {:<34} worst residual {:.3g} angstrom\n", job.molecule->model().tree().closures()[k].name,
+               residuals[k]);
+}
+
+double rounded(double length) { return std::round(length * 1e3) / 1e3; }
 
 Json verdict_json(const Job& job, std::uint64_t index, const Verdict& verdict, const Mode& mode) {
   Json json{{"index", index}, {"collides", verdict.collides}};

@@ -31,6 +31,10 @@ std::vector<double> in_degrees(const Job& job, std::vector<double> q);
 
 /// Their names, in the tree's order.
 std::vector<std::string> closure_names(const Job& job);
+/// A line for each of them; residuals: of each the worst, or none.
+void print_closures(const Job& job, const std::vector<double>& residuals);
+/// A length to thousandths: superposed coordinates are rounded differently on different instruction sets.
+double rounded(double length);
 Json verdict_json(const Job& job, std::uint64_t index, const hinge::molecular::Verdict& verdict,
                   const hinge::molecular::Mode& mode);
 

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -37,7 +36,7 @@ void for_conformations(const Options& options, const Structure& s, const Use& us
 }
 
 /// How far a rigid body is from what it stands for, over the conformations.
-struct Departure {
+struct Deviation {
   double sum = 0.0, worst = 0.0, farthest = 0.0;  // RMSD, RMSD, distance of an atom: angstrom
   std::string worst_name;
   std::uint32_t farthest_atom = 0;
@@ -57,16 +56,16 @@ struct Departure {
   }
 };
 
-struct Departures {
-  std::vector<Departure> groups;
-  Departure model;  // all of it, rebuilt by its free torsions
+struct Deviations {
+  std::vector<Deviation> groups;
+  Deviation model;  // all of it, rebuilt by its free torsions
 };
 
-Departures measure(const Options& options, const Job& job) {
+Deviations measure(const Options& options, const Job& job) {
   const Structure& s = job.molecule->structure();
   const std::vector<hinge::Vec3>& reference = s.models.front();
   const EnsembleGroups& found = *job.ensemble;
-  Departures all;
+  Deviations all;
   std::vector<std::vector<std::uint32_t>> atoms;
   for (const EnsembleGroup& group : found.groups) atoms.push_back(group.atoms());
   all.groups.resize(atoms.size());
@@ -118,22 +117,19 @@ std::string residues_text(const Structure& s, const std::vector<std::uint32_t>& 
   return text;
 }
 
-/// Superposed coordinates are rounded differently on different instruction sets.
-double rounded(double value) { return std::round(value * 1e3) / 1e3; }
-
-Json departure_json(const Structure& s, const Departure& departure) {
-  if (departure.count == 0) return {};
-  return {{"mean_rmsd", rounded(departure.sum / static_cast<double>(departure.count))},
-          {"worst_rmsd", rounded(departure.worst)},
-          {"worst", departure.worst_name},
-          {"farthest", rounded(departure.farthest)},
-          {"farthest_atom", label(s, departure.farthest_atom)}};
+Json deviation_json(const Structure& s, const Deviation& deviation) {
+  if (deviation.count == 0) return {};
+  return {{"mean_rmsd", rounded(deviation.sum / static_cast<double>(deviation.count))},
+          {"worst_rmsd", rounded(deviation.worst)},
+          {"worst", deviation.worst_name},
+          {"farthest", rounded(deviation.farthest)},
+          {"farthest_atom", label(s, deviation.farthest_atom)}};
 }
 
-std::string departure_text(const Structure& s, const Departure& departure) {
+std::string deviation_text(const Structure& s, const Deviation& deviation) {
   return fmt::format("RMSD {:.2f}, at worst {:.2f} ({}), farthest atom {:.2f} ({})",
-                     departure.sum / static_cast<double>(departure.count), departure.worst, departure.worst_name,
-                     departure.farthest, label(s, departure.farthest_atom));
+                     deviation.sum / static_cast<double>(deviation.count), deviation.worst, deviation.worst_name,
+                     deviation.farthest, label(s, deviation.farthest_atom));
 }
 
 }  // namespace
@@ -150,40 +146,40 @@ std::string rigid_groups_text(const Options& options, const Job& job) {
   constexpr std::size_t most = 20;  // groups in a list for people
   const Structure& s = job.molecule->structure();
   const EnsembleGroups& found = *job.ensemble;
-  const Departures all = measure(options, job);
+  const Deviations all = measure(options, job);
   std::string text = fmt::format("rigid groups of {} conformations, tolerance {} angstrom: {}\n",
                                  all.groups.front().count, options.rigid_tolerance, found.groups.size());
   for (std::size_t g = 0; g < std::min(most, found.groups.size()); ++g) {
     const EnsembleGroup& group = found.groups[g];
     text += fmt::format("  {} atoms in {} segment{}, {}: distances vary by {:.2f}; {}\n", group.size(),
                         group.segments.size(), group.segments.size() == 1 ? "" : "s", residues_text(s, group.atoms()),
-                        group.spread, departure_text(s, all.groups[g]));
+                        group.spread, deviation_text(s, all.groups[g]));
   }
   if (found.groups.size() > most) text += fmt::format("  and {} smaller ones\n", found.groups.size() - most);
   for (std::size_t k = 0; k < found.torsions.size(); ++k)
     text += fmt::format("  free {:<22} spread {:.1f} degrees\n",
                         torsion_label(s, job.molecule->torsions()[found.torsions[k]]), found.turn_spreads[k] / degree);
-  if (all.model.count > 0) text += "conformations rebuilt by these torsions: " + departure_text(s, all.model) + "\n";
+  if (all.model.count > 0) text += "conformations rebuilt by these torsions: " + deviation_text(s, all.model) + "\n";
   return text;
 }
 
 Json rigid_groups_json(const Options& options, const Job& job) {
   const Structure& s = job.molecule->structure();
   const EnsembleGroups& found = *job.ensemble;
-  const Departures all = measure(options, job);
+  const Deviations all = measure(options, job);
   Json json{{"conformations", all.groups.front().count}, {"groups", Json::array()}, {"torsions", Json::array()}};
   for (std::size_t g = 0; g < found.groups.size(); ++g) {
     const EnsembleGroup& group = found.groups[g];
     Json one{{"atoms", group.size()}, {"residues", residues_text(s, group.atoms())}, {"segments", Json::array()}};
     for (const auto& segment : group.segments) one["segments"].push_back(segment);
     one["distance_spread"] = rounded(group.spread);
-    one["superposed"] = departure_json(s, all.groups[g]);
+    one["superposed"] = deviation_json(s, all.groups[g]);
     json["groups"].push_back(std::move(one));
   }
   for (std::size_t k = 0; k < found.torsions.size(); ++k)
     json["torsions"].push_back({{"torsion", torsion_label(s, job.molecule->torsions()[found.torsions[k]])},
                                 {"spread_degrees", rounded(found.turn_spreads[k] / degree)}});
-  json["rebuilt"] = departure_json(s, all.model);
+  json["rebuilt"] = deviation_json(s, all.model);
   return json;
 }
 

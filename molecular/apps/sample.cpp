@@ -74,9 +74,7 @@ void print_table(const Job& job, const Summary& summary, double seconds) {
   } else if (summary.worst_residual() > 0.0) {
     fmt::print("closures: sampled freely, so cycles open (--closures keep keeps them closed)\n");
   }
-  for (std::size_t k = 0; k < summary.worst_residuals().size(); ++k)
-    fmt::print("  closure {:<34} worst residual {:.3g} angstrom\n", job.molecule->model().tree().closures()[k].name,
-               summary.worst_residuals()[k]);
+  print_closures(job, summary.worst_residuals());
   for (const Offender& o : summary.top()) fmt::print("  {:<18} {:<18} {:8}\n", o.label_i, o.label_j, o.count);
 }
 

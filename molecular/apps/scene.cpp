@@ -72,13 +72,16 @@ PairScope read_scope(const Options& options, const Structure& structure) {
   return {structure, between, inside};
 }
 
-Placements placements_of(const Job& job, std::span<const double> q) {
+std::size_t position_of(const Job& job, hinge::DofId dof) {
   const auto dofs = job.checker.selection().dofs();
+  return static_cast<std::size_t>(std::ranges::lower_bound(dofs, dof) - dofs.begin());
+}
+
+Placements placements_of(const Job& job, std::span<const double> q) {
   Placements placements;
   for (const PlacedPart& placed : job.molecule->placed_parts()) {
     auto& values = placements.emplace_back();
-    for (std::size_t k = 0; k < 6; ++k)
-      values[k] = q[static_cast<std::size_t>(std::ranges::lower_bound(dofs, placed.dofs[k]) - dofs.begin())];
+    for (std::size_t k = 0; k < 6; ++k) values[k] = q[position_of(job, placed.dofs[k])];
   }
   return placements;
 }

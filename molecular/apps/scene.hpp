@@ -25,6 +25,8 @@ std::pair<std::string, hinge::molecular::PlacementRange> read_placement(const st
 /// --between and --inside; "rest" is what the other part of a --between does not hold.
 hinge::molecular::PairScope read_scope(const Options& options, const hinge::molecular::Structure& structure);
 
+/// Where the value of a selected DOF stands in a configuration.
+std::size_t position_of(const Job& job, hinge::DofId dof);
 /// Values of each placed part's DOF in a configuration of the job's selection.
 using Placements = std::vector<std::array<double, 6>>;
 Placements placements_of(const Job& job, std::span<const double> q);

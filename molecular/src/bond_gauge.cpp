@@ -5,18 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hinge/molecular/bond_exclusions.hpp"
+
 namespace hinge::molecular {
 
 BondGauge::BondGauge(const Molecule& molecule) {
   const Structure& s = molecule.structure();
   const std::vector<Vec3>& x = s.models.front();
   const auto kept = [&](std::uint32_t i, std::uint32_t j) { return Kept{i, j, norm(Vec3(x[i] - x[j]))}; };
-  std::vector<std::vector<std::uint32_t>> neighbours(s.atoms.size());
-  for (const Bond& bond : s.bonds) {
-    bonds_.push_back(kept(bond.first, bond.second));
-    neighbours[bond.first].push_back(bond.second);
-    neighbours[bond.second].push_back(bond.first);
-  }
+  for (const Bond& bond : s.bonds) bonds_.push_back(kept(bond.first, bond.second));
+  const auto neighbours = bonded_neighbours(s);
   for (const auto& [a, b] : molecule.closure_atoms()) {
     std::vector<Kept>& of_closure = closures_.emplace_back();
     of_closure.push_back(kept(a, b));
@@ -39,8 +37,8 @@ std::vector<double> BondGauge::closure_residuals(std::span<const Vec3> positions
   return residuals;
 }
 
-BondDeparture BondGauge::worst_bond(std::span<const Vec3> positions) const {
-  BondDeparture worst;
+BondDeviation BondGauge::worst_bond(std::span<const Vec3> positions) const {
+  BondDeviation worst;
   for (const auto& [i, j, reference] : bonds_) {
     const double length = norm(Vec3(positions[i] - positions[j])), residual = std::abs(length - reference);
     if (residual > worst.residual || worst.first == worst.second) worst = {i, j, length, reference, residual};

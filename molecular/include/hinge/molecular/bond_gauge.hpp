@@ -13,7 +13,7 @@
 namespace hinge::molecular {
 
 /// The bond whose length is farthest from the reference's; angstrom.
-struct BondDeparture {
+struct BondDeviation {
   std::uint32_t first = 0, second = 0;
   double length = 0.0, reference = 0.0;
   double residual = 0.0;  ///< |length - reference|
@@ -28,7 +28,7 @@ class BondGauge {
   /// joins and of those across its angles, from one to what is bonded to the other.
   std::vector<double> closure_residuals(std::span<const Vec3> positions) const;
   /// The first of those farthest off; all 0 for a molecule without bonds.
-  BondDeparture worst_bond(std::span<const Vec3> positions) const;
+  BondDeviation worst_bond(std::span<const Vec3> positions) const;
 
  private:
   struct Kept {
