@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "engine/random_mechanism.hpp"
+#include "hinge/primitive/point.hpp"
 
 namespace hinge {
 namespace {
@@ -60,6 +61,17 @@ TEST(Separation, IsALowerBoundOfDistanceMinusReaches) {
     negative += bound < 0.0 ? 1 : 0;
   }
   EXPECT_GT(negative, 1000);
+}
+
+// Of points, which no reach grows; the distance is that of points, good to a few ulps at any size.
+TEST(Separation, IsALowerBoundAtAnySize) {
+  Random random(5);
+  for (int exponent = -1070; exponent <= 960; ++exponent)
+    for (int k = 0; k < 10; ++k) {
+      const double size = std::ldexp(1.0, exponent);
+      const Vec3 p = random.vector(size), q = random.vector(size);
+      EXPECT_LE(separation(Aabb(p), Aabb(q)), distance(Point{p}, Point{q})) << "size 2^" << exponent;
+    }
 }
 
 TEST(Separation, IsAtMostZeroExactlyWhenBoxesOverlap) {

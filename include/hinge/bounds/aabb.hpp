@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "hinge/bounds/round.hpp"
-#include "hinge/core/finite.hpp"
 #include "hinge/core/vec3.hpp"
+#include "hinge/exact/error_free.hpp"
 
 namespace hinge {
 
@@ -78,7 +78,9 @@ inline double separation(const Aabb& a, const Aabb& b) noexcept {
     if (gap > 0.0) squared += gap * gap;
   }
   // Squares beyond the range of doubles say nothing.
-  return largest > 0.0 && is_finite(squared) ? std::max(largest, std::sqrt(squared) * down) : largest;
+  return largest > 0.0 && squared >= exact::lost_squares && squared <= exact::largest_square
+             ? std::max(largest, std::sqrt(squared) * down)
+             : largest;
 }
 
 /// Do the closed boxes share a point? Without branches: in a sweep the answer cannot be foretold.
