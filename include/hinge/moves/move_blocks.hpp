@@ -137,16 +137,9 @@ class MoveBlocks {
     const float* from = floats(b);
     at_[b] ^= 1U;
     float* to = floats_.data() + position(b);
-    alignas(64) std::array<float, Batch<P>::floats> turned;
-    for (const PartLanes& piece : pieces) {
-      const float* source = from;
-      if (piece.part != 0) {
-        Batch<P>::turn(from, motions[piece.part].rotation, motions[piece.part].translation, turned.data());
-        source = turned.data();
-      }
-      for (std::size_t k = 0; k < Batch<P>::floats; k += simd::width) simd::copy_lanes(piece.lanes, source + k, to + k);
-    }
-    finish(b, Batch<P>::hull(to));
+    finish(b, Batch<P>::turn(
+                  from, pieces.size(), [&](std::size_t k) { return pieces[k].lanes; },
+                  [&](std::size_t k) { return pieces[k].part == 0 ? nullptr : &motions[pieces[k].part]; }, to));
   }
   /// Those of the present move, in order.
   std::span<const std::uint32_t> turned() const noexcept { return turned_; }

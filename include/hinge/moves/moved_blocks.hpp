@@ -35,24 +35,13 @@ class MovedBlocks {
         from_(parts.size() + 1) {
     std::vector<std::uint32_t> first(layout.block_count());
     for (std::uint32_t b = 0; b < layout.block_count(); ++b) {
-      run_start_.push_back(static_cast<std::uint32_t>(runs_.size()));
-      std::vector<Run> runs;
-      for (std::size_t lane = 0; lane < simd::width; ++lane) {
-        const PrimitiveId i = id<PrimitiveId>(layout.primitive[b * simd::width + lane]);
-        const std::uint32_t place = parts.place(model.group_of(i));
-        const auto at = std::ranges::lower_bound(runs, place, {}, &Run::place);
-        const simd::Bits bit = simd::Bits{1} << lane;
-        if (at != runs.end() && at->place == place)
-          at->lanes |= bit;
-        else
-          runs.insert(at, {place, bit});
-      }
-      first[b] = runs.front().place;
-      last_[b] = runs.back().place;
-      runs_.insert(runs_.end(), runs.begin(), runs.end());
+      for (std::size_t lane = 0; lane < simd::width; ++lane)
+        place_.push_back(parts.place(model.group_of(id<PrimitiveId>(layout.primitive[b * simd::width + lane]))));
+      const auto [least, most] = std::minmax_element(place_.end() - simd::width, place_.end());
+      first[b] = *least;
+      last_[b] = *most;
       order_.push_back(b);
     }
-    run_start_.push_back(static_cast<std::uint32_t>(runs_.size()));
     std::ranges::sort(order_, {}, [&](std::uint32_t b) { return std::pair(first[b], b); });
     std::uint32_t reaching = 0, from = 0;
     for (std::uint32_t p = 0; p <= parts.size(); ++p) {
@@ -91,10 +80,6 @@ class MovedBlocks {
   std::span<const PartLanes> pieces(const Cut& cut, const MovingParts& parts);
 
  private:
-  struct Run {
-    std::uint32_t place;
-    simd::Bits lanes;
-  };
   /// A block that is not known to lie in stretch t.
   void add_cut(std::uint32_t rank, const MovingParts::Stretch& stretch, std::size_t t) {
     const std::uint32_t b = order_[rank];
@@ -103,10 +88,9 @@ class MovedBlocks {
     cut_.push_back({rank, static_cast<std::uint32_t>(t)});
   }
 
-  std::vector<std::uint32_t> run_start_;  // per block
-  std::vector<Run> runs_;                 // of one place, places in order
-  std::vector<std::uint32_t> last_;       // per block: its last place
-  std::vector<std::uint64_t> seen_;       // per block: the last call of find() that met it
+  std::vector<std::uint32_t> place_;  // per slot
+  std::vector<std::uint32_t> last_;   // per block: its last place
+  std::vector<std::uint64_t> seen_;   // per block: the last call of find() that met it
   std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> reaching_;  // per place: no rank before reaches it; blocks nearly follow the tree
   std::vector<std::uint32_t> from_;      // per place: the first rank that does not start before it
@@ -119,20 +103,26 @@ class MovedBlocks {
 };
 
 inline std::span<const PartLanes> MovedBlocks::pieces(const Cut& cut, const MovingParts& parts) {
+  using Places = simd::Lanes<std::uint32_t, simd::width>;
   const std::span<const MovingParts::Stretch> stretches = parts.stretches();
   const std::uint32_t b = order_[cut.rank];
-  std::size_t t = cut.stretch;
+  const Places places(place_.data() + b * simd::width);
+  simd::Bits rest = simd::all_bits;
   pieces_.clear();
-  for (std::uint32_t r = run_start_[b]; r < run_start_[b + 1]; ++r) {
-    const std::uint32_t place = runs_[r].place;
-    while (t + 1 < stretches.size() && stretches[t].end <= place) ++t;
-    const std::uint32_t part = stretches[t].begin <= place && place < stretches[t].end ? stretches[t].part : 0;
+  const auto add = [&](std::uint32_t part, simd::Bits lanes) {
+    if (lanes == 0) return;
     const auto piece = std::ranges::find(pieces_, part, &PartLanes::part);
     if (piece == pieces_.end())
-      pieces_.push_back({part, runs_[r].lanes});
+      pieces_.push_back({part, lanes});
     else
-      piece->lanes |= runs_[r].lanes;
+      piece->lanes |= lanes;
+  };
+  for (std::size_t t = cut.stretch; t < stretches.size() && stretches[t].begin <= last_[b]; ++t) {
+    const simd::Bits lanes = less_equal(Places(stretches[t].begin), places) & less(places, Places(stretches[t].end));
+    rest &= ~lanes;
+    add(stretches[t].part, lanes);
   }
+  add(0, rest);
   const auto most = std::ranges::max_element(pieces_, {}, [](const PartLanes& p) { return std::popcount(p.lanes); });
   std::swap(*most, pieces_.back());
   return pieces_;

@@ -43,13 +43,17 @@ namespace hinge::simd {
 #endif
 }
 
-/// Copies the lanes of every set bit; the others keep what they hold.
-[[gnu::always_inline]] inline void copy_lanes(Bits mask, const float* from, float* to) noexcept {
+/// a in the lanes of every set bit, b in the others.
+[[gnu::always_inline]] inline Float16 choose(Bits mask, const Float16& a, const Float16& b) noexcept {
+  alignas(64) float of_a[width], of_b[width];
+  a.store(of_a);
+  b.store(of_b);
 #if defined(__AVX512F__)
-  _mm512_mask_storeu_ps(to, static_cast<__mmask16>(mask), _mm512_loadu_ps(from));
+  _mm512_store_ps(of_b, _mm512_mask_blend_ps(static_cast<__mmask16>(mask), _mm512_load_ps(of_b), _mm512_load_ps(of_a)));
 #else
-  for (; mask != 0; mask &= mask - 1) to[std::countr_zero(mask)] = from[std::countr_zero(mask)];
+  for (; mask != 0; mask &= mask - 1) of_b[std::countr_zero(mask)] = of_a[std::countr_zero(mask)];
 #endif
+  return Float16(of_b);
 }
 
 /// Sixteen numbers below 16, prepared for look_up. (The zero-masked forms because g++ 12 warns about the others'
