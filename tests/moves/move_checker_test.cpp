@@ -213,6 +213,7 @@ TEST(MoveChecker, LeavesNoTraceAfterManyMoves) {
   EXPECT_EQ(wrong, 0U);
   EXPECT_EQ(accepted, wanted);
   EXPECT_GT(rejected, wanted / 1000);
+  EXPECT_GT(moves.counts().recalled, rejected / 10);
   auto fresh = one_threshold<Chain>(model, 0.08);
   expect_fresh(moves, fresh);
   EXPECT_FALSE(fresh.self_collides());

@@ -24,6 +24,7 @@
 #include "hinge/moves/moved_blocks.hpp"
 #include "hinge/moves/moving_parts.hpp"
 #include "hinge/moves/near_rows.hpp"
+#include "hinge/moves/recent_collisions.hpp"
 #include "hinge/policy/distance_matrix.hpp"
 #include "hinge/policy/pair_filter.hpp"
 #include "hinge/policy/primitive.hpp"
@@ -67,9 +68,22 @@ class BlockMoves {
   std::size_t begin(std::span<const JointValue> values, const MovingParts& parts) {
     frames_.try_values(values, parts);
     moved_.find(parts);
+    motions_.resize(moved_.part_count());
+    for (std::uint32_t part = 1; part < motions_.size(); ++part)
+      motions_[part] = FloatMotion(frames_.transform(part), layout().origin, layout().scale);
     return moved_.count();
   }
-
+  /// Before search(), with its arguments: did a pair that stopped it in a move before come too close again, beyond
+  /// doubt? It goes to visit(i, j).
+  template <class Visit>
+  bool recall(const MovingParts& parts, double cutoff, double motion_error, const Visit& visit) {
+    set_thresholds(cutoff, motion_error);
+    const auto slots = recent_.find(blocks_, motions_, thresholds_, parts);
+    if (!slots) return false;
+    const auto [i, j] = std::minmax({blocks_.primitive_of_slot((*slots)[0]), blocks_.primitive_of_slot((*slots)[1])});
+    visit(i, j);
+    return true;
+  }
   /// Offers every pair with d - M <= cutoff whose distance the move may have changed, and others, to
   /// visit(i, j), which answers false to stop. Exclusions that a filter lists were regarded. motion_error: model unit.
   /// False when floats cannot hold the new coordinates: take the move back then.
@@ -121,6 +135,7 @@ class BlockMoves {
   std::vector<FloatMotion> motions_;         // per part
   std::vector<std::uint32_t> turned_parts_;  // of what was turned, but for blocks that are cut
   std::vector<Met> met_;                     // scratch
+  RecentCollisions recent_;
   Tasks tasks_;
   Thresholds16 thresholds_;
   double cutoff_ = 0.0, motion_error_ = 0.0;  // that thresholds_ are for
@@ -202,24 +217,22 @@ bool BlockMoves<P>::search(const MovingParts& parts, double cutoff, double motio
   const float extent = blocks_.extent();
   for (const MovedBlocks::Range& range : moved_.whole()) blocks_.hide(range.begin, range.end);
   for (const MovedBlocks::Cut& cut : moved_.cut()) blocks_.hide(cut.rank, cut.rank + 1);
-  motions_.resize(moved_.part_count());
-  for (std::uint32_t part = 1; part < motions_.size(); ++part)
-    motions_[part] = FloatMotion(frames_.transform(part), layout().origin, layout().scale);
   tasks_.clear();
   set_thresholds(cutoff, motion_error);
   bool wanted = true;
   const auto run = [&] {
     counts.pairs_tested += tasks_.size() * simd::width;
-    run_tasks<P>(
-        tasks_, blocks_, blocks_, Exactly<P>{}, thresholds_,
-        [&](std::uint32_t one, std::uint32_t sixteen, simd::Bits bits, const simd::Float16&) {
-          const std::uint32_t i = blocks_.primitive(one);
-          for (; bits != 0 && wanted; bits &= bits - 1)
-            wanted =
-                visit(id<PrimitiveId>(i),
-                      id<PrimitiveId>(blocks_.primitive(sixteen + static_cast<std::uint32_t>(std::countr_zero(bits)))));
-          return wanted;
-        });
+    run_tasks<P>(tasks_, blocks_, blocks_, Exactly<P>{}, thresholds_,
+                 [&](std::uint32_t one, std::uint32_t sixteen, simd::Bits bits, const simd::Float16&) {
+                   for (; bits != 0 && wanted; bits &= bits - 1) {
+                     const std::uint32_t other = sixteen + static_cast<std::uint32_t>(std::countr_zero(bits));
+                     const std::uint32_t i = blocks_.slot(one), j = blocks_.slot(other);
+                     wanted = visit(blocks_.primitive_of_slot(i), blocks_.primitive_of_slot(j));
+                     if (!wanted)
+                       recent_.add({i, j}, {moved_.place(i), moved_.place(j)}, blocks_.threshold_row(one, other));
+                   }
+                   return wanted;
+                 });
     tasks_.clear();
   };
   std::size_t patience = 1;

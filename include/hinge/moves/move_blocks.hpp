@@ -93,12 +93,22 @@ class MoveBlocks {
   std::uint32_t position(std::uint32_t b) const noexcept {
     return at_[b] * static_cast<std::uint32_t>(Batch<P>::floats);
   }
-  /// The primitive whose floats start at a position.
-  std::uint32_t primitive(std::uint32_t position) const noexcept {
+  /// The slot, in BlockLayout::primitive, whose floats start at a position.
+  static std::uint32_t slot(std::uint32_t position) noexcept {
     constexpr auto floats = static_cast<std::uint32_t>(Batch<P>::floats), n = static_cast<std::uint32_t>(simd::width);
-    return layout().primitive[position / floats / 2 * n + position % floats];
+    return position / floats / 2 * n + position % floats;
   }
+  PrimitiveId primitive_of_slot(std::uint32_t slot) const noexcept { return id<PrimitiveId>(layout().primitive[slot]); }
   const float* floats(std::uint32_t b) const noexcept { return floats_.data() + position(b); }
+  /// Where its floats are at present.
+  std::uint32_t position_of_slot(std::uint32_t slot) const noexcept {
+    constexpr auto n = static_cast<std::uint32_t>(simd::width);
+    return position(slot / n) + slot % n;
+  }
+  /// Of the threshold of two positions, in Thresholds16.
+  std::size_t threshold_row(std::uint32_t one, std::uint32_t other) const noexcept {
+    return class_[one] * simd::width + class_[other];
+  }
   /// Grown by the block's reach.
   const FloatBox& box(std::uint32_t b) const noexcept { return box_[at_[b]]; }
 

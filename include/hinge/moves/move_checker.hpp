@@ -147,12 +147,16 @@ class MoveChecker {
       } else if (judge(i, j, tried(i), tried(j), matrix(), rounding_.tolerance(), tried_known_)) {
         collides = true;
       }
-      if (collides && !all) {
-        complete_ = false;
-        return true;
-      }
+      complete_ = all || !collides;
+      if (!complete_) return true;
     }
     return collides;
+  }
+
+  /// One is enough, whatever others there are: false.
+  bool note_collision(PrimitiveId i, PrimitiveId j) {
+    tried_known_.push_back({{i, j, 0.0, matrix().threshold(i, j)}, true});
+    return complete_ = false;
   }
 
   /// Judges a pair that floats could not rule out; go on?
@@ -167,14 +171,9 @@ class MoveChecker {
       const P q = place(j, blocks_->frames().moved(parts().place(model().group_of(j)), b));
       const double m = matrix().threshold(i, j), off = rounding_.pair_error(m);
       if (!closer_than(p, q, m + (off + rounding_.tolerance()))) return true;
-      if (!all && m > off && closer_than(p, q, m - off)) {
-        tried_known_.push_back({{i, j, 0.0, m}, true});
-        complete_ = false;
-        return false;
-      }
-      if (!judge(i, j, tried(i), tried(j), matrix(), rounding_.tolerance(), tried_known_) || all) return true;
-      complete_ = false;
-      return false;
+      if (!all && m > off && closer_than(p, q, m - off)) return note_collision(i, j);
+      const bool collides = judge(i, j, tried(i), tried(j), matrix(), rounding_.tolerance(), tried_known_);
+      return complete_ = all || !collides;
     }
     return false;
   }
@@ -191,8 +190,13 @@ class MoveChecker {
       counts_.blocks_turned += blocks_->begin(cut_.values(), parts());
       pending_ = Pending::blocks;
       if (recheck(all) && !all) return true;
+      const double tolerance = rounding_.tolerance(), error = rounding_.motion_error();
+      const auto note = [&](PrimitiveId i, PrimitiveId j) { return note_collision(i, j); };
+      const bool recalled = !all && blocks_->recall(parts(), tolerance, error, note);
+      counts_.recalled += recalled ? 1 : 0;
+      if (recalled) return true;
       const auto visit = [&](PrimitiveId i, PrimitiveId j) { return find_near(std::min(i, j), std::max(i, j), all); };
-      if (blocks_->search(parts(), rounding_.tolerance(), rounding_.motion_error(), counts_.query, visit)) return true;
+      if (blocks_->search(parts(), tolerance, error, counts_.query, visit)) return true;
       reject();
     }
     return false;

@@ -12,7 +12,8 @@ namespace hinge {
 struct MoveCounts {
   std::uint64_t tried = 0;
   std::uint64_t full_queries = 0;   ///< moves that were answered by a query over all of the model
-  std::uint64_t blocks_turned = 0;  ///< sixteens of primitives, or fewer, that the others took along
+  std::uint64_t recalled = 0;       ///< of the others, those found colliding by a pair that collided lately
+  std::uint64_t blocks_turned = 0;  ///< sixteens of primitives, or fewer, that the others take along
   QueryCounts query;                ///< of the others
 };
 

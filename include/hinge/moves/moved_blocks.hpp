@@ -76,6 +76,8 @@ class MovedBlocks {
     std::uint32_t rank, stretch;  ///< no stretch before that one holds any of its places
   };
   std::span<const Cut> cut() const noexcept { return cut_; }
+  /// Of what stands in a slot: its place in MovingParts.
+  std::uint32_t place(std::uint32_t slot) const noexcept { return place_[slot]; }
   /// What each part takes of such a block, what most lanes belong to last; valid until the next call.
   std::span<const PartLanes> pieces(const Cut& cut, const MovingParts& parts);
 

@@ -2,7 +2,9 @@
 // Batch<P>: sixteen primitives side by side in float, and lower bounds of their distance to one more.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -220,6 +222,20 @@ struct Batch<Point> {
                     z = Float16(to + 2 * simd::width) - Float16(x_[2]);
       return x * x + y * y + z * z;
     }
+
+    /// Turned like all sixteen.
+    One turned(const std::array<float, 9>& rotation, const std::array<float, 3>& translation) const noexcept {
+      One to = *this;
+      for (std::size_t k = 0; k < 3; ++k)
+        to.x_[k] = x_[0] * rotation[k] + x_[1] * rotation[3 + k] + x_[2] * rotation[6 + k] + translation[k];
+      return to;
+    }
+    float squared_distance(const One& to) const noexcept {
+      const float x = to.x_[0] - x_[0], y = to.x_[1] - x_[1], z = to.x_[2] - x_[2];
+      return x * x + y * y + z * z;
+    }
+    /// Largest magnitude of a coordinate.
+    float extent() const noexcept { return std::max({std::abs(x_[0]), std::abs(x_[1]), std::abs(x_[2])}); }
 
    private:
     std::array<float, 3> x_;
