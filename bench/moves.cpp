@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
     Scene scene(read_protein(subject.file, false), "all");
     std::printf("%s, %zu atoms, %zu dof; us per step, all included (the chains have their frames for free)\n",
                 subject.name.c_str(), scene.size(), scene.dof_count());
-    std::printf("   D  accepted  full queries  blocks |");
+    std::printf("   D  accepted  recalled  full queries  blocks |");
     for (const char* name : mover_names) std::printf(" %12s", name);
     std::printf(
         " | over moves: full  chain-skip  chain16-skip | accepted: moves  full | rejected: moves  full | wrong\n");
@@ -49,16 +49,16 @@ int main(int argc, char** argv) {
       const Walk w = walk(scene, dofs, steps);
       differences += w.differences;
       const auto percent = [&](std::size_t n) { return 100.0 * static_cast<double>(n) / static_cast<double>(steps); };
-      std::printf("%4zu  %6.1f %%      %6.1f %%  %6.1f |", dofs, percent(w.accepted), percent(w.full_queries),
-                  w.blocks);
+      std::printf("%4zu  %6.1f %%  %6.1f %%      %6.1f %%  %6.1f |", dofs, percent(w.accepted), percent(w.recalled),
+                  percent(w.full_queries), w.blocks);
       for (const double us : w.us) std::printf(" %12.2f", us);
       std::printf(" | %16.1f %11.1f %13.1f | %15.2f %5.1f | %15.2f %5.1f | %zu\n", w.ratio(mover_full),
                   w.ratio(mover_chain_skip), w.ratio(mover_chain16_skip), w.accepted_us[mover_moves],
                   w.accepted_us[mover_full], w.rejected_us[mover_moves], w.rejected_us[mover_full], w.differences);
       std::fflush(stdout);
-      Json row = {{"setup", subject.name},  {"atoms", scene.size()},       {"dof", scene.dof_count()},
-                  {"changed", dofs},        {"accepted", w.accepted},      {"steps", w.steps},
-                  {"full", w.full_queries}, {"differences", w.differences}};
+      Json row = {{"setup", subject.name},  {"atoms", scene.size()},  {"dof", scene.dof_count()},
+                  {"changed", dofs},        {"accepted", w.accepted}, {"steps", w.steps},
+                  {"recalled", w.recalled}, {"full", w.full_queries}, {"differences", w.differences}};
       for (std::size_t m = 0; m < movers; ++m) row[std::string(mover_names[m]).append("_us")] = w.us[m];
       results.add(std::move(row));
     }
