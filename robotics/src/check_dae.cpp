@@ -8,9 +8,11 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "read_xml.hpp"
@@ -38,6 +40,8 @@ class DaeCheck {
 
   void run() {
     check_below(file_.root());
+    for (const auto& [source, accessor] : accessors_) check_accessor(source, *accessor);
+    for (const XMLElement* input : inputs_) check_input(*input);
     for (const auto& [id, node] : nodes_) unfold(*node, 0);
     for (const XMLElement* scene : scenes_) unfold(*scene, 0);
   }
@@ -53,6 +57,10 @@ class DaeCheck {
                                                "\", expected a whole number the file has room for");
     }
     if (name == "p" || name == "h" || name == "v" || name == "vcount") check_indices(element);
+    if (name == "float_array") add_array(element);
+    if (name == "accessor") accessors_.emplace_back(source_around(element), &element);
+    if (name == "vertices") vertices_.insert(id_of(element));
+    if (name == "input" && is_of_mesh(element)) inputs_.push_back(&element);
     if (name == "node" && element.Attribute("id") != nullptr) nodes_.emplace(element.Attribute("id"), &element);
     if (name == "visual_scene") scenes_.push_back(&element);
     for (const auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement())
@@ -70,6 +78,54 @@ class DaeCheck {
       if (!is_whole_number(word, -1, INT32_MAX))
         file_.refuse(element.GetLineNum(), tag(element) + " holds '" + std::string(word) + "', expected whole numbers");
     }
+  }
+
+  // assimp looks up what an accessor of a mesh says, whether or not the array has it.
+
+  static std::string id_of(const XMLElement& element, const char* attribute = "id") {
+    const char* id = element.Attribute(attribute);
+    return id != nullptr ? id : "";
+  }
+  static std::string source_around(const XMLElement& element) {
+    const auto* at = element.Parent();
+    while (at != nullptr && at->ToElement() != nullptr && std::string_view(at->Value()) != "source") at = at->Parent();
+    return at != nullptr && at->ToElement() != nullptr ? id_of(*at->ToElement()) : std::string();
+  }
+  static bool is_of_mesh(const XMLElement& input) {
+    const auto* parent = input.Parent() != nullptr ? input.Parent()->Parent() : nullptr;
+    return parent != nullptr && parent->ToElement() != nullptr && std::string_view(parent->Value()) == "mesh";
+  }
+  /// A whole number that check_below() has seen, or what stands for none.
+  static std::int64_t number(const XMLElement& element, const char* attribute, std::int64_t none) {
+    return element.Int64Attribute(attribute, none);
+  }
+
+  void add_array(const XMLElement& element) {
+    const std::int64_t count = number(element, "count", -1);
+    if (count < 0) file_.refuse(element.GetLineNum(), tag(element) + " has no count");
+    const auto [at, is_new] = arrays_.emplace(id_of(element), count);
+    if (!is_new) at->second = std::min(at->second, count);
+  }
+  void check_accessor(const std::string& source, const XMLElement& accessor) {
+    const std::string url = id_of(accessor, "source");
+    const auto array = arrays_.find(url.empty() ? url : url.substr(1));
+    if (array == arrays_.end()) return;  // of names, or of none: see check_input()
+    const std::int64_t count = number(accessor, "count", 0), offset = number(accessor, "offset", 0),
+                       stride = number(accessor, "stride", 1);
+    std::int64_t parameters = 0;
+    for (const auto* child = accessor.FirstChildElement("param"); child != nullptr;
+         child = child->NextSiblingElement("param"))
+      ++parameters;
+    // None of them is above the size of a file.
+    if (parameters > stride || count > INT32_MAX || stride > INT32_MAX || offset + count * stride > array->second)
+      file_.refuse(accessor.GetLineNum(), tag(accessor) + " reaches beyond the " + std::to_string(array->second) +
+                                              " numbers of '" + url + "'");
+    numeric_.insert(source);
+  }
+  void check_input(const XMLElement& input) const {
+    const std::string url = id_of(input, "source"), id = url.empty() ? url : url.substr(1);
+    if (vertices_.count(id) == 0 && numeric_.count(id) == 0)
+      file_.refuse(input.GetLineNum(), tag(input) + " has source=\"" + url + "\", expected a <source> of numbers");
   }
 
   struct Extent {
@@ -104,6 +160,10 @@ class DaeCheck {
   std::int64_t bytes_;
   std::map<std::string, const XMLElement*, std::less<>> nodes_;  // by id
   std::vector<const XMLElement*> scenes_;
+  std::map<std::string, std::int64_t> arrays_;                        // of numbers, by id: how many
+  std::vector<std::pair<std::string, const XMLElement*>> accessors_;  // with the source they are in
+  std::vector<const XMLElement*> inputs_;                             // of meshes
+  std::set<std::string> vertices_, numeric_;                          // ids; of sources with an accessor to numbers
   std::map<const XMLElement*, Extent> extents_;
 };
 

@@ -189,6 +189,20 @@ TEST(ReadMesh, AppliesNodesAndUnitsOfADaeButNotItsUpAxis) {
   EXPECT_EQ(read("a.dae", collada("", "Y_UP")).triangles.at(1).b, Vec3(22, 40, 60));
 }
 
+// assimp would look beyond the array.
+TEST(ReadMesh, RefusesDaeInputsWithoutTheirNumbers) {
+  const auto with = [](const std::string& from, const std::string& to) {
+    std::string text = collada("", "Z_UP");
+    return refusal("a.dae", text.replace(text.find(from), from.size(), to));
+  };
+  EXPECT_EQ(with(" count='9'", ""), "a.dae:1: <float_array> has no count");
+  EXPECT_EQ(with("stride='3'", "stride='4'"), "a.dae:1: <accessor> reaches beyond the 9 numbers of '#pa'");
+  EXPECT_EQ(with("stride='3'", "offset='1' stride='3'"), "a.dae:1: <accessor> reaches beyond the 9 numbers of '#pa'");
+  EXPECT_EQ(with("stride='3'", ""), "a.dae:1: <accessor> reaches beyond the 9 numbers of '#pa'");
+  EXPECT_EQ(with("source='#pa'", "source='#pb'"), "a.dae:1: <input> has source=\"#p\", expected a <source> of numbers");
+  EXPECT_EQ(with("source='#v'", "source='#w'"), "a.dae:1: <input> has source=\"#w\", expected a <source> of numbers");
+}
+
 TEST(ReadMesh, RefusesOtherFormatsAndRubbish) {
   EXPECT_EQ(refusal("a.step", "x"), "a.step: a mesh of format '.step', expected .stl, .obj, .dae or .ply");
   EXPECT_EQ(refusal("a.obj", ""), "a.obj: has no triangles");
