@@ -87,10 +87,9 @@ void check_whole_numbers(const gemmi::cif::Document& document) {
     const std::size_t sign = !value.empty() && (value[0] == '-' || value[0] == '+') ? 1 : 0;
     std::size_t end = sign;
     while (end < value.size() && value[end] >= '0' && value[end] <= '9') ++end;
-    // What starts with ten digits and goes on with a letter is a sequence number with its insertion code.
-    const bool counts = end == value.size() || (value[end] != '.' && end + 1 == value.size());
-    if (end - sign > std::numeric_limits<int>::digits10 && counts)
-      throw std::runtime_error(tag + " is " + value + ", expected a whole number of at most " +
+    // Whatever comes behind them: it takes the digits in front of a fraction or a letter, too.
+    if (end - sign > std::numeric_limits<int>::digits10)
+      throw std::runtime_error(tag + " is " + value + ", expected a number that starts with at most " +
                                std::to_string(std::numeric_limits<int>::digits10) + " digits");
   };
   for (const gemmi::cif::Block& block : document.blocks)
@@ -113,9 +112,9 @@ bool is_record(std::string_view line, std::string_view name) {
 }
 
 /// Atoms numbered, and without the lengths behind LINK and SSBOND records, which nobody asks for: gemmi would read the
-/// start of "nan" or "inf" beyond the end of the record.
+/// start of "nan" or "inf" beyond the end of the record, of which the end of the line is the last character.
 std::string prepare_pdb(const std::string& text, Serials& serials) {
-  constexpr std::size_t length_column = 73;
+  constexpr std::size_t length_column = 72;
   constexpr std::size_t most_atoms = 100000 + 26UL * 36 * 36 * 36 * 36;  // that gemmi reads from five columns
   std::string kept;
   kept.reserve(text.size());

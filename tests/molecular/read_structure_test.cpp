@@ -100,7 +100,7 @@ TEST(ReadStructure, RefusesWholeNumbersThatNoIntHolds) {
   };
   EXPECT_EQ(refusal(text("-99999999"), {}, ".cif"), "");
   EXPECT_EQ(refusal(text("9999999999946"), {}, ".cif"),
-            ": _atom_site.auth_seq_id is 9999999999946, expected a whole number of at most 9 digits");
+            ": _atom_site.auth_seq_id is 9999999999946, expected a number that starts with at most 9 digits");
 }
 
 TEST(ReadStructure, ReadsABondRecordThatEndsInTheMiddleOfANumber) {
