@@ -59,7 +59,7 @@ class DaeCheck {
     if (name == "p" || name == "h" || name == "v" || name == "vcount") check_indices(element);
     if (name == "float_array") add_array(element);
     if (name == "accessor") accessors_.emplace_back(source_around(element), &element);
-    if (name == "vertices") vertices_.insert(id_of(element));
+    if (name == "vertices") vertices_.insert(text_of(element, "id"));
     if (name == "input" && is_of_mesh(element)) inputs_.push_back(&element);
     if (name == "node" && element.Attribute("id") != nullptr) nodes_.emplace(element.Attribute("id"), &element);
     if (name == "visual_scene") scenes_.push_back(&element);
@@ -82,36 +82,40 @@ class DaeCheck {
 
   // assimp looks up what an accessor of a mesh says, whether or not the array has it.
 
-  static std::string id_of(const XMLElement& element, const char* attribute = "id") {
-    const char* id = element.Attribute(attribute);
-    return id != nullptr ? id : "";
+  static std::string text_of(const XMLElement& element, const char* attribute) {
+    const char* text = element.Attribute(attribute);
+    return text != nullptr ? text : "";
+  }
+  /// The id in source="#id".
+  static std::string named_by(const XMLElement& element) {
+    const std::string url = text_of(element, "source");
+    return url.empty() ? url : url.substr(1);
   }
   static std::string source_around(const XMLElement& element) {
     const auto* at = element.Parent();
     while (at != nullptr && at->ToElement() != nullptr && std::string_view(at->Value()) != "source") at = at->Parent();
-    return at != nullptr && at->ToElement() != nullptr ? id_of(*at->ToElement()) : std::string();
+    return at != nullptr && at->ToElement() != nullptr ? text_of(*at->ToElement(), "id") : std::string();
   }
   static bool is_of_mesh(const XMLElement& input) {
     const auto* parent = input.Parent() != nullptr ? input.Parent()->Parent() : nullptr;
     return parent != nullptr && parent->ToElement() != nullptr && std::string_view(parent->Value()) == "mesh";
   }
-  /// A whole number that check_below() has seen, or what stands for none.
-  static std::int64_t number(const XMLElement& element, const char* attribute, std::int64_t none) {
-    return element.Int64Attribute(attribute, none);
-  }
+
+  // Whole numbers were seen by check_below().
 
   void add_array(const XMLElement& element) {
-    const std::int64_t count = number(element, "count", -1);
+    const std::int64_t count = element.Int64Attribute("count", -1);
     if (count < 0) file_.refuse(element.GetLineNum(), tag(element) + " has no count");
-    const auto [at, is_new] = arrays_.emplace(id_of(element), count);
+    const auto [at, is_new] = arrays_.emplace(text_of(element, "id"), count);
     if (!is_new) at->second = std::min(at->second, count);
   }
   void check_accessor(const std::string& source, const XMLElement& accessor) {
-    const std::string url = id_of(accessor, "source");
-    const auto array = arrays_.find(url.empty() ? url : url.substr(1));
+    if (!read_.insert(source).second)
+      file_.refuse(accessor.GetLineNum(), tag(accessor) + " is not the only one of <source id=\"" + source + "\">");
+    const auto array = arrays_.find(named_by(accessor));
     if (array == arrays_.end()) return;  // of names, or of none: see check_input()
-    const std::int64_t count = number(accessor, "count", 0), offset = number(accessor, "offset", 0),
-                       stride = number(accessor, "stride", 1);
+    const std::int64_t count = accessor.Int64Attribute("count", 0), offset = accessor.Int64Attribute("offset", 0),
+                       stride = accessor.Int64Attribute("stride", 1);
     std::int64_t parameters = 0;
     for (const auto* child = accessor.FirstChildElement("param"); child != nullptr;
          child = child->NextSiblingElement("param"))
@@ -119,13 +123,14 @@ class DaeCheck {
     // None of them is above the size of a file.
     if (parameters > stride || count > INT32_MAX || stride > INT32_MAX || offset + count * stride > array->second)
       file_.refuse(accessor.GetLineNum(), tag(accessor) + " reaches beyond the " + std::to_string(array->second) +
-                                              " numbers of '" + url + "'");
+                                              " numbers of '" + text_of(accessor, "source") + "'");
     numeric_.insert(source);
   }
   void check_input(const XMLElement& input) const {
-    const std::string url = id_of(input, "source"), id = url.empty() ? url : url.substr(1);
+    const std::string id = named_by(input);
     if (vertices_.count(id) == 0 && numeric_.count(id) == 0)
-      file_.refuse(input.GetLineNum(), tag(input) + " has source=\"" + url + "\", expected a <source> of numbers");
+      file_.refuse(input.GetLineNum(),
+                   tag(input) + " has source=\"" + text_of(input, "source") + "\", expected a <source> of numbers");
   }
 
   struct Extent {
@@ -163,7 +168,8 @@ class DaeCheck {
   std::map<std::string, std::int64_t> arrays_;                        // of numbers, by id: how many
   std::vector<std::pair<std::string, const XMLElement*>> accessors_;  // with the source they are in
   std::vector<const XMLElement*> inputs_;                             // of meshes
-  std::set<std::string> vertices_, numeric_;                          // ids; of sources with an accessor to numbers
+  std::set<std::string> vertices_;                                    // ids
+  std::set<std::string> read_, numeric_;  // ids of sources with an accessor, and with one to numbers
   std::map<const XMLElement*, Extent> extents_;
 };
 

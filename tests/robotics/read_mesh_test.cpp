@@ -199,6 +199,8 @@ TEST(ReadMesh, RefusesDaeInputsWithoutTheirNumbers) {
   EXPECT_EQ(with("stride='3'", "stride='4'"), "a.dae:1: <accessor> reaches beyond the 9 numbers of '#pa'");
   EXPECT_EQ(with("stride='3'", "offset='1' stride='3'"), "a.dae:1: <accessor> reaches beyond the 9 numbers of '#pa'");
   EXPECT_EQ(with("stride='3'", ""), "a.dae:1: <accessor> reaches beyond the 9 numbers of '#pa'");
+  EXPECT_EQ(with("</accessor>", "</accessor><accessor source='#names'/>"),
+            "a.dae:1: <accessor> is not the only one of <source id=\"p\">");
   EXPECT_EQ(with("source='#pa'", "source='#pb'"), "a.dae:1: <input> has source=\"#p\", expected a <source> of numbers");
   EXPECT_EQ(with("source='#v'", "source='#w'"), "a.dae:1: <input> has source=\"#w\", expected a <source> of numbers");
 }
