@@ -101,6 +101,10 @@ TEST(ReadStructure, RefusesWholeNumbersThatNoIntHolds) {
   EXPECT_EQ(refusal(text("-99999999"), {}, ".cif"), "");
   EXPECT_EQ(refusal(text("9999999999946"), {}, ".cif"),
             ": _atom_site.auth_seq_id is 9999999999946, expected a number that starts with at most 9 digits");
+  // Whatever stands behind the digits.
+  for (const char* behind : {"A", "_x.9", ".5"})
+    EXPECT_NE(refusal(text("9999999999" + std::string(behind)), {}, ".cif").find("at most 9 digits"), std::string::npos)
+        << behind;
 }
 
 TEST(ReadStructure, ReadsABondRecordThatEndsInTheMiddleOfANumber) {
