@@ -125,7 +125,7 @@ inline Walk walk(Scene& scene, std::size_t dofs, std::size_t steps) {
   }
   walk.full_queries = moves.counts().full_queries;
   walk.recalled = moves.counts().recalled;
-  walk.blocks = static_cast<double>(moves.counts().blocks_turned) / static_cast<double>(steps);
+  walk.blocks = static_cast<double>(moves.counts().blocks_moved) / static_cast<double>(steps);
 
   std::vector<std::array<double, movers>> best(steps);
   for (auto& b : best) b.fill(std::numeric_limits<double>::infinity());

@@ -91,6 +91,7 @@ static_assert(!CrossEngine<Wide<Point, AdmitAll, OwnOnly>, Point, AdmitAll, OwnO
 static_assert(TypesPrimitives<TypedThresholds> && !TypesPrimitives<UniformClearance>);
 static_assert(!GrowsPrimitives<TypedThresholds> && !GrowsPrimitives<UniformClearance>);
 static_assert(TurnsBatch<Point> && !TurnsBatch<Sphere>);
+static_assert(TurnsOne<Point> && !TurnsOne<Sphere>);
 
 static_assert(Id<PrimitiveId> && !Id<int> && !std::is_convertible_v<LinkId, PrimitiveId>);
 

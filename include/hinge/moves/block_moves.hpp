@@ -20,6 +20,7 @@
 #include "hinge/engine/wide/threshold_classes.hpp"
 #include "hinge/engine/wide/wide_state.hpp"
 #include "hinge/moves/move_blocks.hpp"
+#include "hinge/moves/move_counts.hpp"
 #include "hinge/moves/move_frames.hpp"
 #include "hinge/moves/moved_blocks.hpp"
 #include "hinge/moves/moving_parts.hpp"
@@ -76,10 +77,12 @@ class BlockMoves {
   /// Before search(), with its arguments: did a pair that stopped it in a move before come too close again, beyond
   /// doubt? It goes to visit(i, j).
   template <class Visit>
-  bool recall(const MovingParts& parts, double cutoff, double motion_error, const Visit& visit) {
+  bool recall(const MovingParts& parts, double cutoff, double motion_error, MoveCounts& counts,
+              const Visit& visit) requires TurnsOne<P> {
     set_thresholds(cutoff, motion_error);
     const auto slots = recent_.find(blocks_, motions_, thresholds_, parts);
     if (!slots) return false;
+    ++counts.recalled;
     const auto [i, j] = std::minmax({blocks_.primitive_of_slot((*slots)[0]), blocks_.primitive_of_slot((*slots)[1])});
     visit(i, j);
     return true;

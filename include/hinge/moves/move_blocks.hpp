@@ -144,12 +144,22 @@ class MoveBlocks {
   }
   /// The same where lanes belong to different parts; motions: by part, that of part 0 is not looked at.
   void turn(std::uint32_t b, std::span<const PartLanes> pieces, std::span<const FloatMotion> motions) noexcept {
+    using simd::Float16;
+    constexpr std::size_t rows = Batch<P>::floats / simd::width;
     const float* from = floats(b);
     at_[b] ^= 1U;
     float* to = floats_.data() + position(b);
-    finish(b, Batch<P>::turn(
-                  from, pieces.size(), [&](std::size_t k) { return pieces[k].lanes; },
-                  [&](std::size_t k) { return pieces[k].part == 0 ? nullptr : &motions[pieces[k].part]; }, to));
+    std::array<Float16, rows> all;
+    for (std::size_t k = 0; k < rows; ++k) all[k] = Float16(from + k * simd::width);
+    for (const auto& [part, lanes] : pieces) {
+      if (part == 0) continue;
+      alignas(64) std::array<float, Batch<P>::floats> turned;
+      Batch<P>::turn(from, motions[part].rotation, motions[part].translation, turned.data());
+      for (std::size_t k = 0; k < rows; ++k)
+        all[k] = simd::choose(lanes, Float16(turned.data() + k * simd::width), all[k]);
+    }
+    for (std::size_t k = 0; k < rows; ++k) all[k].store(to + k * simd::width);
+    finish(b, Batch<P>::hull(to));
   }
   /// Those of the present move, in order.
   std::span<const std::uint32_t> turned() const noexcept { return turned_; }

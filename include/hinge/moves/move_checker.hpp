@@ -24,6 +24,7 @@
 #include "hinge/moves/move_counts.hpp"
 #include "hinge/moves/move_cut.hpp"
 #include "hinge/moves/placing_bounds.hpp"
+#include "hinge/primitive/batch.hpp"
 #include "hinge/primitive/leaf.hpp"
 
 namespace hinge {
@@ -187,14 +188,14 @@ class MoveChecker {
       catch_up();
       if (!blocks_->holds()) return false;
       cut_.cut(changes_);
-      counts_.blocks_turned += blocks_->begin(cut_.values(), parts());
+      counts_.blocks_moved += blocks_->begin(cut_.values(), parts());
       pending_ = Pending::blocks;
       if (recheck(all) && !all) return true;
       const double tolerance = rounding_.tolerance(), error = rounding_.motion_error();
-      const auto note = [&](PrimitiveId i, PrimitiveId j) { return note_collision(i, j); };
-      const bool recalled = !all && blocks_->recall(parts(), tolerance, error, note);
-      counts_.recalled += recalled ? 1 : 0;
-      if (recalled) return true;
+      if constexpr (TurnsOne<P>) {
+        const auto note = [&](PrimitiveId i, PrimitiveId j) { note_collision(i, j); };
+        if (!all && blocks_->recall(parts(), tolerance, error, counts_, note)) return true;
+      }
       const auto visit = [&](PrimitiveId i, PrimitiveId j) { return find_near(std::min(i, j), std::max(i, j), all); };
       if (blocks_->search(parts(), tolerance, error, counts_.query, visit)) return true;
       reject();
@@ -267,10 +268,7 @@ bool MoveChecker<P, F, D, EngineOf>::attempt(std::span<const DofChange> changes,
 template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
 void MoveChecker<P, F, D, EngineOf>::accept() {
   if (pending_ == Pending::none) throw ConfigurationError("there is no pending move to accept");
-  if (!complete_) {
-    // Not all of its collisions are known.
-    return set(hierarchy_.after(q_, changes_));
-  }
+  if (!complete_) return set(hierarchy_.after(q_, changes_));  // not all of its collisions are known
   for (const DofChange& change : changes_) q_[change.dof] = change.value;
   known_.swap(tried_known_);
   if constexpr (by_blocks) {

@@ -105,10 +105,8 @@ class MovedBlocks {
 };
 
 inline std::span<const PartLanes> MovedBlocks::pieces(const Cut& cut, const MovingParts& parts) {
-  using Places = simd::Lanes<std::uint32_t, simd::width>;
   const std::span<const MovingParts::Stretch> stretches = parts.stretches();
   const std::uint32_t b = order_[cut.rank];
-  const Places places(place_.data() + b * simd::width);
   simd::Bits rest = simd::all_bits;
   pieces_.clear();
   const auto add = [&](std::uint32_t part, simd::Bits lanes) {
@@ -120,7 +118,7 @@ inline std::span<const PartLanes> MovedBlocks::pieces(const Cut& cut, const Movi
       piece->lanes |= lanes;
   };
   for (std::size_t t = cut.stretch; t < stretches.size() && stretches[t].begin <= last_[b]; ++t) {
-    const simd::Bits lanes = less_equal(Places(stretches[t].begin), places) & less(places, Places(stretches[t].end));
+    const simd::Bits lanes = stretches[t].lanes(place_.data() + b * simd::width);
     rest &= ~lanes;
     add(stretches[t].part, lanes);
   }

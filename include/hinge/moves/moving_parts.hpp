@@ -11,6 +11,7 @@
 #include "hinge/core/id.hpp"
 #include "hinge/engine/wide/cut_blocks.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
+#include "hinge/simd/lanes.hpp"
 
 namespace hinge {
 
@@ -40,6 +41,12 @@ class MovingParts {
   /// Places begin ... end - 1 belong to one part.
   struct Stretch {
     std::uint32_t begin, end, part;
+    /// Which of sixteen places lie in it.
+    [[gnu::always_inline]] simd::Bits lanes(const std::uint32_t* places) const noexcept {
+      using Places = simd::Lanes<std::uint32_t, simd::width>;
+      const Places place(places);
+      return less_equal(Places(begin), place) & less(place, Places(end));
+    }
   };
   /// Moves with the joint at place `joint`, which hangs on part `parent`; `top` is the place of the first changed joint
   /// between it and what stands still.

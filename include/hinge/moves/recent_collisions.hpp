@@ -14,7 +14,6 @@
 #include "hinge/engine/wide/run_tasks.hpp"
 #include "hinge/moves/move_blocks.hpp"
 #include "hinge/moves/moving_parts.hpp"
-#include "hinge/policy/primitive.hpp"
 #include "hinge/primitive/batch.hpp"
 #include "hinge/simd/lanes.hpp"
 
@@ -27,7 +26,7 @@ class RecentCollisions {
 
   /// A pair that is closer after the move than its threshold, beyond doubt: by a margin that float coordinates are not
   /// off by. motions: by part of the cut.
-  template <Primitive P>
+  template <TurnsOne P>
   std::optional<Pair> find(const MoveBlocks<P>& blocks, std::span<const FloatMotion> motions,
                            const Thresholds16& thresholds, const MovingParts& parts) {
     for (simd::Bits left = apart(parts); left != 0; left &= left - 1) {
@@ -67,8 +66,7 @@ class RecentCollisions {
     std::array<simd::Bits, 2> moving{};
     for (const MovingParts::Stretch& s : parts.stretches())
       for (std::size_t side = 0; side < 2; ++side) {
-        const Places place(place_[side].data());
-        const simd::Bits in = less_equal(Places(s.begin), place) & less(place, Places(s.end));
+        const simd::Bits in = s.lanes(place_[side].data());
         of_part_[s.part][side] |= in;
         moving[side] |= in;
       }
@@ -77,12 +75,10 @@ class RecentCollisions {
     return ~together & ((simd::Bits{1} << size_) - 1);
   }
 
-  using Places = simd::Lanes<std::uint32_t, simd::width>;
-
   std::size_t size_ = 0;
   std::array<Pair, simd::width> slot_{};
   std::array<std::size_t, simd::width> row_{};
-  std::array<std::array<std::uint32_t, simd::width>, 2> place_{};  // side by side for Places
+  std::array<std::array<std::uint32_t, simd::width>, 2> place_{};  // side by side for Stretch::lanes
   std::array<std::uint64_t, simd::width> met_at_{};
   std::uint64_t now_ = 0;
   std::vector<std::array<simd::Bits, 2>> of_part_;  // scratch

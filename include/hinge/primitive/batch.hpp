@@ -15,7 +15,6 @@
 #include "hinge/kinematics/frame.hpp"
 #include "hinge/policy/primitive.hpp"
 #include "hinge/primitive/point.hpp"
-#include "hinge/simd/gather_bits.hpp"
 #include "hinge/simd/lanes.hpp"
 
 namespace hinge {
@@ -191,23 +190,17 @@ struct Batch<Point> {
   /// rotation (column by column) * local + translation, for all sixteen; returns the box around them.
   [[gnu::always_inline]] static FloatBox turn(const float* local, const std::array<float, 9>& rotation,
                                               const std::array<float, 3>& translation, float* to) noexcept {
-    const Xyz turned = turned_by(local, rotation, translation);
-    for (std::size_t k = 0; k < 3; ++k) turned[k].store(to + k * simd::width);
-    return box_of(turned);
-  }
-  /// The same where lanes turn differently: lanes(k) by *motion(k), k < count; those without one keep what they hold.
-  template <class LanesOf, class MotionOf>
-  [[gnu::always_inline]] static FloatBox turn(const float* local, std::size_t count, const LanesOf& lanes,
-                                              const MotionOf& motion, float* to) noexcept {
-    Xyz all{simd::Float16(local), simd::Float16(local + simd::width), simd::Float16(local + 2 * simd::width)};
-    for (std::size_t piece = 0; piece < count; ++piece) {
-      const auto* const by = motion(piece);
-      if (by == nullptr) continue;
-      const Xyz turned = turned_by(local, by->rotation, by->translation);
-      for (std::size_t k = 0; k < 3; ++k) all[k] = simd::choose(lanes(piece), turned[k], all[k]);
+    using simd::Float16;
+    const Float16 x(local), y(local + simd::width), z(local + 2 * simd::width);
+    FloatBox box;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Float16 turned = x * Float16(rotation[k]) + y * Float16(rotation[3 + k]) + z * Float16(rotation[6 + k]) +
+                             Float16(translation[k]);
+      turned.store(to + k * simd::width);
+      box.lower[k] = smallest(turned);
+      box.upper[k] = largest(turned);
     }
-    for (std::size_t k = 0; k < 3; ++k) all[k].store(to + k * simd::width);
-    return box_of(all);
+    return box;
   }
 
   class One {
@@ -240,22 +233,6 @@ struct Batch<Point> {
    private:
     std::array<float, 3> x_;
   };
-
- private:
-  using Xyz = std::array<simd::Float16, 3>;
-  [[gnu::always_inline]] static Xyz turned_by(const float* local, const std::array<float, 9>& rotation,
-                                              const std::array<float, 3>& translation) noexcept {
-    using simd::Float16;
-    const Float16 x(local), y(local + simd::width), z(local + 2 * simd::width);
-    const auto turned = [&](std::size_t k) __attribute__((always_inline)) {
-      return x * Float16(rotation[k]) + y * Float16(rotation[3 + k]) + z * Float16(rotation[6 + k]) +
-             Float16(translation[k]);
-    };
-    return {turned(0), turned(1), turned(2)};
-  }
-  [[gnu::always_inline]] static FloatBox box_of(const Xyz& x) noexcept {
-    return {{smallest(x[0]), smallest(x[1]), smallest(x[2])}, {largest(x[0]), largest(x[1]), largest(x[2])}};
-  }
 };
 
 /// Optional: a rigid batch is placed by turning its floats, without looking at the primitives.
@@ -271,6 +248,17 @@ concept MeasuresDistances = requires {
   requires Batch<P>::measures;
 };
 
-static_assert(TurnsBatch<Point> && MeasuresDistances<Point>);
+/// Optional: one primitive of a batch can be turned and measured by itself, without its batch. extent: the largest
+/// magnitude of its coordinates.
+template <class P>
+concept TurnsOne = TurnsBatch<P> && MeasuresDistances<P> &&
+    requires(const typename Batch<P>::One& one, const std::array<float, 9>& rotation,
+             const std::array<float, 3>& translation) {
+  { one.turned(rotation, translation) } -> std::same_as<typename Batch<P>::One>;
+  { one.squared_distance(one) } -> std::same_as<float>;
+  { one.extent() } -> std::same_as<float>;
+};
+
+static_assert(TurnsOne<Point>);
 
 }  // namespace hinge
