@@ -57,6 +57,9 @@ void check_pdb(std::string_view text, const std::string& path, std::size_t numbe
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     ++number;
+    // The parser would end the line there, and lose the next one.
+    if (line.find('\0') != std::string_view::npos)
+      throw LoadError(path + ":" + std::to_string(number) + ": a NUL character, expected text");
     if (is_atom_record(line)) {
       read_pdb_coordinates(line, path, number);
       ++atoms;

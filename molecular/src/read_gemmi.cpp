@@ -77,31 +77,36 @@ RawModel convert(const gemmi::Model& model, int number, const Serials& serials) 
   return raw;
 }
 
-/// gemmi's whole numbers wrap around where they leave the range of int; categories it reads any from.
-void check_whole_numbers(const gemmi::cif::Document& document) {
-  constexpr std::string_view categories[] = {
-      "_atom_site.",        "_struct_conf.",     "_struct_conn.",          "_struct_sheet_range.",
-      "_struct_ref_seq.",   "_entity_poly_seq.", "_pdbx_refine_tls_group", "_pdbx_struct_assembly",
-      "_pdbx_sifts_xref_db"};
-  const auto check = [&](const std::string& tag, const std::string& value) {
-    const std::size_t sign = !value.empty() && (value[0] == '-' || value[0] == '+') ? 1 : 0;
+/// Leaves of a document what is read of it here: gemmi would refuse a file for other things that are wrong in it, or
+/// unfold them. Its whole numbers wrap around where they leave the range of int; those are refused.
+void keep_what_is_read(gemmi::cif::Document& document) {
+  const auto is_read = [](const std::string& tag) {
+    for (const char* category :
+         {"_atom_site.", "_struct_conf.", "_struct_conn.", "_struct_sheet.", "_struct_sheet_range."})
+      if (gemmi::istarts_with(tag, category)) return true;
+    return false;
+  };
+  const auto check = [](const std::string& tag, const std::string& value) {
+    const std::string text = gemmi::cif::as_string(value);
+    const std::size_t sign = !text.empty() && (text[0] == '-' || text[0] == '+') ? 1 : 0;
     std::size_t end = sign;
-    while (end < value.size() && value[end] >= '0' && value[end] <= '9') ++end;
+    while (end < text.size() && text[end] >= '0' && text[end] <= '9') ++end;
     // Whatever comes behind them: it takes the digits in front of a fraction or a letter, too.
     if (end - sign > std::numeric_limits<int>::digits10)
-      throw std::runtime_error(tag + " is " + value + ", expected a number that starts with at most " +
+      throw std::runtime_error(tag + " is " + text + ", expected a number that starts with at most " +
                                std::to_string(std::numeric_limits<int>::digits10) + " digits");
   };
-  for (const gemmi::cif::Block& block : document.blocks)
-    for (const gemmi::cif::Item& item : block.items) {
-      const bool is_loop = item.type == gemmi::cif::ItemType::Loop, is_pair = item.type == gemmi::cif::ItemType::Pair;
-      if ((!is_loop && !is_pair) || (is_loop && item.loop.tags.empty())) continue;
-      const std::string& first = is_loop ? item.loop.tags.front() : item.pair[0];
-      const auto is_of = [&](std::string_view category) { return first.compare(0, category.size(), category) == 0; };
-      if (std::none_of(std::begin(categories), std::end(categories), is_of)) continue;
-      if (is_pair) check(item.pair[0], item.pair[1]);
-      for (std::size_t k = 0; is_loop && k < item.loop.values.size(); ++k)
-        check(item.loop.tags[k % item.loop.tags.size()], item.loop.values[k]);
+  for (gemmi::cif::Block& block : document.blocks)
+    for (gemmi::cif::Item& item : block.items) {
+      if (item.type == gemmi::cif::ItemType::Pair && is_read(item.pair[0])) {
+        check(item.pair[0], item.pair[1]);
+      } else if (item.type == gemmi::cif::ItemType::Loop &&
+                 std::any_of(item.loop.tags.begin(), item.loop.tags.end(), is_read)) {
+        for (std::size_t k = 0; k < item.loop.values.size(); ++k)
+          check(item.loop.tags[k % item.loop.tags.size()], item.loop.values[k]);
+      } else {
+        item.erase();
+      }
     }
 }
 
@@ -111,17 +116,21 @@ bool is_record(std::string_view line, std::string_view name) {
          std::equal(name.begin(), name.end(), line.begin(), [](char a, char b) { return a == (b & ~0x20); });
 }
 
-/// Atoms numbered, and without the lengths behind LINK and SSBOND records, which nobody asks for: gemmi would read the
-/// start of "nan" or "inf" beyond the end of the record, of which the end of the line is the last character.
-std::string prepare_pdb(const std::string& text, Serials& serials) {
+/// Atoms numbered, lines cut after so many columns: gemmi would start a new line behind some characters of what it cuts
+/// off. And without the lengths behind LINK and SSBOND records, which nobody asks for: it would read the start of "nan"
+/// or "inf" beyond the end of the record, of which the end of the line is the last character.
+std::string prepare_pdb(const std::string& text, std::size_t columns, Serials& serials) {
   constexpr std::size_t length_column = 72;
   constexpr std::size_t most_atoms = 100000 + 26UL * 36 * 36 * 36 * 36;  // that gemmi reads from five columns
+  serials.clear();
   std::string kept;
   kept.reserve(text.size());
   for (std::size_t first = 0; first < text.size();) {
     const std::size_t end = std::min(text.find('\n', first), text.size());
-    const std::string_view line = std::string_view(text).substr(first, end - first);
-    kept += is_record(line, "LINK") || is_record(line, "SSBO") ? line.substr(0, length_column) : line;
+    std::string_view line = std::string_view(text).substr(first, end - first);
+    line =
+        line.substr(0, is_record(line, "LINK") || is_record(line, "SSBO") ? std::min(columns, length_column) : columns);
+    kept += line;
     if ((is_record(line, "ATOM") || is_record(line, "HETA")) && line.size() > 11) {
       if (serials.size() == most_atoms)
         throw std::runtime_error("more than " + std::to_string(most_atoms) + " atoms, expected mmCIF of so many");
@@ -198,21 +207,24 @@ void number_atoms(gemmi::cif::Document& document, Serials& serials) {
 gemmi::Structure parse(const std::string& bytes, const std::string& path, bool cif, RawFile& raw, Serials& serials) {
   if (cif) {
     gemmi::cif::Document document = gemmi::cif::read_memory(bytes.data(), bytes.size(), path.c_str());
-    check_whole_numbers(document);
     raw.components = components_of(document, path);
+    keep_what_is_read(document);
     number_atoms(document, serials);
     return gemmi::make_structure(std::move(document));
   }
-  const std::string text = prepare_pdb(bytes, serials);
+  gemmi::PdbReadOptions options;
+  const auto read = [&](int columns) {
+    options.max_line_length = columns;
+    const std::string text = prepare_pdb(bytes, static_cast<std::size_t>(columns), serials);
+    return gemmi::read_pdb_from_memory(text.data(), text.size(), path, options);
+  };
   try {
-    return gemmi::read_pdb_from_memory(text.data(), text.size(), path);
+    return read(120);  // more than it looks at
   } catch (const std::exception& first) {
     // Files from before 1996 carry the entry's name and a line number in columns 73-80, where element and charge are
     // now.
-    gemmi::PdbReadOptions options;
-    options.max_line_length = 72;
     try {
-      gemmi::Structure st = gemmi::read_pdb_from_memory(text.data(), text.size(), path, options);
+      gemmi::Structure st = read(72);
       raw.notes.emplace_back("old PDB format: columns 73-80 ignored, elements taken from atom names");
       return st;
     } catch (const std::exception&) {

@@ -89,14 +89,14 @@ TEST(ReadStructure, RefusesEmptyMissingAndCutShortFiles) {
 }
 
 TEST(ReadStructure, RefusesWholeNumbersThatNoIntHolds) {
-  const auto text = [](const std::string& number) {
-    std::string cif = "data_x\nloop_\n";
+  const auto text = [](const std::string& number, const std::string& first_tag = "") {
+    std::string cif = "data_x\nloop_\n" + first_tag;
     for (const char* tag :
          {"group_PDB", "id", "type_symbol", "label_atom_id", "label_alt_id", "label_comp_id", "label_asym_id",
           "label_entity_id", "label_seq_id", "pdbx_PDB_ins_code", "Cartn_x", "Cartn_y", "Cartn_z", "occupancy",
           "B_iso_or_equiv", "auth_seq_id", "auth_asym_id", "pdbx_PDB_model_num"})
       cif.append("_atom_site.").append(tag).append("\n");
-    return cif + "ATOM 1 N N . ALA A 1 46 ? 0 0 0 1.00 6.53 " + number + " A 1\n";
+    return cif + (first_tag.empty() ? "" : "0 ") + "ATOM 1 N N . ALA A 1 46 ? 0 0 0 1.00 6.53 " + number + " A 1\n";
   };
   EXPECT_EQ(refusal(text("-99999999"), {}, ".cif"), "");
   EXPECT_EQ(refusal(text("9999999999946"), {}, ".cif"),
@@ -105,6 +105,42 @@ TEST(ReadStructure, RefusesWholeNumbersThatNoIntHolds) {
   for (const char* behind : {"A", "_x.9", ".5"})
     EXPECT_NE(refusal(text("9999999999" + std::string(behind)), {}, ".cif").find("at most 9 digits"), std::string::npos)
         << behind;
+  // However the number is written, and in whatever loop.
+  for (const std::string& cif : {text("'9999999999'"), text("9999999999", "_other.id\n")})
+    EXPECT_NE(refusal(cif, {}, ".cif").find("at most 9 digits"), std::string::npos) << cif;
+  std::string upper = text("9999999999");
+  for (std::size_t at = 0; (at = upper.find("_atom_site", at)) != std::string::npos;)
+    upper.replace(at, 10, "_ATOM_SITE");
+  EXPECT_NE(refusal(upper, {}, ".cif").find("at most 9 digits"), std::string::npos);
+}
+
+// What is not read of a file may be wrong, or stand for 10^9 names.
+TEST(ReadStructure, LooksAtNoOtherCategories) {
+  const std::string atoms =
+      "data_x\nloop_\n_atom_site.id\n_atom_site.type_symbol\n_atom_site.label_atom_id\n_atom_site.label_alt_id\n"
+      "_atom_site.label_comp_id\n_atom_site.label_asym_id\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n"
+      "_atom_site.Cartn_z\n_atom_site.occupancy\n_atom_site.B_iso_or_equiv\n_atom_site.auth_seq_id\n"
+      "1 N N . ALA A 0 0 0 1 0 46\n";
+  EXPECT_EQ(refusal(atoms, {}, ".cif"), "");
+  EXPECT_EQ(refusal(atoms + "_refine.pdbx_refine_id x\n_refine.ls_number_reflns_obs 99999999999\n", {}, ".cif"), "");
+  EXPECT_EQ(refusal(atoms + "_pdbx_struct_assembly.id 1\n_pdbx_struct_assembly.details author_defined_assembly\n"
+                            "_pdbx_struct_assembly.method_details ?\n_pdbx_struct_assembly.oligomeric_details ?\n"
+                            "_pdbx_struct_assembly.oligomeric_count 1\n_pdbx_struct_assembly_gen.assembly_id 1\n"
+                            "_pdbx_struct_assembly_gen.oper_expression (1-999999999)\n"
+                            "_pdbx_struct_assembly_gen.asym_id_list A\n",
+                    {}, ".cif"),
+            "");
+}
+
+TEST(ReadStructure, TakesNoAtomsFromBehindTheEndOfALine) {
+  // (The parser stops cutting a line at the first byte that is no ASCII, and would go on with a record there.)
+  std::string text = alanine();
+  text.insert(text.find('\n'), std::string(60, ' ') + "\x93" + atom(9, "CG", "ALA", 1, 9, 9, 9));
+  const TemporaryFile file(text + "END\n");
+  EXPECT_EQ(read_structure(file.path()).atoms.size(), 5U);
+  text = alanine();
+  text[text.find("CA")] = '\0';
+  EXPECT_EQ(refusal(text), ":2: a NUL character, expected text");
 }
 
 TEST(ReadStructure, ReadsABondRecordThatEndsInTheMiddleOfANumber) {
