@@ -16,7 +16,7 @@ namespace hinge::robotics {
 namespace {
 
 std::string_view next_word(std::string_view& line) {
-  constexpr std::string_view blanks = " \t\r";
+  constexpr std::string_view blanks = " \t";
   line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
   const std::string_view word = line.substr(0, line.find_first_of(blanks));
   line.remove_prefix(word.size());
@@ -34,6 +34,9 @@ void check_ply(const std::string& bytes, const std::string& path) {
     std::string_view line = rest.substr(0, end);
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
     const std::string where = path + ":" + std::to_string(++number) + ": ";
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    if (line.find('\r') != std::string_view::npos)
+      throw LoadError(where + "a carriage return within the line, expected \\n or \\r\\n at its end");
     const std::string_view word = next_word(line);
     if (number == 1) {
       if (word != "ply") throw LoadError(where + "expected the word ply");
@@ -44,6 +47,10 @@ void check_ply(const std::string& bytes, const std::string& path) {
       throw LoadError(where + "is no line of a PLY header, and there was no end_header");
     if (word != "element") continue;
     const std::string_view name = next_word(line), text = next_word(line);
+    // assimp takes the digits for the count.
+    if (!name.empty() && name.front() >= '0' && name.front() <= '9')
+      throw LoadError(where + "element has the name '" + std::string(name) +
+                      "', expected one that begins with a letter");
     std::size_t count = 0;
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), count);
     if (error != std::errc{} || stop != text.data() + text.size() || count > bytes.size())

@@ -205,6 +205,19 @@ TEST(ReadMesh, RefusesDaeInputsWithoutTheirNumbers) {
   EXPECT_EQ(with("source='#v'", "source='#w'"), "a.dae:1: <input> has source=\"#w\", expected a <source> of numbers");
 }
 
+// assimp would make room for as many elements as a name's digits say, and begins a line at every carriage return.
+TEST(ReadMesh, RefusesPlyElementsThatAreMisread) {
+  const auto ply = [](const std::string& element) {
+    return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n" + element +
+           "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  };
+  EXPECT_EQ(refusal("a.ply", ply("element face 1\r\n")), "");
+  EXPECT_EQ(refusal("a.ply", ply("element 4294967295face 1\n")),
+            "a.ply:7: element has the name '4294967295face', expected one that begins with a letter");
+  EXPECT_EQ(refusal("a.ply", ply("element face 1\relement 4294967295face 1\n")),
+            "a.ply:7: a carriage return within the line, expected \\n or \\r\\n at its end");
+}
+
 TEST(ReadMesh, RefusesOtherFormatsAndRubbish) {
   EXPECT_EQ(refusal("a.step", "x"), "a.step: a mesh of format '.step', expected .stl, .obj, .dae or .ply");
   EXPECT_EQ(refusal("a.obj", ""), "a.obj: has no triangles");
