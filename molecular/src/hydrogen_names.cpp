@@ -26,7 +26,7 @@ std::vector<std::uint32_t> heavy_atoms(const Structure& s, std::uint32_t r, cons
 /// Heavy atoms whose name behind the element is `locant`, or else the longest beginning of it that some atom has.
 std::vector<std::uint32_t> with_locant(const Structure& s, std::uint32_t r, std::string_view locant) {
   for (; !locant.empty(); locant.remove_suffix(1)) {
-    auto found = heavy_atoms(s, r, [&](std::string_view name) { return name.substr(1) == locant; });
+    auto found = heavy_atoms(s, r, [&](std::string_view name) { return !name.empty() && name.substr(1) == locant; });
     if (!found.empty()) return found;
   }
   return {};

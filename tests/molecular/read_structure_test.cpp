@@ -132,6 +132,12 @@ TEST(ReadStructure, LooksAtNoOtherCategories) {
             "");
 }
 
+TEST(ReadStructure, ReadsAnAtomWithoutAName) {
+  const TemporaryFile file(alanine() + atom(6, "", "ALA", 1, 5, 5, 5) +
+                           atom(7, "HB1", "ALA", 1, 3, -0.8, -1, ' ', 1, "H"));
+  EXPECT_EQ(read_structure(file.path()).atoms.size(), 7U);
+}
+
 TEST(ReadStructure, TakesNoAtomsFromBehindTheEndOfALine) {
   // (The parser stops cutting a line at the first byte that is no ASCII, and would go on with a record there.)
   std::string text = alanine();
