@@ -105,6 +105,15 @@ struct alignas(64) BoxRow {
 struct BoxLanes {
   explicit BoxLanes(const FloatBox& box) noexcept
       : lower{box.lower[0], box.lower[1], box.lower[2]}, upper{box.upper[0], box.upper[1], box.upper[2]} {}
+  /// Grown by r on every side, up to rounding.
+  [[gnu::always_inline]] BoxLanes grown(float r) const noexcept {
+    BoxLanes box = *this;
+    for (std::size_t k = 0; k < 3; ++k) {
+      box.lower[k] = lower[k] - simd::Float16(r);
+      box.upper[k] = upper[k] + simd::Float16(r);
+    }
+    return box;
+  }
   std::array<simd::Float16, 3> lower, upper;
 };
 

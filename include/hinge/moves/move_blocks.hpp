@@ -87,7 +87,7 @@ class MoveBlocks {
   const float* packed() const noexcept { return floats_.data(); }
   const std::uint8_t* position_class() const noexcept { return class_.data(); }
   static constexpr bool has_extra() noexcept { return false; }
-  static constexpr float extra(std::size_t) noexcept { return 0.0F; }
+  static constexpr float extra_at(std::size_t) noexcept { return 0.0F; }
 
   std::uint32_t at(std::uint32_t b) const noexcept { return at_[b]; }
   std::uint32_t position(std::uint32_t b) const noexcept {

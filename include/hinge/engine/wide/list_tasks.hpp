@@ -50,17 +50,18 @@ class TaskLister {
     const simd::Bits lanes = side.near().self_lanes(first);
     if (lanes != 0 && !side.kept_apart(u, u))
       tasks.add_rows(lanes, position<P>(first), position<P>(first), side.near().self_rows(first));
-    const float extra = side.extra(first) + side.largest_extra(), more = margin() + extra;
-    const auto found = side.state().units().sweep(side.state().units().get(u).grown(more), unit.sweep_end, counts);
+    const auto found = side.units().sweep(side.units().get(u).grown(margin()), unit.sweep_end, counts);
     if (found.empty()) return true;
+    const float extra = side.extra(first);
     if (unit.block_count == 1) {
-      Facing facing(side, first, placement, more);
+      Facing facing(side, first, placement, margin() + extra);
       for (const std::uint32_t w : found) {
         if (side.kept_apart(u, w)) continue;
         const Unit& partner = side.layout().units[w];
         if (partner.block_count == 1) {
           add_pair(side, facing, partner.first_block, facing.partners.find(partner.first_block), placement);
         } else {
+          const float more = margin() + extra + side.extra(partner.first_block);
           side.descend(w, side.state().block_box(first).grown(more), placement, counts, theirs_);
           add_found(side, facing, placement);
         }
@@ -69,16 +70,17 @@ class TaskLister {
     }
     for (const std::uint32_t w : found) {
       if (side.kept_apart(u, w)) continue;
-      side.descend(u, side.state().units().get(w).grown(margin() + extra), placement, counts, mine_);
+      const float both = extra + side.extra(side.layout().units[w].first_block);
+      side.descend(u, side.state().units().get(w).grown(margin() + both), placement, counts, mine_);
       for (const std::uint32_t b : mine_) {
-        const float near = margin() + extra;
+        const float near = margin() + both;
         // Placed only when it meets something.
         if (side.layout().units[w].block_count == 1)
           theirs_.assign(1, side.layout().units[w].first_block);
         else
           side.descend(w, side.state().tree_box(u, b, placement).grown(near), placement, counts, theirs_);
         if (theirs_.empty()) continue;
-        add_found(side, Facing(side, b, placement, near), placement);
+        add_found(side, Facing(side, b, placement, margin() + extra), placement);
         if (!relieve()) return stop(w, b);
       }
     }
@@ -92,9 +94,9 @@ class TaskLister {
               QueryCounts& counts, const Relieve& relieve) {
     const Unit& unit = mine.layout().units[u];
     const float extra = mine.extra(unit.first_block) * into.scale;
-    const FloatBox box = into(mine.state().units().get(u)).grown(margin() + extra + theirs.largest_extra());
+    const FloatBox box = into(mine.state().units().get(u)).grown(margin() + extra);
     const bool stood_still = moved_only && !mine.moved(u, placement);
-    for (const std::uint32_t w : theirs.state().units().sweep(box, theirs.layout().units.size(), counts)) {
+    for (const std::uint32_t w : theirs.units().sweep(box, theirs.layout().units.size(), counts)) {
       if (stood_still && !theirs.moved(w, other_placement)) continue;
       const Unit& partner = theirs.layout().units[w];
       const float extras = extra + theirs.extra(partner.first_block);
@@ -129,7 +131,7 @@ class TaskLister {
     return false;
   }
 
-  /// A block, ready to be held against many others.
+  /// A block, ready to be held against many others, whose extra clearances come on top.
   struct Facing {
     Facing(WideSide<P>& side, std::uint32_t b, Placement<P>& placement, float more) noexcept
         : block(b),
@@ -153,10 +155,11 @@ class TaskLister {
     const float* at_a = side.state().block(a, placement);
     const std::uint32_t b = facing.block;
     const simd::Bits real_b = side.layout().blocks[b].real, real_a = side.layout().blocks[a].real;
-    const simd::Bits in_b = facing.lanes.meets(side.state().block_box(a)) & real_b;
+    const float extra = side.extra(a);
+    const simd::Bits in_b = facing.lanes.meets(side.state().block_box(a).grown(extra)) & real_b;
     if (rows != nullptr) [[unlikely]]
       return tasks.add_rows(in_b, position<P>(b), position<P>(a), rows);
-    const simd::Bits in_a = Batch<P>::inside(at_a, facing.box) & real_a;
+    const simd::Bits in_a = Batch<P>::inside(at_a, facing.box.grown(extra)) & real_a;
     // Without branches, which nobody could foretell: an empty side lists nothing.
     const bool b_by_one = std::popcount(in_b) <= std::popcount(in_a);
     tasks.add(b_by_one ? in_b : in_a, position<P>(b_by_one ? b : a), position<P>(b_by_one ? a : b),

@@ -57,8 +57,8 @@ void run_tasks(Tasks& tasks, const Side& one, const Side& sixteen, const Convert
   const auto squared_distances = [&](std::size_t t) __attribute__((always_inline)) {
     return convert(single + ones[t]).squared_distances(packed + sixteens[t]);
   };
-  const auto extra = [&](std::size_t t) {
-    return one.extra(ones[t] / Batch<P>::floats) * convert.scale + sixteen.extra(sixteens[t] / Batch<P>::floats);
+  const auto extra = [&](std::size_t t) __attribute__((always_inline)) {
+    return one.extra_at(ones[t]) * convert.scale + sixteen.extra_at(sixteens[t]);
   };
   const bool has_extra = one.has_extra() || sixteen.has_extra();
   Tasks::Left* left = tasks.left();

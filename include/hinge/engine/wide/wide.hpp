@@ -84,7 +84,7 @@ class Wide {
     double cutoff = 0.0;
     std::size_t u = side.state().first_unit();
     for (; u < layout.units.size() && !collector.done() && !effort.is_too_much(); ++u) {
-      side.state().refresh(u, placement_);
+      side.refresh(u, placement_);
       if (u < layout.static_units) continue;
       // Margins depend on the size of what was placed so far, in powers of two, and on the cutoff.
       if (side.state().extent() != extent || collector.cutoff() != cutoff) {
@@ -158,10 +158,9 @@ class Wide {
     WideSide<P>&mine = present_side(skip_idle), &theirs = other.present_side(skip_idle);
     mine.begin(placement_, false, options.clearance);
     theirs.begin(other.placement_, false, options.other_clearance);
-    for (std::size_t u = mine.state().first_unit(); u < mine.layout().units.size(); ++u)
-      mine.state().refresh(u, placement_);
+    for (std::size_t u = mine.state().first_unit(); u < mine.layout().units.size(); ++u) mine.refresh(u, placement_);
     for (std::size_t u = theirs.state().first_unit(); u < theirs.layout().units.size(); ++u)
-      theirs.state().refresh(u, other.placement_);
+      theirs.refresh(u, other.placement_);
     const Into<P> into(mine, theirs);
     begin();
     const ThresholdTable table = mine.parts().classes.table(theirs.parts().classes, theirs.layout().scale);

@@ -32,7 +32,8 @@ class WideSide {
            bool inside_groups)
       : near_(std::make_shared<const NearMasks>(parts->layout, model, filter, inside_groups)),
         table_(parts->classes.table(parts->layout.scale)),
-        state_(std::move(parts), model) {}
+        state_(std::move(parts), model),
+        grown_(layout().units.size()) {}
 
   const BlockLayout& layout() const noexcept { return state_.parts().layout; }
   const WideParts<P>& parts() const noexcept { return state_.parts(); }
@@ -51,15 +52,21 @@ class WideSide {
   /// What the options of a query mean for the units. Units are brought up to date one by one after that.
   void begin(Placement<P>& placement, bool moved_only, std::span<const double> clearance) {
     state_.begin(placement);
-    extra_.clear();
+    has_extra_ = !clearance.empty();
     largest_extra_ = 0.0F;
-    if (!clearance.empty())
+    if (has_extra_) {
+      extra_.resize(layout().block_count() * Batch<P>::floats);
+      float* at = extra_.data();
       for (const Block& block : layout().blocks) {
         double extra = 0.0;
         for (const GroupId g : layout().groups_of(block)) extra = std::max(extra, clearance_of(clearance, g));
-        extra_.push_back(float_above(extra * layout().scale));
-        largest_extra_ = std::max(largest_extra_, extra_.back());
+        const float scaled = float_above(extra * layout().scale);
+        std::fill_n(at, simd::width, scaled);
+        at += Batch<P>::floats;
+        largest_extra_ = std::max(largest_extra_, scaled);
       }
+      for (std::size_t u = 0; u < state_.first_unit(); ++u) grow(u);
+    }
     component_.clear();
     if (moved_only && !placement.groups_may_deform())
       for (const Unit& unit : layout().units) {
@@ -71,12 +78,22 @@ class WideSide {
       }
   }
 
+  /// Brings a unit up to date; to be called in order, from the first that may have moved.
+  void refresh(std::size_t u, Placement<P>& placement) noexcept {
+    state_.refresh(u, placement);
+    if (has_extra()) grow(u);
+  }
+  /// Boxes of units, grown by their reach and by their extra clearance.
+  UnitBoxes& units() noexcept { return has_extra() ? grown_ : state_.units(); }
+
   /// Floats of all blocks, and the threshold classes of the primitives that start there.
   const float* packed() const noexcept { return state_.packed(0); }
   const std::uint8_t* position_class() const noexcept { return parts().position_class.data(); }
 
-  bool has_extra() const noexcept { return !extra_.empty(); }
-  float extra(std::uint32_t block) const noexcept { return extra_.empty() ? 0.0F : extra_[block]; }
+  /// Extra clearances, scaled: of what has its floats at a position, of a block.
+  bool has_extra() const noexcept { return has_extra_; }
+  float extra_at(std::uint32_t position) const noexcept { return has_extra_ ? extra_[position] : 0.0F; }
+  float extra(std::uint32_t block) const noexcept { return has_extra_ ? extra_[block * Batch<P>::floats] : 0.0F; }
   float largest_extra() const noexcept { return largest_extra_; }
 
   /// Did the two units (or the groups inside one) keep their relative placement, in a query that asks for what moved?
@@ -126,10 +143,17 @@ class WideSide {
   }
 
  private:
+  void grow(std::size_t u) noexcept {
+    grown_.set(u, state_.units().get(u).grown(extra(layout().units[u].first_block)));
+    grown_.close(u);
+  }
+
   std::shared_ptr<const NearMasks> near_;
   ThresholdTable table_;
   WideState<P> state_;
-  std::vector<float> extra_;  // per block, scaled; empty: none
+  bool has_extra_ = false;
+  std::vector<float> extra_;  // where the floats of a primitive start; scaled
+  UnitBoxes grown_;           // with extra clearances
   float largest_extra_ = 0.0F;
   std::vector<std::size_t> component_;  // per unit; empty: every pair of units counts
 };
