@@ -17,6 +17,7 @@
 
 #include "engine/random_mechanism.hpp"
 #include "hinge/engine/brute/brute.hpp"
+#include "hinge/engine/lazy/lazy.hpp"
 #include "hinge/engine/wide/wide.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/motion/check_sampled.hpp"
@@ -39,11 +40,12 @@ using test::Random;
 
 bool all_variants() { return std::getenv("HINGE_TEST_ALL") != nullptr; }
 
-template <class P>
-using Bodies = Hierarchy<P, DifferentLinks, UniformClearance, Brute>;
+template <class P, template <class, class, class> class EngineOf = Brute>
+using Bodies = Hierarchy<P, DifferentLinks, UniformClearance, EngineOf>;
 
-template <class P>
-Bodies<P> bodies(const Model<P>& model, double clearance, std::vector<std::pair<LinkId, LinkId>> ignored = {}) {
+template <template <class, class, class> class EngineOf = Brute, class P>
+Bodies<P, EngineOf> bodies(const Model<P>& model, double clearance,
+                           std::vector<std::pair<LinkId, LinkId>> ignored = {}) {
   return {model, DifferentLinks({model.links().begin(), model.links().end()}, std::move(ignored)),
           UniformClearance(clearance)};
 }
@@ -83,15 +85,16 @@ Verdicts hold_against_brute_force(std::uint64_t seed, int cases, int states) {
   for (int c = 0; c < cases; ++c) {
     SCOPED_TRACE("seed " + std::to_string(seed) + ", case " + std::to_string(c));
     Random random(seed + 1000 * static_cast<std::uint64_t>(c));
-    Bodies<P> plain =
-        bodies(random_tree<P>(random), random.one_in(4) ? 0.0 : random.uniform(0.0, HasNoBody<P> ? 1.2 : 0.4));
+    const Model<P> model = random_tree<P>(random);
+    const double clearance = random.one_in(4) ? 0.0 : random.uniform(0.0, HasNoBody<P> ? 1.2 : 0.4);
+    Bodies<P> plain = bodies(model, clearance);
     std::vector<double> from(plain.dof_count()), to(from);
     const double amplitude = std::pow(10.0, random.uniform(-2.5, 0.5));
     for (double& q : from) q = random.uniform(-pi, pi);
     for (std::size_t k = 0; k < to.size(); ++k)
       to[k] = from[k] + (random.one_in(4) ? 0.0 : random.uniform(-amplitude, amplitude));
-    CertifiedPath certified(plain);
-    const PathAnswer answer = certified.check(from, to);
+    const PathAnswer answer = c % 2 == 0 ? CertifiedPath(plain).check(from, to)
+                                         : CertifiedPath(bodies<Wide>(model, clearance)).check(from, to);
     EXPECT_LE(answer.counts.pairs_proved, answer.counts.pairs_listed);
     switch (answer.verdict) {
       case PathVerdict::free:
@@ -166,6 +169,41 @@ TEST(CertifiedPath, AnswersForASwingThatIsKnown) {
   }
   EXPECT_GT(free, 500);
   EXPECT_GT(colliding, 500);
+}
+
+/// A point slides straight towards another and stops `gap` before it; or it is the tip of an arm and passes the other,
+/// which is `gap` beyond its reach, at the angle pi.
+template <template <class, class, class> class EngineOf>
+void come_near_a_point() {
+  Random random(31);
+  int free = 0, colliding = 0;
+  for (int c = 0; c < 1000; ++c) {
+    const bool slides = random.one_in(2);
+    const double gap = random.uniform(0.1, 1.0), from = random.uniform(2.0, pi);
+    const double to = slides ? pi : random.uniform(pi, 5.0);
+    const double above = std::pow(10.0, random.uniform(-9.0, -1.5)) * (random.one_in(2) ? 1.0 : -1.0);
+    ModelBuilder<Point> build;
+    build.add_primitive(world, Point{Vec3(0, 0, -arm - gap)});
+    const Vec3 origin(0, 0, 0);
+    if (slides)
+      build.add_link(world, Prismatic{Vec3(0, 0, -1), {}, {}}, {Point{Vec3(0, 0, pi - arm)}});
+    else
+      build.add_link(world, Revolute{Vec3::UnitY(), origin, {}, {}}, {Point{Vec3(0, 0, arm)}});
+    CertifiedPath certified(bodies<EngineOf>(build.finish(), gap + above));
+    const PathAnswer answer = certified.check(std::vector{from}, std::vector{to}, 0x1p-40);
+    EXPECT_EQ(answer.verdict, above < 0.0 ? PathVerdict::free : PathVerdict::colliding)
+        << gap << ' ' << from << ' ' << to << ' ' << above;
+    free += answer.verdict == PathVerdict::free;
+    colliding += answer.verdict == PathVerdict::colliding;
+  }
+  EXPECT_GT(free, 300);
+  EXPECT_GT(colliding, 300);
+}
+
+TEST(CertifiedPath, AnswersForAPointThatComesNearAnother) {
+  come_near_a_point<Brute>();
+  come_near_a_point<Lazy>();
+  come_near_a_point<Wide>();
 }
 
 TEST(CertifiedPath, AnswersTheSameWhateverTheUnit) {

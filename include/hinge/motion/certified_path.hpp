@@ -18,6 +18,7 @@
 #include "hinge/hierarchy.hpp"
 #include "hinge/motion/displacements.hpp"
 #include "hinge/motion/group_rates.hpp"
+#include "hinge/motion/listed_pairs.hpp"
 #include "hinge/motion/near_links.hpp"
 #include "hinge/motion/path_answer.hpp"
 #include "hinge/motion/path_segments.hpp"
@@ -61,7 +62,7 @@ class CertifiedPath {
   static constexpr std::size_t most_near = 32;
 
   void place(double t);
-  bool list(const PathSegment& segment);
+  void list(const PathSegment& segment);
   bool judge(const PathSegment& segment);
   void cut_evenly(double largest);
   bool middle_collides(const PathSegment& segment);
@@ -105,10 +106,11 @@ PathAnswer CertifiedPath<P, F, D, EngineOf>::check(std::span<const double> from,
     }
     ++answer_.counts.segments;
     place(segment.middle());
+    listed_.clear();
     if (segment.knows_pairs)
       segments_.get_pairs(segment, listed_);
-    else if (!list(segment))
-      listed_.clear();
+    else
+      list(segment);
     if (answer_.verdict == PathVerdict::colliding || judge(segment)) break;
   }
   return std::move(answer_);
@@ -123,9 +125,9 @@ void CertifiedPath<P, F, D, EngineOf>::place(double t) {
   motions_.forget();
 }
 
-/// Finds the pairs that might come too close; false when the segment had better be cut first.
+/// Finds the pairs that might come too close; none when the segment had better be cut first.
 template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
-bool CertifiedPath<P, F, D, EngineOf>::list(const PathSegment& segment) {
+void CertifiedPath<P, F, D, EngineOf>::list(const PathSegment& segment) {
   if (segment.is_whole()) displacements_.begin(rates_.groups());
   const double largest = displacements_.find(rates_.groups(), segment.half());
   if (!(largest <= most_above_limit * list_limit_) && segment.length() > smallest_step_) {
@@ -134,24 +136,22 @@ bool CertifiedPath<P, F, D, EngineOf>::list(const PathSegment& segment) {
     } else if (!middle_collides(segment)) {
       segments_.push_halves(segment);
     }
-    return false;
+    return;
   }
-  if (!is_length(largest / rates_.scale())) {
-    leave_undecided(segment, nullptr);
-    return false;
-  }
+  if (!is_length(largest / rates_.scale())) return leave_undecided(segment, nullptr);
   clearance_.clear();
   for (const double d : displacements_.of_groups()) clearance_.push_back(d / rates_.scale());
   const QueryOptions options{.clearance = clearance_, .precision = Precision::never_miss};  // more is no harm
-  ListedPairs listed(listed_);
   if constexpr (by_links) {
     near_links_.clear();
     hierarchy_.self_query(near_links_, options);
     for (const Hit& hit : near_links_.hits()) listed_.push_back({hit.first, hit.second, true});
   } else {
+    ListedPairs listed(listed_, StaysApart{hierarchy_.model(), hierarchy_.matrix(), rates_, motions_, segment.half()});
     hierarchy_.self_query(listed, options);
+    answer_.counts.pairs_listed += listed.proved();
+    answer_.counts.pairs_proved += listed.proved();
   }
-  return true;
 }
 
 /// Asks the ordinary query where a list would be long.

@@ -10,7 +10,6 @@
 
 #include "hinge/bounds/round.hpp"
 #include "hinge/core/id.hpp"
-#include "hinge/policy/collector.hpp"
 
 namespace hinge {
 
@@ -74,19 +73,6 @@ class PathSegments {
  private:
   std::vector<PathSegment> segments_;
   std::vector<PathPair> pairs_;
-};
-
-/// The collector of pairs that a displacement might bring too close.
-class ListedPairs {
- public:
-  static constexpr bool ranks = false;
-  explicit ListedPairs(std::vector<PathPair>& pairs) noexcept : pairs_(pairs) { pairs_.clear(); }
-  void add(const Hit& hit) { pairs_.push_back({hit.first, hit.second}); }
-  double cutoff() const noexcept { return 0.0; }
-  bool done() const noexcept { return false; }
-
- private:
-  std::vector<PathPair>& pairs_;
 };
 
 }  // namespace hinge
