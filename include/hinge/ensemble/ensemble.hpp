@@ -10,7 +10,6 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -38,12 +37,15 @@ class Ensemble {
   void run(std::size_t count, const Work& work, const Take& take, std::size_t longest = 256) {
     using Result = std::remove_cvref_t<std::invoke_result_t<const Work&, Worker&, std::size_t>>;
     struct Chunk {
-      std::size_t first;
+      std::size_t first = 0;
       std::vector<Result> results;
     };
     const auto threads = static_cast<std::size_t>(arena_.max_concurrency());
     // Long enough that handing over costs nothing beside queries of a microsecond, short enough to share the work.
     const std::size_t length = std::clamp<std::size_t>(count / (8 * threads), 1, longest);
+    // One chunk for each that is under way: they end in order. (What a pipeline owns itself it loses when an exception
+    // ends it.)
+    std::vector<Chunk> chunks(4 * threads);
     std::size_t next = 0;
     const auto hand_out = [&](tbb::flow_control& flow) -> std::size_t {
       if (next >= count) {
@@ -54,21 +56,22 @@ class Ensemble {
     };
     const auto process = [&](std::size_t first) {
       Worker& worker = workers_.local();
-      auto chunk = std::make_shared<Chunk>(Chunk{first, {}});
+      Chunk& chunk = chunks[first / length % chunks.size()];
+      chunk.first = first;
       const std::size_t end = std::min(first + length, count);
-      chunk->results.reserve(end - first);
-      for (std::size_t k = first; k < end; ++k) chunk->results.push_back(work(worker, k));
-      return chunk;
+      chunk.results.reserve(end - first);
+      for (std::size_t k = first; k < end; ++k) chunk.results.push_back(work(worker, k));
+      return &chunk;
     };
-    const auto hand_over = [&](const std::shared_ptr<Chunk>& chunk) {
+    const auto hand_over = [&](Chunk* chunk) {
       for (std::size_t k = 0; k < chunk->results.size(); ++k) take(chunk->first + k, std::move(chunk->results[k]));
+      chunk->results.clear();
     };
     arena_.execute([&] {
-      tbb::parallel_pipeline(
-          4 * threads,
-          tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, hand_out) &
-              tbb::make_filter<std::size_t, std::shared_ptr<Chunk>>(tbb::filter_mode::parallel, process) &
-              tbb::make_filter<std::shared_ptr<Chunk>, void>(tbb::filter_mode::serial_in_order, hand_over));
+      tbb::parallel_pipeline(chunks.size(),
+                             tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, hand_out) &
+                                 tbb::make_filter<std::size_t, Chunk*>(tbb::filter_mode::parallel, process) &
+                                 tbb::make_filter<Chunk*, void>(tbb::filter_mode::serial_in_order, hand_over));
     });
   }
 
