@@ -79,9 +79,10 @@ class WideSide {
   }
 
   /// Brings a unit up to date; to be called in order, from the first that may have moved.
-  void refresh(std::size_t u, Placement<P>& placement) noexcept {
+  [[gnu::always_inline]] void refresh(std::size_t u, Placement<P>& placement) noexcept {
     state_.refresh(u, placement);
-    if (has_extra()) grow(u);
+    if (has_extra()) [[unlikely]]
+      grow(u);
   }
   /// Boxes of units, grown by their reach and by their extra clearance.
   UnitBoxes& units() noexcept { return has_extra() ? grown_ : state_.units(); }
@@ -143,7 +144,7 @@ class WideSide {
   }
 
  private:
-  void grow(std::size_t u) noexcept {
+  [[gnu::noinline]] void grow(std::size_t u) noexcept {
     grown_.set(u, state_.units().get(u).grown(extra(layout().units[u].first_block)));
     grown_.close(u);
   }
