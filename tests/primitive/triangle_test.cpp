@@ -14,6 +14,7 @@
 #include <limits>
 #include <ostream>
 #include <string>
+#include <utility>
 
 #if __has_include(<boost/multiprecision/cpp_int.hpp>)
 #include "hinge/exact/balls.hpp"
@@ -183,6 +184,23 @@ TEST(TriangleFiles, AgreeWithStoredExactAnswers) {
   }
   if (cases == 0) GTEST_SKIP() << "no files in " << HINGE_SHARED_DATA << "/robustness";
   std::cout << cases << " stored cases, largest error " << worst.of_target << " of 16 ulp + 8 ulp of the size\n";
+}
+
+// A normal one of whose components overflows gives each corner a height that is infinite, with the sign of a term that
+// another one outweighs.
+TEST(Triangles, MeetWhereANormalOverflows) {
+  const double wide = 0x1p-448, low = 0x1p-1048;
+  const Triangle large{{0, 0, 0}, {0, 0, -0x1p400}, {0x1p654, 0x1p531, 0}};
+  const Triangle small{{wide, low, -1}, {-wide, low, -1}, {-wide, low, -2}};
+  const Triangle beside{{-wide, low, -1}, {-2 * wide, low, -1}, {-wide, low, -2}};
+  for (const Triangle& other : {small, beside}) {
+    const bool meet = OracleDistance(large, other).meet();
+    EXPECT_EQ(meet, other.a == small.a);
+    for (const auto& [p, q] : {std::pair(large, other), std::pair(other, large)}) {
+      EXPECT_EQ(closer_than(p, q, 0.0), meet);
+      EXPECT_EQ(distance(p, q) == 0.0, meet);
+    }
+  }
 }
 
 /// Grown points, segments and faces against the spheres and capsules they are, whose verdicts have rationals behind

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "hinge/core/finite.hpp"
 #include "hinge/core/vec3.hpp"
 #include "hinge/exact/error_free.hpp"
 #include "hinge/exact/orient.hpp"
@@ -36,8 +37,9 @@ inline Sides sides_of(const Corners& t, const Corners& points) noexcept {
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 w = points[k] - t[0];
     const double height = dot(w, normal), reach = largest(w);
-    // What overflows is infinite or NaN on the right and fails the comparison.
-    const bool sure = std::abs(height) > size * reach + absolute * (1.0 + reach);
+    // What overflows on the way is infinite or NaN in the end, and its sign says nothing: terms beside it may be
+    // larger.
+    const bool sure = is_finite(height) && std::abs(height) > size * reach + absolute * (1.0 + reach);
     sides.sign[k] = sure ? exact::sign_of(height) : exact::orient3d(points[k], t[1], t[2], t[0]);
   }
   return sides;
