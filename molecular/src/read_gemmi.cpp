@@ -4,7 +4,6 @@
 #include <cctype>
 #include <cstdlib>
 #include <exception>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -87,12 +86,14 @@ void keep_what_is_read(gemmi::cif::Document& document) {
     return false;
   };
   const auto check = [](const std::string& tag, const std::string& value) {
+    if (value.size() <= std::numeric_limits<int>::digits10) return;  // nearly all
     const std::string text = gemmi::cif::as_string(value);
-    const std::size_t sign = !text.empty() && (text[0] == '-' || text[0] == '+') ? 1 : 0;
-    std::size_t end = sign;
+    std::size_t first = std::min(text.find_first_not_of(" \t\n\v\f\r"), text.size());
+    if (first < text.size() && (text[first] == '-' || text[first] == '+')) ++first;
+    std::size_t end = first;
     while (end < text.size() && text[end] >= '0' && text[end] <= '9') ++end;
     // Whatever comes behind them: it takes the digits in front of a fraction or a letter, too.
-    if (end - sign > std::numeric_limits<int>::digits10)
+    if (end - first > std::numeric_limits<int>::digits10)
       throw std::runtime_error(tag + " is " + text + ", expected a number that starts with at most " +
                                std::to_string(std::numeric_limits<int>::digits10) + " digits");
   };

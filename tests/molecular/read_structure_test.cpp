@@ -106,7 +106,7 @@ TEST(ReadStructure, RefusesWholeNumbersThatNoIntHolds) {
     EXPECT_NE(refusal(text("9999999999" + std::string(behind)), {}, ".cif").find("at most 9 digits"), std::string::npos)
         << behind;
   // However the number is written, and in whatever loop.
-  for (const std::string& cif : {text("'9999999999'"), text("9999999999", "_other.id\n")})
+  for (const std::string& cif : {text("'9999999999'"), text("' +9999999999'"), text("9999999999", "_other.id\n")})
     EXPECT_NE(refusal(cif, {}, ".cif").find("at most 9 digits"), std::string::npos) << cif;
   std::string upper = text("9999999999");
   for (std::size_t at = 0; (at = upper.find("_atom_site", at)) != std::string::npos;)
@@ -122,7 +122,9 @@ TEST(ReadStructure, LooksAtNoOtherCategories) {
       "_atom_site.Cartn_z\n_atom_site.occupancy\n_atom_site.B_iso_or_equiv\n_atom_site.auth_seq_id\n"
       "1 N N . ALA A 0 0 0 1 0 46\n";
   EXPECT_EQ(refusal(atoms, {}, ".cif"), "");
-  EXPECT_EQ(refusal(atoms + "_refine.pdbx_refine_id x\n_refine.ls_number_reflns_obs 99999999999\n", {}, ".cif"), "");
+  for (const char* number : {"99999999999", "many"})
+    EXPECT_EQ(refusal(atoms + "_refine.pdbx_refine_id x\n_refine.ls_number_reflns_obs " + number + "\n", {}, ".cif"),
+              "");
   EXPECT_EQ(refusal(atoms + "_pdbx_struct_assembly.id 1\n_pdbx_struct_assembly.details author_defined_assembly\n"
                             "_pdbx_struct_assembly.method_details ?\n_pdbx_struct_assembly.oligomeric_details ?\n"
                             "_pdbx_struct_assembly.oligomeric_count 1\n_pdbx_struct_assembly_gen.assembly_id 1\n"
