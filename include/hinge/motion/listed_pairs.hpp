@@ -10,6 +10,7 @@
 #include "hinge/model/selected_model.hpp"
 #include "hinge/motion/group_rates.hpp"
 #include "hinge/motion/path_segments.hpp"
+#include "hinge/motion/prove_apart.hpp"
 #include "hinge/motion/relative_motion.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/policy/distance_matrix.hpp"
@@ -30,8 +31,8 @@ struct StaysApart {
   bool operator()(PrimitiveId first, PrimitiveId second, double least) const {
     const auto a = static_cast<std::uint32_t>(index(model.group_of(first)));
     const auto b = static_cast<std::uint32_t>(index(model.group_of(second)));
-    const double m = matrix.threshold(first, second), scale = rates.scale();
-    return least * scale > (m * scale + motions(rates.groups(), a, b, half).approach) * (1.0 + 0x1p-40);
+    const double closer = motions(rates.groups(), a, b, half).approach;
+    return farther_than(least, matrix.threshold(first, second), closer, rates.scale());
   }
 };
 template <Primitive P, DistanceMatrix D>

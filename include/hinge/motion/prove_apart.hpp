@@ -68,6 +68,11 @@ bool farther_than(const P& p, const P& q, double m, double closer, double scale)
   return squared_norm(Vec3((q.hull()[0] - p.hull()[0]) * scale)) > least * least * (1.0 + 0x1p-40);
 }
 
+/// The same of two points that are at least `least` apart, model length unit.
+inline bool farther_than(double least, double m, double closer, double scale) noexcept {
+  return least * scale > (m * scale + closer) * (1.0 + 0x1p-40);
+}
+
 /// p and q are at least m apart, as placed by whoever places them, for every parameter within these radii of the
 /// middle, at which p and q are given; at most `half`. All comparisons fail for NaN, which proves nothing.
 template <Certifiable P>

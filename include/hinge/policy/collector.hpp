@@ -54,6 +54,12 @@ concept KeepsSmallest = Collector<C> && C::ranks && requires {
   requires C::keeps_smallest;
 };
 
+/// Optional refinement: is told by how much a distance that was only measured may be off (QueryOptions::precision).
+template <class C>
+concept TakesErrors = Collector<C> && requires(C& collector, const Hit& hit, double error) {
+  collector.add_measured(hit, error);
+};
+
 /// Optional refinement: knows pairs of links of which it wants no more. What it refuses it keeps refusing in the same
 /// query.
 template <class C>

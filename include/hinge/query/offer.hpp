@@ -30,8 +30,7 @@ bool offer(C& collector, PrimitiveId i, PrimitiveId j, const P& p, const P& q, c
 }
 
 /// The same for primitives without a body (never closer than 0) whose distance is within `error` of `measured`. What
-/// that leaves open is for `precision` to say; returns 1 for such a pair, 0 for a decided one. A collector that has
-/// add_measured is told the error, too.
+/// that leaves open is for `precision` to say; returns 1 for such a pair, 0 for a decided one.
 template <Collector C, class Admitted>
 unsigned offer_measured(C& collector, Precision precision, PrimitiveId i, PrimitiveId j, double measured, double error,
                         double m, Admitted&& admitted) {
@@ -40,7 +39,7 @@ unsigned offer_measured(C& collector, Precision precision, PrimitiveId i, Primit
   const bool open = measured + error >= near;
   if (!admitted()) return 0;
   if (!open || precision == Precision::never_miss) {
-    if constexpr (requires { collector.add_measured(Hit{}, error); })
+    if constexpr (TakesErrors<C>)
       collector.add_measured(Hit{i, j, measured, m}, error);
     else
       collector.add(Hit{i, j, measured, m});
