@@ -156,16 +156,14 @@ class TaskLister {
     const std::uint32_t b = facing.block;
     const simd::Bits real_b = side.layout().blocks[b].real, real_a = side.layout().blocks[a].real;
     const FloatBox& box_a = side.state().block_box(a);
-    simd::Bits in_b, in_a;
-    if (!side.has_extra()) [[likely]] {
-      in_b = facing.lanes.meets(box_a) & real_b;
-      in_a = Batch<P>::inside(at_a, facing.box) & real_a;
-    } else {
-      in_b = facing.lanes.meets(box_a.grown(side.extra(a))) & real_b;
-      in_a = Batch<P>::inside(at_a, facing.box.grown(side.extra(a))) & real_a;
-    }
+    // (Growing by 0 can be felt in queries without extra clearances.)
+    const simd::Bits in_b =
+        (side.has_extra() ? facing.lanes.meets(box_a.grown(side.extra(a))) : facing.lanes.meets(box_a)) & real_b;
     if (rows != nullptr) [[unlikely]]
       return tasks.add_rows(in_b, position<P>(b), position<P>(a), rows);
+    const simd::Bits in_a = (side.has_extra() ? Batch<P>::inside(at_a, facing.box.grown(side.extra(a)))
+                                              : Batch<P>::inside(at_a, facing.box)) &
+                            real_a;
     // Without branches, which nobody could foretell: an empty side lists nothing.
     const bool b_by_one = std::popcount(in_b) <= std::popcount(in_a);
     tasks.add(b_by_one ? in_b : in_a, position<P>(b_by_one ? b : a), position<P>(b_by_one ? a : b),

@@ -94,7 +94,9 @@ class WideSide {
   /// Extra clearances, scaled: of what has its floats at a position, of a block.
   bool has_extra() const noexcept { return has_extra_; }
   float extra_at(std::uint32_t position) const noexcept { return has_extra_ ? extra_[position] : 0.0F; }
-  float extra(std::uint32_t block) const noexcept { return has_extra_ ? extra_[block * Batch<P>::floats] : 0.0F; }
+  float extra(std::uint32_t block) const noexcept {
+    return extra_at(block * static_cast<std::uint32_t>(Batch<P>::floats));
+  }
   float largest_extra() const noexcept { return largest_extra_; }
 
   /// Did the two units (or the groups inside one) keep their relative placement, in a query that asks for what moved?
