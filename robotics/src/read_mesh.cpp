@@ -72,7 +72,11 @@ class Collector {
   void operator()(const aiMesh& mesh, const aiFace& face, const Transform& transform) {
     polygon_.clear();
     for (unsigned k = 0; k < face.mNumIndices; ++k) {
-      const Vec3 vertex = transform(mesh.mVertices[face.mIndices[k]]);
+      const unsigned index = face.mIndices[k];
+      if (index >= mesh.mNumVertices || mesh.mVertices == nullptr)  // readers of assimp do not all look
+        throw LoadError(path_ + ": face " + std::to_string(faces_) + " (from 0): names vertex " +
+                        std::to_string(index) + " (from 0) of " + std::to_string(mesh.mNumVertices));
+      const Vec3 vertex = transform(mesh.mVertices[index]);
       if (!is_finite(vertex))
         throw LoadError(path_ + ": face " + std::to_string(faces_) + " (from 0): vertex " + std::to_string(k) + " is " +
                         std::to_string(vertex[0]) + " " + std::to_string(vertex[1]) + " " + std::to_string(vertex[2]) +

@@ -218,6 +218,24 @@ TEST(ReadMesh, RefusesPlyElementsThatAreMisread) {
             "a.ply:7: a carriage return within the line, expected \\n or \\r\\n at its end");
 }
 
+// assimp hands on what a face says, and 0 for a coordinate that the file does not have.
+TEST(ReadMesh, RefusesPlyFacesAndVerticesThatLackSomething) {
+  const auto ply = [](const std::string& z, const std::string& face) {
+    return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty " + z +
+           "\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n" + face + "\n";
+  };
+  EXPECT_EQ(refusal("a.ply", ply("float z", "3 0 1 2")), "");
+  EXPECT_EQ(refusal("a.ply", ply("float z", "3 0 1 3")), "a.ply: face 0 (from 0): names vertex 3 (from 0) of 3");
+  EXPECT_EQ(refusal("a.ply", ply("float z", "3 0 1 -1")),
+            "a.ply: face 0 (from 0): names vertex 4294967295 (from 0) of 3");
+  EXPECT_EQ(refusal("a.ply", ply("float ", "3 0 1 2")), "a.ply:6: property has no name");
+  EXPECT_EQ(refusal("a.ply", ply("list uchar float", "3 0 1 2")), "a.ply:6: property has no name");
+  EXPECT_EQ(refusal("a.ply", ply("half z", "3 0 1 2")),
+            "a.ply:6: property has the type 'half', which is none of PLY's");
+  EXPECT_EQ(refusal("a.ply", ply("list uchar float z", "3 0 1 2")), "a.ply:3: element vertex has no property z");
+  EXPECT_EQ(refusal("a.ply", ply("float w", "3 0 1 2")), "a.ply:3: element vertex has no property z");
+}
+
 TEST(ReadMesh, RefusesOtherFormatsAndRubbish) {
   EXPECT_EQ(refusal("a.step", "x"), "a.step: a mesh of format '.step', expected .stl, .obj, .dae or .ply");
   EXPECT_EQ(refusal("a.obj", ""), "a.obj: has no triangles");
