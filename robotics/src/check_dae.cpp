@@ -69,7 +69,13 @@ class DaeCheck {
 
   void check_indices(const XMLElement& element) const {
     constexpr std::string_view blanks = " \t\r\n";
-    std::string_view text = element.GetText() != nullptr ? element.GetText() : "";
+    std::string_view text;
+    for (const auto* child = element.FirstChild(); child != nullptr; child = child->NextSibling()) {
+      if (child->ToComment() != nullptr) continue;
+      if (child->ToText() == nullptr || !text.empty())  // assimp reads the first text, wherever it stands
+        file_.refuse(element.GetLineNum(), tag(element) + " holds more than one row of whole numbers");
+      text = child->Value();
+    }
     for (std::size_t start = text.find_first_not_of(blanks); start != std::string_view::npos;
          start = text.find_first_not_of(blanks)) {
       text.remove_prefix(start);

@@ -205,6 +205,21 @@ TEST(ReadMesh, RefusesDaeInputsWithoutTheirNumbers) {
   EXPECT_EQ(with("source='#v'", "source='#w'"), "a.dae:1: <input> has source=\"#w\", expected a <source> of numbers");
 }
 
+// assimp takes the first text among what an element holds, and does not return from one that is no number.
+TEST(ReadMesh, RefusesDaeIndicesBesideOtherThings) {
+  const auto with = [](const std::string& indices) {
+    std::string text = collada("", "Z_UP");
+    const std::string from = "<p>0 1 2</p>";
+    return refusal("a.dae", text.replace(text.find(from), from.size(), "<p>" + indices + "</p>"));
+  };
+  EXPECT_EQ(with("0 1 2"), "");
+  EXPECT_EQ(with("<!-- one --> 0 1 2 <!-- face -->"), "");
+  EXPECT_EQ(with("<![CDATA[0 1 2]]>"), "");
+  EXPECT_EQ(with("0 1 x"), "a.dae:1: <p> holds 'x', expected whole numbers");
+  EXPECT_EQ(with("<q/>x"), "a.dae:1: <p> holds more than one row of whole numbers");
+  EXPECT_EQ(with("0 1 <!-- not read: --> 2"), "a.dae:1: <p> holds more than one row of whole numbers");
+}
+
 // assimp would make room for as many elements as a name's digits say, and begins a line at every carriage return.
 TEST(ReadMesh, RefusesPlyElementsThatAreMisread) {
   const auto ply = [](const std::string& element) {
