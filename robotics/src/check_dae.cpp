@@ -3,6 +3,7 @@
 #include "check_dae.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
@@ -15,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "check_dae_mesh.hpp"
 #include "read_xml.hpp"
 
 namespace hinge::robotics {
@@ -39,14 +41,27 @@ class DaeCheck {
       : file_(path, "COLLADA"), bytes_(static_cast<std::int64_t>(std::filesystem::file_size(path))) {}
 
   void run() {
+    drop_what_is_no_shape();
     check_below(file_.root());
     for (const auto& [source, accessor] : accessors_) check_accessor(source, *accessor);
-    for (const XMLElement* input : inputs_) check_input(*input);
+    for (const XMLElement* mesh : meshes_) check_dae_mesh(file_, *mesh, sources_, bytes_);
+    for (const XMLElement* instance : instances_)
+      if (geometries_.count(named_by(*instance, "url")) == 0) refuse_url(*instance, "<geometry>");
     for (const auto& [id, node] : nodes_) unfold(*node, 0);
     for (const XMLElement* scene : scenes_) unfold(*scene, 0);
   }
 
+  std::string text() const { return file_.text(); }
+
  private:
+  /// What assimp reads as trustingly, and nobody here asks for.
+  void drop_what_is_no_shape() {
+    for (const char* library :
+         {"library_animations", "library_animation_clips", "library_cameras", "library_controllers", "library_effects",
+          "library_images", "library_lights", "library_materials"})
+      while (tinyxml2::XMLElement* element = file_.root().FirstChildElement(library)) file_.root().DeleteChild(element);
+  }
+
   /// tinyxml2 takes no file of more than 500 levels.
   void check_below(const XMLElement& element) {
     const std::string_view name = element.Name();
@@ -56,87 +71,58 @@ class DaeCheck {
         file_.refuse(element.GetLineNum(), tag(element) + " has " + attribute + "=\"" + text +
                                                "\", expected a whole number the file has room for");
     }
-    if (name == "p" || name == "h" || name == "v" || name == "vcount") check_indices(element);
-    if (name == "float_array") add_array(element);
+    if (name == "float_array" || name == "IDREF_array" || name == "Name_array") add_array(element);
     if (name == "accessor") accessors_.emplace_back(source_around(element), &element);
-    if (name == "vertices") vertices_.insert(text_of(element, "id"));
-    if (name == "input" && is_of_mesh(element)) inputs_.push_back(&element);
+    if (name == "mesh") meshes_.push_back(&element);
+    if (name == "geometry") geometries_.insert(text_of(element, "id"));
     if (name == "node" && element.Attribute("id") != nullptr) nodes_.emplace(element.Attribute("id"), &element);
     if (name == "visual_scene") scenes_.push_back(&element);
+    if (name == "instance_geometry") instances_.push_back(&element);
+    if (name == "instance_controller")
+      file_.refuse(element.GetLineNum(), tag(element) + " bends or blends a mesh, expected <instance_geometry>");
     for (const auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement())
       check_below(*child);
   }
 
-  void check_indices(const XMLElement& element) const {
-    constexpr std::string_view blanks = " \t\r\n";
-    std::string_view text;
-    for (const auto* child = element.FirstChild(); child != nullptr; child = child->NextSibling()) {
-      if (child->ToComment() != nullptr) continue;
-      if (child->ToText() == nullptr || !text.empty())  // assimp reads the first text, wherever it stands
-        file_.refuse(element.GetLineNum(), tag(element) + " holds more than one row of whole numbers");
-      text = child->Value();
-    }
-    for (std::size_t start = text.find_first_not_of(blanks); start != std::string_view::npos;
-         start = text.find_first_not_of(blanks)) {
-      text.remove_prefix(start);
-      const std::string_view word = text.substr(0, text.find_first_of(blanks));
-      text.remove_prefix(word.size());
-      if (!is_whole_number(word, -1, INT32_MAX))
-        file_.refuse(element.GetLineNum(), tag(element) + " holds '" + std::string(word) + "', expected whole numbers");
-    }
-  }
-
   // assimp looks up what an accessor of a mesh says, whether or not the array has it.
 
-  static std::string text_of(const XMLElement& element, const char* attribute) {
-    const char* text = element.Attribute(attribute);
-    return text != nullptr ? text : "";
-  }
-  /// The id in source="#id".
-  static std::string named_by(const XMLElement& element) {
-    const std::string url = text_of(element, "source");
-    return url.empty() ? url : url.substr(1);
-  }
   static std::string source_around(const XMLElement& element) {
     const auto* at = element.Parent();
     while (at != nullptr && at->ToElement() != nullptr && std::string_view(at->Value()) != "source") at = at->Parent();
     return at != nullptr && at->ToElement() != nullptr ? text_of(*at->ToElement(), "id") : std::string();
   }
-  static bool is_of_mesh(const XMLElement& input) {
-    const auto* parent = input.Parent() != nullptr ? input.Parent()->Parent() : nullptr;
-    return parent != nullptr && parent->ToElement() != nullptr && std::string_view(parent->Value()) == "mesh";
-  }
-
   // Whole numbers were seen by check_below().
 
   void add_array(const XMLElement& element) {
     const std::int64_t count = element.Int64Attribute("count", -1);
     if (count < 0) file_.refuse(element.GetLineNum(), tag(element) + " has no count");
-    const auto [at, is_new] = arrays_.emplace(text_of(element, "id"), count);
-    if (!is_new) at->second = std::min(at->second, count);
+    const bool of_numbers = std::string_view(element.Name()) == "float_array";
+    if (!arrays_.emplace(text_of(element, "id"), of_numbers ? count : 0).second)
+      file_.refuse(element.GetLineNum(),
+                   tag(element) + " is the second array with id=\"" + text_of(element, "id") + "\"");
   }
   void check_accessor(const std::string& source, const XMLElement& accessor) {
     if (!read_.insert(source).second)
       file_.refuse(accessor.GetLineNum(), tag(accessor) + " is not the only one of <source id=\"" + source + "\">");
-    const auto array = arrays_.find(named_by(accessor));
-    if (array == arrays_.end()) return;  // of names, or of none: see check_input()
+    const auto array = arrays_.find(named_by(accessor, "source"));
+    if (array == arrays_.end()) return;  // of none: see check_dae_mesh()
     const std::int64_t count = accessor.Int64Attribute("count", 0), offset = accessor.Int64Attribute("offset", 0),
                        stride = accessor.Int64Attribute("stride", 1);
     std::int64_t parameters = 0;
+    std::array<int, 3> axes{};
+    bool scalars = true;
     for (const auto* child = accessor.FirstChildElement("param"); child != nullptr;
-         child = child->NextSiblingElement("param"))
+         child = child->NextSiblingElement("param")) {
       ++parameters;
+      const std::string name = text_of(*child, "name");
+      if (name == "X" || name == "Y" || name == "Z") ++axes[static_cast<std::size_t>(name.front() - 'X')];
+      scalars = scalars && text_of(*child, "type") != "float4x4";
+    }
     // None of them is above the size of a file.
     if (parameters > stride || count > INT32_MAX || stride > INT32_MAX || offset + count * stride > array->second)
       file_.refuse(accessor.GetLineNum(), tag(accessor) + " reaches beyond the " + std::to_string(array->second) +
                                               " numbers of '" + text_of(accessor, "source") + "'");
-    numeric_.insert(source);
-  }
-  void check_input(const XMLElement& input) const {
-    const std::string id = named_by(input);
-    if (vertices_.count(id) == 0 && numeric_.count(id) == 0)
-      file_.refuse(input.GetLineNum(),
-                   tag(input) + " has source=\"" + text_of(input, "source") + "\", expected a <source> of numbers");
+    if (scalars && parameters <= 4) sources_.emplace(source, axes == std::array{1, 1, 1});
   }
 
   struct Extent {
@@ -153,8 +139,9 @@ class DaeCheck {
     if (known != extents_.end()) return extent;
     for (const auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
       const std::string_view name = child->Name();
-      const char* url = name == "instance_node" ? child->Attribute("url") : nullptr;
-      const auto target = url != nullptr && *url == '#' ? nodes_.find(std::string_view(url + 1)) : nodes_.end();
+      const bool instance = name == "instance_node";
+      const auto target = instance ? nodes_.find(named_by(*child, "url")) : nodes_.end();
+      if (instance && target == nodes_.end()) refuse_url(*child, "<node>");
       const XMLElement* below = name == "node" ? child : target != nodes_.end() ? target->second : nullptr;
       if (below == nullptr) continue;
       const Extent inner = unfold(*below, depth + 1);
@@ -167,20 +154,30 @@ class DaeCheck {
     return extent;
   }
 
+  [[noreturn]] void refuse_url(const XMLElement& element, const std::string& expected) const {
+    file_.refuse(element.GetLineNum(), tag(element) + " has url=\"" + text_of(element, "url") + "\", expected a " +
+                                           expected + " of this file");
+  }
+
   XmlFile file_;
   std::int64_t bytes_;
   std::map<std::string, const XMLElement*, std::less<>> nodes_;  // by id
   std::vector<const XMLElement*> scenes_;
-  std::map<std::string, std::int64_t> arrays_;                        // of numbers, by id: how many
+  std::vector<const XMLElement*> meshes_, instances_;                 // of geometries
+  std::set<std::string, std::less<>> geometries_;                     // ids
+  std::map<std::string, std::int64_t, std::less<>> arrays_;           // by id: how many numbers
   std::vector<std::pair<std::string, const XMLElement*>> accessors_;  // with the source they are in
-  std::vector<const XMLElement*> inputs_;                             // of meshes
-  std::set<std::string> vertices_;                                    // ids
-  std::set<std::string> read_, numeric_;  // ids of sources with an accessor, and with one to numbers
+  std::set<std::string> read_;                                        // ids of sources with an accessor
+  DaeSources sources_;
   std::map<const XMLElement*, Extent> extents_;
 };
 
 }  // namespace
 
-void check_dae(const std::filesystem::path& path) { DaeCheck(path).run(); }
+std::string check_dae(const std::filesystem::path& path) {
+  DaeCheck check(path);
+  check.run();
+  return check.text();
+}
 
 }  // namespace hinge::robotics

@@ -106,12 +106,13 @@ TriangleMesh read_mesh(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);
   const std::size_t announced = extension == ".stl" ? check_stl(bytes, name) : 0;
   if (extension == ".ply") check_ply(bytes, name);
-  if (extension == ".dae" && !bytes.empty()) check_dae(path);
+  const std::string shapes = extension == ".dae" && !bytes.empty() ? check_dae(path) : std::string();
   if (bytes.empty() || (extension == ".stl" && announced == 0)) throw LoadError(name + ": has no triangles");
 
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  const aiScene* scene = importer.ReadFile(name, 0);
+  const aiScene* scene =
+      shapes.empty() ? importer.ReadFile(name, 0) : importer.ReadFileFromMemory(shapes.data(), shapes.size(), 0, "dae");
   if (scene == nullptr || scene->mRootNode == nullptr) {
     std::string why = importer.GetErrorString();
     std::replace(why.begin(), why.end(), '\n', ' ');

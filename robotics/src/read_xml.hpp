@@ -12,6 +12,12 @@ namespace hinge::robotics {
 /// "<name>", for messages.
 inline std::string tag(const tinyxml2::XMLElement& element) { return std::string("<").append(element.Name()) + ">"; }
 
+/// An attribute, or "" where it is not.
+inline std::string text_of(const tinyxml2::XMLElement& element, const char* attribute) {
+  const char* text = element.Attribute(attribute);
+  return text != nullptr ? text : "";
+}
+
 /// An XML file with this root element. LoadError: cannot be opened, no XML, another root, xacro macros not expanded.
 class XmlFile {
  public:

@@ -201,23 +201,80 @@ TEST(ReadMesh, RefusesDaeInputsWithoutTheirNumbers) {
   EXPECT_EQ(with("stride='3'", ""), "a.dae:1: <accessor> reaches beyond the 9 numbers of '#pa'");
   EXPECT_EQ(with("</accessor>", "</accessor><accessor source='#names'/>"),
             "a.dae:1: <accessor> is not the only one of <source id=\"p\">");
-  EXPECT_EQ(with("source='#pa'", "source='#pb'"), "a.dae:1: <input> has source=\"#p\", expected a <source> of numbers");
-  EXPECT_EQ(with("source='#v'", "source='#w'"), "a.dae:1: <input> has source=\"#w\", expected a <source> of numbers");
+  const std::string of_numbers = ", expected a <source> of numbers, four at most each";
+  EXPECT_EQ(with("source='#pa'", "source='#pb'"), "a.dae:1: <input> has source=\"#p\"" + of_numbers);
+  EXPECT_EQ(with("name='X' type='float'", "name='X' type='float4x4'"),
+            "a.dae:1: <input> has source=\"#p\"" + of_numbers);
+  EXPECT_EQ(with("name='X'", "name='Y'"), "a.dae:1: <input> has source=\"#p\", which has no X, Y and Z");
+  EXPECT_EQ(with("source='#v'", "source='#w'"), "a.dae:1: <input> has source=\"#w\", expected the <vertices> above");
+  EXPECT_EQ(with("</source>", "<Name_array id='pa' count='0'/></source>"),
+            "a.dae:1: <Name_array> is the second array with id=\"pa\"");
 }
 
-// assimp takes the first text among what an element holds, and does not return from one that is no number.
-TEST(ReadMesh, RefusesDaeIndicesBesideOtherThings) {
-  const auto with = [](const std::string& indices) {
+// assimp looks beyond the indices, or leaves out what it does not understand.
+TEST(ReadMesh, RefusesDaePrimitivesWithoutTheirVertices) {
+  const auto with = [](const std::string& kind, const std::string& input, const std::string& indices) {
     std::string text = collada("", "Z_UP");
-    const std::string from = "<p>0 1 2</p>";
-    return refusal("a.dae", text.replace(text.find(from), from.size(), "<p>" + indices + "</p>"));
+    const std::size_t from = text.find("<triangles"), to = text.find("</mesh>");
+    return refusal("a.dae",
+                   text.replace(from, to - from,
+                                "<" + kind + ">" + input + indices + "</" + kind.substr(0, kind.find(' ')) + ">"));
   };
-  EXPECT_EQ(with("0 1 2"), "");
-  EXPECT_EQ(with("<!-- one --> 0 1 2 <!-- face -->"), "");
-  EXPECT_EQ(with("<![CDATA[0 1 2]]>"), "");
-  EXPECT_EQ(with("0 1 x"), "a.dae:1: <p> holds 'x', expected whole numbers");
-  EXPECT_EQ(with("<q/>x"), "a.dae:1: <p> holds more than one row of whole numbers");
-  EXPECT_EQ(with("0 1 <!-- not read: --> 2"), "a.dae:1: <p> holds more than one row of whole numbers");
+  const std::string vertex = "<input semantic='VERTEX' source='#v' offset='0'/>";
+  EXPECT_EQ(with("polygons count='1'", vertex, "<p>0 1 2</p>"), "");
+  EXPECT_EQ(with("tristrips count='1'", vertex, "<p>0 1 2 0</p>"), "");
+  EXPECT_EQ(with("polylist count='1'", vertex, "<vcount>3</vcount><p>0 1 2</p>"), "");
+  EXPECT_EQ(with("triangles count='1'", vertex, "<p><!-- one --> 0 1 2 <!-- face --></p>"), "");
+  EXPECT_EQ(with("triangles count='1'", vertex, "<p><![CDATA[0 1 2]]></p>"), "");
+
+  EXPECT_EQ(with("triangles count='1'", "", "<p>0 1 2</p>"),
+            "a.dae:1: <p> has no <input> with semantic=\"VERTEX\" above it");
+  EXPECT_EQ(with("triangles count='1'", vertex + vertex, "<p>0 1 2</p>"),
+            "a.dae:1: <input> is a second VERTEX of one <triangles>");
+  EXPECT_EQ(with("triangles", vertex, "<p>0 1 2</p>"), "a.dae:1: <triangles> has indices, but no count");
+  EXPECT_EQ(with("trifans count='1'", vertex, "<p>0 1 2</p>"), "a.dae:1: <trifans> is not read, write <triangles>");
+  EXPECT_EQ(with("triangles count='2'", vertex, "<p>0 1 2</p>"),
+            "a.dae:1: <p> holds 3 indices, expected 1 for each of 6 vertices");
+  EXPECT_EQ(with("tristrips count='1'", vertex, "<p>0 1</p>"),
+            "a.dae:1: <p> holds 2 indices, expected 1 for each of 3 or more vertices");
+  EXPECT_EQ(with("polylist count='1'", vertex, "<p>0 1 2</p>"), "a.dae:1: <p> has no <vcount> above it");
+  EXPECT_EQ(with("polylist count='1'", vertex, "<p>0 1 2</p><vcount>3</vcount>"),
+            "a.dae:1: <p> has no <vcount> above it");
+  EXPECT_EQ(with("polylist count='2'", vertex, "<vcount>3</vcount><p>0 1 2</p>"),
+            "a.dae:1: <vcount> holds 1 numbers, expected 2");
+  EXPECT_EQ(with("polylist count='1'", vertex, "<vcount>2000000000</vcount><p>0 1 2</p>"),
+            "a.dae:1: <p> holds 3 indices, expected 1 for each of 2000000000 vertices");
+
+  EXPECT_EQ(with("triangles count='1'", vertex, "<p>0 1 x</p>"),
+            "a.dae:1: <p> holds 'x', expected whole numbers from 0");
+  EXPECT_EQ(with("triangles count='1'", vertex, "<p>0 1 -1</p>"),
+            "a.dae:1: <p> holds '-1', expected whole numbers from 0");
+  EXPECT_EQ(with("triangles count='1'", vertex, "<p><q/>x</p>"),
+            "a.dae:1: <p> holds more than one row of whole numbers");
+  EXPECT_EQ(with("triangles count='1'", vertex, "<p>0 1 <!-- not read: --> 2</p>"),
+            "a.dae:1: <p> holds more than one row of whole numbers");
+}
+
+TEST(ReadMesh, RefusesDaeVerticesAndInstancesThatWouldBeLeftOut) {
+  const auto with = [](const std::string& from, const std::string& to) {
+    std::string text = collada("", "Z_UP");
+    return refusal("a.dae", text.replace(text.find(from), from.size(), to));
+  };
+  const std::string position = "<input semantic='POSITION' source='#p'/>";
+  EXPECT_EQ(with(position, position + position), "a.dae:1: <input> is a second POSITION of one <mesh>");
+  EXPECT_EQ(with("'POSITION'", "'NORMAL'"), "a.dae:1: <p> has no <vertices> with a POSITION above it");
+  EXPECT_EQ(with("url='#g'", "url='#h'"),
+            "a.dae:1: <instance_geometry> has url=\"#h\", expected a <geometry> of this file");
+  EXPECT_EQ(with("url='#g'", "url='other.dae#g'"),
+            "a.dae:1: <instance_geometry> has url=\"other.dae#g\", expected a <geometry> of this file");
+  EXPECT_EQ(with("<instance_geometry url='#g'", "<instance_node url='#q'"),
+            "a.dae:1: <instance_node> has url=\"#q\", expected a <node> of this file");
+  EXPECT_EQ(with("instance_geometry", "instance_controller"),
+            "a.dae:1: <instance_controller> bends or blends a mesh, expected <instance_geometry>");
+  EXPECT_EQ(with("<library_geometries>",
+                 "<library_images><image id='i'><init_from><hex>f</hex></init_from></image>"
+                 "</library_images><library_geometries>"),
+            "");
 }
 
 // assimp would make room for as many elements as a name's digits say, and begins a line at every carriage return.
