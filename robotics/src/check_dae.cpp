@@ -29,10 +29,10 @@ using tinyxml2::XMLElement;
 constexpr std::size_t most_nodes = 1'000'000;
 constexpr std::size_t deepest = 500;
 
-bool is_whole_number(std::string_view word, std::int64_t lowest, std::int64_t largest) {
+bool is_whole_number(std::string_view word, std::int64_t largest) {
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc{} && end == word.data() + word.size() && lowest <= value && value <= largest;
+  return error == std::errc{} && end == word.data() + word.size() && 0 <= value && value <= largest;
 }
 
 class DaeCheck {
@@ -67,7 +67,7 @@ class DaeCheck {
     const std::string_view name = element.Name();
     for (const char* attribute : {"count", "offset", "stride"}) {
       const char* text = element.Attribute(attribute);
-      if (text != nullptr && !is_whole_number(text, 0, bytes_))
+      if (text != nullptr && !is_whole_number(text, bytes_))
         file_.refuse(element.GetLineNum(), tag(element) + " has " + attribute + "=\"" + text +
                                                "\", expected a whole number the file has room for");
     }
@@ -91,6 +91,7 @@ class DaeCheck {
     while (at != nullptr && at->ToElement() != nullptr && std::string_view(at->Value()) != "source") at = at->Parent();
     return at != nullptr && at->ToElement() != nullptr ? text_of(*at->ToElement(), "id") : std::string();
   }
+
   // Whole numbers were seen by check_below().
 
   void add_array(const XMLElement& element) {

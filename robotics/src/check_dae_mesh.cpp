@@ -63,48 +63,67 @@ class MeshCheck {
     return source->second;
   }
 
+  /// What the parts of an element above its <p> say of the indices.
+  struct Layout {
+    std::int64_t count = 0;    // of primitives; DaeCheck has seen that it is a number
+    std::int64_t offsets = 1;  // indices for each vertex
+    std::int64_t others = 1;   // the same, of inputs that assimp does not know
+    bool has_vertex = false;
+    std::int64_t corners = -1;  // by <vcount>
+  };
+
   void check_primitives(const XMLElement& element) const {
-    const std::int64_t count = element.Int64Attribute("count", 0);  // DaeCheck has seen that it is a number
-    std::int64_t vertex_inputs = 0, offsets = 1, corners = 0;
-    bool has_vcount = false;
+    Layout layout;
+    layout.count = element.Int64Attribute("count", 0);
     for_each_below(element, [&](const XMLElement& part) {
       const std::string_view name = part.Name();
-      if (name == "input") {
-        offsets = std::max(offsets, part.Int64Attribute("offset", 0) + 1);
-        if (text_of(part, "semantic") != "VERTEX") {
-          source_of(part);
-        } else if (++vertex_inputs > 1) {
-          refuse(part, " is a second VERTEX of one " + tag(element));
-        } else if (named_by(part, "source") != vertices_) {
-          refuse(part, " has source=\"" + text_of(part, "source") + "\", expected the <vertices> above");
-        }
-      }
-      if (name == "vcount") {
-        if (has_vcount) refuse(part, " is the second of one " + tag(element));
-        has_vcount = true;
-        std::int64_t polygons = 0;
-        for_each_number(part, [&](std::int64_t number) {
-          if (polygons++ < count) corners += number;
-        });
-        if (polygons < count)
-          refuse(part, " holds " + std::to_string(polygons) + " numbers, expected " + std::to_string(count));
-      }
-      if (name == "p") {
-        std::int64_t indices = 0;
-        for_each_number(part, [&](std::int64_t) { ++indices; });
-        if (indices == 0 && count == 0) return;
-        if (count == 0) refuse(element, " has indices, but no count");
-        if (element.Name() == std::string_view("trifans")) refuse(element, " is not read, write <triangles>");
-        if (positions_ == 0) refuse(part, " has no <vertices> with a POSITION above it");
-        if (vertex_inputs == 0) refuse(part, " has no <input> with semantic=\"VERTEX\" above it");
-        check_number_of_indices(element, part, indices, count, offsets, has_vcount ? corners : -1);
-      }
+      if (name == "input") take_input(part, layout);
+      if (name == "vcount") take_vcount(part, layout);
+      if (name == "p") check_indices(element, part, layout);
     });
   }
 
-  void check_number_of_indices(const XMLElement& element, const XMLElement& p, std::int64_t indices, std::int64_t count,
-                               std::int64_t offsets, std::int64_t corners) const {
+  void take_input(const XMLElement& input, Layout& layout) const {
+    constexpr std::array<std::string_view, 9> semantics{"VERTEX",   "POSITION",    "NORMAL",  "TEXCOORD",  "COLOR",
+                                                        "BINORMAL", "TEXBINORMAL", "TANGENT", "TEXTANGENT"};
+    const std::string semantic = text_of(input, "semantic");
+    const bool known = std::find(semantics.begin(), semantics.end(), semantic) != semantics.end();
+    std::int64_t& offsets = known ? layout.offsets : layout.others;
+    offsets = std::max(offsets, input.Int64Attribute("offset", 0) + 1);
+    if (semantic != "VERTEX") {
+      source_of(input);
+      return;
+    }
+    if (layout.has_vertex) refuse(input, " is a second VERTEX");
+    layout.has_vertex = true;
+    if (named_by(input, "source") != vertices_)
+      refuse(input, " has source=\"" + text_of(input, "source") + "\", expected the <vertices> above");
+  }
+
+  void take_vcount(const XMLElement& vcount, Layout& layout) const {
+    if (layout.corners >= 0) refuse(vcount, " is a second one");
+    layout.corners = 0;
+    std::int64_t polygons = 0;
+    for_each_number(vcount, [&](std::int64_t number) {
+      if (polygons++ < layout.count) layout.corners += number;
+    });
+    if (polygons < layout.count)
+      refuse(vcount, " holds " + std::to_string(polygons) + " numbers, expected " + std::to_string(layout.count));
+  }
+
+  void check_indices(const XMLElement& element, const XMLElement& p, const Layout& layout) const {
     const std::string_view kind = element.Name();
+    const std::int64_t count = layout.count, offsets = layout.offsets, corners = layout.corners;
+    std::int64_t indices = 0;
+    for_each_number(p, [&](std::int64_t) { ++indices; });
+    if (indices == 0 && count == 0) return;
+    if (count == 0) refuse(element, " has indices, but no count");
+    if (kind == "trifans") refuse(element, " is not read, write <triangles>");
+    if (positions_ == 0) refuse(p, " has no <vertices> with a POSITION above it");
+    if (!layout.has_vertex) refuse(p, " has no <input> with semantic=\"VERTEX\" above it");
+    if (layout.others > offsets)  // assimp does not count it, and takes its indices for others'
+      refuse(p, " has an <input> of an unknown semantic, with the last offset of all");
+    if (kind == "polylist" && corners < 0) refuse(p, " has no <vcount> above it");
     const auto expect = [&](bool right, const std::string& what) {
       if (!right)
         refuse(p, " holds " + std::to_string(indices) + " indices, expected " + std::to_string(offsets) +
@@ -113,14 +132,10 @@ class MeshCheck {
     // Counts and offsets are below the size of a file, but products of three are not.
     if (kind == "triangles")
       expect(indices % offsets == 0 && indices / offsets == 3 * count, std::to_string(3 * count));
-    if (kind == "lines") {  // SketchUp writes too small a count, and assimp takes what is there
+    if (kind == "polylist") expect(indices % offsets == 0 && indices / offsets == corners, std::to_string(corners));
+    if (kind == "lines")  // SketchUp writes too small a count, and assimp takes what is there
       expect(indices % (2 * offsets) == 0 && count <= room_ / (2 * offsets), std::to_string(2 * count));
-    }
-    if (kind == "polylist") {
-      if (corners < 0) refuse(p, " has no <vcount> above it");
-      expect(indices % offsets == 0 && indices / offsets == corners, std::to_string(corners));
-    }
-    const std::int64_t fewest = kind == "tristrips" || kind == "polygons" ? 3 : kind == "linestrips" ? 2 : 0;
+    const std::int64_t fewest = kind == "tristrips" ? 3 : kind == "linestrips" ? 2 : 0;
     expect(indices % offsets == 0 && indices / offsets >= fewest, std::to_string(fewest) + " or more");
   }
 

@@ -229,8 +229,10 @@ TEST(ReadMesh, RefusesDaePrimitivesWithoutTheirVertices) {
 
   EXPECT_EQ(with("triangles count='1'", "", "<p>0 1 2</p>"),
             "a.dae:1: <p> has no <input> with semantic=\"VERTEX\" above it");
-  EXPECT_EQ(with("triangles count='1'", vertex + vertex, "<p>0 1 2</p>"),
-            "a.dae:1: <input> is a second VERTEX of one <triangles>");
+  EXPECT_EQ(with("triangles count='1'", vertex + vertex, "<p>0 1 2</p>"), "a.dae:1: <input> is a second VERTEX");
+  EXPECT_EQ(with("polygons count='1'", vertex + "<input semantic='UV' source='#p' offset='0'/>", "<p>0 1 2</p>"), "");
+  EXPECT_EQ(with("polygons count='1'", vertex + "<input semantic='UV' source='#p' offset='1'/>", "<p>0 2 1 2 2 2</p>"),
+            "a.dae:1: <p> has an <input> of an unknown semantic, with the last offset of all");
   EXPECT_EQ(with("triangles", vertex, "<p>0 1 2</p>"), "a.dae:1: <triangles> has indices, but no count");
   EXPECT_EQ(with("trifans count='1'", vertex, "<p>0 1 2</p>"), "a.dae:1: <trifans> is not read, write <triangles>");
   EXPECT_EQ(with("triangles count='2'", vertex, "<p>0 1 2</p>"),
