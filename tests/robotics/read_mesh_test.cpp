@@ -273,6 +273,11 @@ TEST(ReadMesh, RefusesDaeVerticesAndInstancesThatWouldBeLeftOut) {
             "a.dae:1: <instance_node> has url=\"#q\", expected a <node> of this file");
   EXPECT_EQ(with("instance_geometry", "instance_controller"),
             "a.dae:1: <instance_controller> bends or blends a mesh, expected <instance_geometry>");
+  // What is no shape is not looked at, as a camera and a lamp that an exporter adds.
+  EXPECT_EQ(with("<instance_geometry url='#g'",
+                 "<instance_camera url='#cam'/><instance_light url='#lamp'/>"
+                 "<instance_geometry url='#g'"),
+            "");
   EXPECT_EQ(with("<library_geometries>",
                  "<library_images><image id='i'><init_from><hex>f</hex></init_from></image>"
                  "</library_images><library_geometries>"),
