@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,21 @@ std::string lower_case_extension(const std::filesystem::path& path) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension;
+}
+
+/// Without the lines that name material libraries, which assimp would read, and refuse the shape with a damaged one.
+std::string without_materials(const std::string& obj) {
+  std::string kept;
+  bool continued = false;  // by a backslash at the end of the line above
+  for (std::size_t start = 0; start < obj.size();) {
+    const std::size_t end = std::min(obj.find('\n', start), obj.size() - 1) + 1;
+    const std::string_view line(obj.data() + start, end - start);
+    const std::string_view text = line.substr(std::min(line.find_first_not_of(" \t"), line.size()));
+    if (continued || !text.starts_with("mtllib")) kept += line;
+    continued = line.ends_with("\\\n") || line.ends_with("\\\r\n");
+    start = end;
+  }
+  return kept;
 }
 
 /// Affine, in double: x -> linear * x + shift.
@@ -103,16 +119,16 @@ TriangleMesh read_mesh(const std::filesystem::path& path) {
   const std::string name = path.string(), extension = lower_case_extension(path);
   if (extension != ".stl" && extension != ".obj" && extension != ".dae" && extension != ".ply")
     throw LoadError(name + ": a mesh of format '" + extension + "', expected .stl, .obj, .dae or .ply");
-  const std::string bytes = read_file(path);
+  std::string bytes = read_file(path);
   const std::size_t announced = extension == ".stl" ? check_stl(bytes, name) : 0;
   if (extension == ".ply") check_ply(bytes, name);
-  const std::string shapes = extension == ".dae" && !bytes.empty() ? check_dae(path) : std::string();
+  if (extension == ".dae" && !bytes.empty()) bytes = check_dae(path);
+  if (extension == ".obj") bytes = without_materials(bytes);
   if (bytes.empty() || (extension == ".stl" && announced == 0)) throw LoadError(name + ": has no triangles");
 
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  const aiScene* scene =
-      shapes.empty() ? importer.ReadFile(name, 0) : importer.ReadFileFromMemory(shapes.data(), shapes.size(), 0, "dae");
+  const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, extension.c_str() + 1);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     std::string why = importer.GetErrorString();
     std::replace(why.begin(), why.end(), '\n', ' ');

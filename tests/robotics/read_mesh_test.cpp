@@ -147,6 +147,17 @@ TEST(ReadMesh, CutsRandomStars) {
   }
 }
 
+// A shape does not depend on its materials; assimp would refuse it with them.
+TEST(ReadMesh, LooksAtNoMaterialsOfAnObj) {
+  const test::TemporaryFolder folder;
+  folder.write("a.mtl", "newmtl gold\nKd x");
+  for (const char* materials : {"mtllib a.mtl\n", " mtllib a.mtl\r\n"}) {
+    const auto file = folder.write("a.obj", std::string(materials) + "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl gold\nf 1 2 3");
+    EXPECT_EQ(read_mesh(file).triangles.size(), 1U);
+  }
+  EXPECT_EQ(refusal("a.obj", "mtllib a.mtl"), "a.obj: has no triangles");
+}
+
 TEST(ReadMesh, KeepsLinesAsDegenerateTriangles) {
   const TriangleMesh mesh = read("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 2 3\n");
   ASSERT_EQ(mesh.triangles.size(), 2U);
