@@ -46,7 +46,7 @@ fs::path find_mesh(const std::string& name, const fs::path& folder, const UrdfOp
   const std::string_view rest = view.starts_with(file) ? view.substr(file.size()) : view;
   if (rest.empty() || rest.find("://") != std::string_view::npos)
     throw LoadError("mesh '" + name + "': expected a path, file:// or package://");
-  const fs::path found = folder / rest;  // an absolute path stays itself
+  fs::path found = folder / rest;  // an absolute path stays itself
   if (!is_file(found)) throw LoadError("mesh '" + name + "': there is no file " + found.string());
   return found;
 }

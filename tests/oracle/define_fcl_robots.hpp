@@ -37,14 +37,14 @@ fcl::Transform3d transform(const Placement& p) {
 std::shared_ptr<Tree> filled(std::span<const Mesh> meshes) {
   std::size_t triangles = 0;
   for (const Mesh& mesh : meshes) triangles += mesh.size();
-  const auto tree = std::make_shared<Tree>();
+  auto tree = std::make_shared<Tree>();
   tree->beginModel(static_cast<int>(triangles), static_cast<int>(3 * triangles));
   for (const Mesh& mesh : meshes)
     for (const auto& t : mesh) tree->addTriangle({t[0], t[1], t[2]}, {t[3], t[4], t[5]}, {t[6], t[7], t[8]});
   return tree;
 }
 std::shared_ptr<Tree> built(std::span<const Mesh> meshes) {
-  const auto tree = filled(meshes);
+  auto tree = filled(meshes);
   tree->endModel();
   return tree;
 }

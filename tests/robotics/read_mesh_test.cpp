@@ -46,7 +46,7 @@ TriangleMesh read(const std::string& name, const std::string& bytes) {
 std::string refusal(const std::string& name, const std::string& bytes) {
   const test::TemporaryFolder folder;
   const auto file = folder.write(name, bytes);
-  const std::string what = test::refusal(folder, [&] { read_mesh(file); });
+  std::string what = test::refusal(folder, [&] { read_mesh(file); });
   EXPECT_EQ(what.find('\n'), std::string::npos) << what;
   return what;
 }

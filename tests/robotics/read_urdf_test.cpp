@@ -39,7 +39,7 @@ const std::string limit = "<limit lower='-1' upper='2' effort='1' velocity='1'/>
 std::string refusal(const std::string& urdf, const UrdfOptions& options = {}) {
   const test::TemporaryFolder folder;
   const std::filesystem::path file = folder.write("r.urdf", urdf);
-  const std::string what = test::refusal(folder, [&] { read_urdf(file, options); });
+  std::string what = test::refusal(folder, [&] { read_urdf(file, options); });
   EXPECT_EQ(what.find('\n'), std::string::npos) << what;
   return what;
 }
