@@ -83,7 +83,7 @@ class Index16 {
   [[gnu::always_inline]] friend Float16 look_up(const float* table, const Index16& i) noexcept {
     const __m256 low = _mm256_loadu_ps(table), high = _mm256_loadu_ps(table + 8);
     alignas(32) float r[width];
-    for (int h = 0; h < 2; ++h) {
+    for (std::size_t h = 0; h < 2; ++h) {
       const __m256 upper = _mm256_castsi256_ps(_mm256_cmpgt_epi32(i.index_[h], _mm256_set1_epi32(7)));
       _mm256_store_ps(r + 8 * h, _mm256_blendv_ps(_mm256_permutevar8x32_ps(low, i.index_[h]),
                                                   _mm256_permutevar8x32_ps(high, i.index_[h]), upper));
