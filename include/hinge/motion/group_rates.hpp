@@ -131,7 +131,7 @@ requires HasHull<P> GroupRates::GroupRates(const SelectedModel<P>& model)
       const double size = p.hull_radius() * scale_;
       largest_size = std::max(largest_size, size);
       for (const Vec3& x : p.hull()) {
-        points.push_back(x * scale_);
+        points.emplace_back(x * scale_);
         group.radius = std::max(group.radius, norm(Vec3(x * scale_ - body.point)) + size);
         group.extent = std::max(group.extent, norm(Vec3(x * scale_ - body.centre)) + size);
       }
@@ -215,7 +215,8 @@ inline void GroupRates::set_middle(std::span<const Frame> frames) {
               column[2] * x[0] + column[6] * x[1] + column[10] * x[2]};
     };
     const Vec3 origin = Vec3(column[12], column[13], column[14]) * scale_;
-    for (int k = 0; k < 3; ++k) group.axes.col(k) = Vec3(column[4 * k], column[4 * k + 1], column[4 * k + 2]);
+    const double* axis = column;
+    for (int k = 0; k < 3; ++k, axis += 4) group.axes.col(k) = Vec3(axis[0], axis[1], axis[2]);
     group.at = turned(body.point) + origin;
     group.centre = turned(body.centre) + origin;
     const Vec3 velocity = turned(body.axis) * group.rate;

@@ -63,7 +63,8 @@ class MoveFrames {
   void try_values(std::span<const JointValue> values, const MovingParts& parts) {
     // Rent or buy: to look through an entry, and turn an axis where it applies, costs roughly half a composed frame.
     looked_through_ += kept_.size() * values.size();
-    if (kept_motion_.size() + values.size() > most_kept || looked_through_ > 2 * parts.size()) settle(parts);
+    if (kept_motion_.size() + values.size() > most_kept || looked_through_ > 2 * std::size_t{parts.size()})
+      settle(parts);
     ++move_;
     values_.assign(values.begin(), values.end());
     turn_.resize(values.size());
