@@ -190,6 +190,12 @@ std::string collada(const std::string& unit, const std::string& axis) {
          "</visual_scene></library_visual_scenes><scene><instance_visual_scene url='#s'/></scene></COLLADA>";
 }
 
+/// What is said of that file with something else in a place.
+std::string refusal_with(const std::string& from, const std::string& to) {
+  std::string text = collada("", "Z_UP");
+  return refusal("a.dae", text.replace(text.find(from), from.size(), to));
+}
+
 TEST(ReadMesh, AppliesNodesAndUnitsOfADaeButNotItsUpAxis) {
   for (const char* axis : {"X_UP", "Y_UP", "Z_UP"}) {
     const TriangleMesh mesh = read("a.dae", collada("<unit meter='0.5'/>", axis));
@@ -202,23 +208,21 @@ TEST(ReadMesh, AppliesNodesAndUnitsOfADaeButNotItsUpAxis) {
 
 // assimp would look beyond the array.
 TEST(ReadMesh, RefusesDaeInputsWithoutTheirNumbers) {
-  const auto with = [](const std::string& from, const std::string& to) {
-    std::string text = collada("", "Z_UP");
-    return refusal("a.dae", text.replace(text.find(from), from.size(), to));
-  };
-  EXPECT_EQ(with(" count='9'", ""), "a.dae:1: <float_array> has no count");
-  EXPECT_EQ(with("stride='3'", "stride='4'"), "a.dae:1: <accessor> reaches beyond the 9 numbers of '#pa'");
-  EXPECT_EQ(with("stride='3'", "offset='1' stride='3'"), "a.dae:1: <accessor> reaches beyond the 9 numbers of '#pa'");
-  EXPECT_EQ(with("stride='3'", ""), "a.dae:1: <accessor> reaches beyond the 9 numbers of '#pa'");
-  EXPECT_EQ(with("</accessor>", "</accessor><accessor source='#names'/>"),
+  EXPECT_EQ(refusal_with(" count='9'", ""), "a.dae:1: <float_array> has no count");
+  EXPECT_EQ(refusal_with("stride='3'", "stride='4'"), "a.dae:1: <accessor> reaches beyond the 9 numbers of '#pa'");
+  EXPECT_EQ(refusal_with("stride='3'", "offset='1' stride='3'"),
+            "a.dae:1: <accessor> reaches beyond the 9 numbers of '#pa'");
+  EXPECT_EQ(refusal_with("stride='3'", ""), "a.dae:1: <accessor> reaches beyond the 9 numbers of '#pa'");
+  EXPECT_EQ(refusal_with("</accessor>", "</accessor><accessor source='#names'/>"),
             "a.dae:1: <accessor> is not the only one of <source id=\"p\">");
   const std::string of_numbers = ", expected a <source> of numbers, four at most each";
-  EXPECT_EQ(with("source='#pa'", "source='#pb'"), "a.dae:1: <input> has source=\"#p\"" + of_numbers);
-  EXPECT_EQ(with("name='X' type='float'", "name='X' type='float4x4'"),
+  EXPECT_EQ(refusal_with("source='#pa'", "source='#pb'"), "a.dae:1: <input> has source=\"#p\"" + of_numbers);
+  EXPECT_EQ(refusal_with("name='X' type='float'", "name='X' type='float4x4'"),
             "a.dae:1: <input> has source=\"#p\"" + of_numbers);
-  EXPECT_EQ(with("name='X'", "name='Y'"), "a.dae:1: <input> has source=\"#p\", which has no X, Y and Z");
-  EXPECT_EQ(with("source='#v'", "source='#w'"), "a.dae:1: <input> has source=\"#w\", expected the <vertices> above");
-  EXPECT_EQ(with("</source>", "<Name_array id='pa' count='0'/></source>"),
+  EXPECT_EQ(refusal_with("name='X'", "name='Y'"), "a.dae:1: <input> has source=\"#p\", which has no X, Y and Z");
+  EXPECT_EQ(refusal_with("source='#v'", "source='#w'"),
+            "a.dae:1: <input> has source=\"#w\", expected the <vertices> above");
+  EXPECT_EQ(refusal_with("</source>", "<Name_array id='pa' count='0'/></source>"),
             "a.dae:1: <Name_array> is the second array with id=\"pa\"");
 }
 
@@ -269,29 +273,29 @@ TEST(ReadMesh, RefusesDaePrimitivesWithoutTheirVertices) {
 }
 
 TEST(ReadMesh, RefusesDaeVerticesAndInstancesThatWouldBeLeftOut) {
-  const auto with = [](const std::string& from, const std::string& to) {
-    std::string text = collada("", "Z_UP");
-    return refusal("a.dae", text.replace(text.find(from), from.size(), to));
-  };
   const std::string position = "<input semantic='POSITION' source='#p'/>";
-  EXPECT_EQ(with(position, position + position), "a.dae:1: <input> is a second POSITION of one <mesh>");
-  EXPECT_EQ(with("'POSITION'", "'NORMAL'"), "a.dae:1: <p> has no <vertices> with a POSITION above it");
-  EXPECT_EQ(with("url='#g'", "url='#h'"),
+  EXPECT_EQ(refusal_with(position, position + position), "a.dae:1: <input> is a second POSITION of one <mesh>");
+  EXPECT_EQ(refusal_with("'POSITION'", "'NORMAL'"), "a.dae:1: <p> has no <vertices> with a POSITION above it");
+  EXPECT_EQ(refusal_with("url='#g'", "url='#h'"),
             "a.dae:1: <instance_geometry> has url=\"#h\", expected a <geometry> of this file");
-  EXPECT_EQ(with("url='#g'", "url='other.dae#g'"),
+  EXPECT_EQ(refusal_with("url='#g'", "url='other.dae#g'"),
             "a.dae:1: <instance_geometry> has url=\"other.dae#g\", expected a <geometry> of this file");
-  EXPECT_EQ(with("<instance_geometry url='#g'", "<instance_node url='#q'"),
+  EXPECT_EQ(refusal_with("<instance_geometry url='#g'", "<instance_node url='#q'"),
             "a.dae:1: <instance_node> has url=\"#q\", expected a <node> of this file");
-  EXPECT_EQ(with("instance_geometry", "instance_controller"),
+  EXPECT_EQ(refusal_with("instance_geometry", "instance_controller"),
             "a.dae:1: <instance_controller> bends or blends a mesh, expected <instance_geometry>");
   // What is no shape is not looked at, as a camera and a lamp that an exporter adds.
-  EXPECT_EQ(with("<instance_geometry url='#g'",
-                 "<instance_camera url='#cam'/><instance_light url='#lamp'/>"
-                 "<instance_geometry url='#g'"),
+  EXPECT_EQ(refusal_with("<instance_geometry url='#g'",
+                         "<instance_camera url='#cam'/><instance_light url='#lamp'/>"
+                         "<instance_geometry url='#g'"),
             "");
-  EXPECT_EQ(with("<library_geometries>",
-                 "<library_images><image id='i'><init_from><hex>f</hex></init_from></image>"
-                 "</library_images><library_geometries>"),
+  EXPECT_EQ(refusal_with("<library_geometries>",
+                         "<library_images><image id='i'><init_from><hex>f</hex></init_from></image>"
+                         "</library_images><library_geometries>"),
+            "");
+  EXPECT_EQ(refusal_with("<library_geometries>",
+                         "<library_animations><source id='p'><float_array id='pa'/></source></library_animations>"
+                         "<library_geometries>"),
             "");
 }
 
