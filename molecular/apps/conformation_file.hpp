@@ -29,6 +29,10 @@ class ConformationFile {
                    bool single)
       : only_free_(options.only_free), format_(format_of(options.out)), file_(options.out) {
     if (!wanted()) return;
+    if (!file_.is_regular() && wants_whole_frames())
+      throw hinge::ModelError("--out " + options.out +
+                              ": is a device or pipe, expected a regular file: DCD and NumPy files begin with their "
+                              "number of frames");
     writer_.emplace(file_.stream(), format_, molecule, wants_whole_frames() ? frame_atoms : molecule.atoms.size(),
                     single);
   }
@@ -38,7 +42,9 @@ class ConformationFile {
   bool takes(bool collides) const { return wanted() && !(only_free_ && collides); }
   bool wants_whole_frames() const { return wanted() && format_ != hinge::molecular::TrajectoryFormat::pdb; }
   void add(std::span<const hinge::Vec3> positions, int number, bool collides) {
-    if (takes(collides)) writer_->add(positions, number);
+    if (!takes(collides)) return;
+    writer_->add(positions, number);
+    file_.check();
   }
   void finish() {
     if (writer_) writer_->finish();

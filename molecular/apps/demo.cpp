@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <string>
 #include <thread>
@@ -21,6 +21,7 @@
 #include "hinge/molecular/sampler.hpp"
 #include "hinge/molecular/selection.hpp"
 #include "hinge/molecular/write_structure.hpp"
+#include "hinge/tool/complete_file.hpp"
 #include "options.hpp"
 #include "plot_svg.hpp"
 
@@ -29,6 +30,7 @@ namespace biocd {
 namespace {
 
 using namespace hinge::molecular;
+using hinge::tool::CompleteFile;
 
 constexpr std::uint64_t verified = 100;  // conformations of each selection that brute force decides too
 
@@ -43,12 +45,6 @@ struct Worst {
   std::vector<hinge::Hit> pairs;
   std::vector<hinge::Vec3> positions;
 };
-
-std::ofstream open(const std::filesystem::path& path) {
-  std::ofstream file(path);
-  if (!file) throw hinge::LoadError(path.string() + ": cannot be written");
-  return file;
-}
 
 /// Verdicts, pairs and closest pairs of the first conformations on both engines; the number that differ.
 int differences(Checker& wide, Checker& brute, const Sampling& sampling, std::uint64_t count) {
@@ -65,13 +61,16 @@ int differences(Checker& wide, Checker& brute, const Sampling& sampling, std::ui
 }
 
 void write_worst(const Structure& s, const Worst& worst, const std::filesystem::path& folder) {
-  auto pdb = open(folder / "worst.pdb");
-  write_pdb_model(pdb, s, worst.positions, 1);
-  pdb << "END\n";
-  auto chimerax = open(folder / "worst.cxc");
-  write_chimerax_script(chimerax, s, worst.pairs, "worst.pdb");
-  auto pymol = open(folder / "worst.pml");
-  write_pymol_script(pymol, s, worst.pairs, "worst.pdb");
+  CompleteFile pdb((folder / "worst.pdb").string());
+  write_pdb_model(pdb.stream(), s, worst.positions, 1);
+  pdb.stream() << "END\n";
+  pdb.finish();
+  CompleteFile chimerax((folder / "worst.cxc").string());
+  write_chimerax_script(chimerax.stream(), s, worst.pairs, "worst.pdb");
+  chimerax.finish();
+  CompleteFile pymol((folder / "worst.pml").string());
+  write_pymol_script(pymol.stream(), s, worst.pairs, "worst.pdb");
+  pymol.finish();
 }
 
 }  // namespace
@@ -79,6 +78,9 @@ void write_worst(const Structure& s, const Worst& worst, const std::filesystem::
 Exit run_demo(const Options& options) {
   const auto molecule = std::make_shared<const Molecule>(read_structure(options.file, options.read));
   const Structure& s = molecule->structure();
+  const std::filesystem::path folder(options.out);
+  std::filesystem::create_directories(folder);
+  CompleteFile plot((folder / "speed.svg").string());
   const auto residues = static_cast<std::size_t>(std::count_if(
       s.residues.begin(), s.residues.end(), [](const Residue& r) { return r.kind == ResidueKind::amino_acid; }));
   std::set<std::size_t> counts;
@@ -121,27 +123,29 @@ Exit run_demo(const Options& options) {
       for (std::size_t m = 0; m < plots[n].curves.size(); ++m) {
         hinge::Ensemble workers(wide, threads);
         const auto start = std::chrono::steady_clock::now();
-        std::vector<Verdict> verdicts(static_cast<std::size_t>(options.count));
         const Mode mode = Mode::parse(modes[m]);
         const Sampling& sampling = samplings[n].sampling;
+        colliding = 0;
+        std::optional<std::size_t> most_clashes_at;
         workers.run(
-            verdicts.size(),
+            static_cast<std::size_t>(options.count),
             [&](Checker& checker, std::size_t k) {
               return checker.check(sample_configuration(sampling, k, checker.dof_count()), mode);
             },
-            [&](std::size_t k, Verdict&& verdict) { verdicts[k] = std::move(verdict); });
+            [&](std::size_t k, const Verdict& verdict) {
+              colliding += verdict.collides ? 1 : 0;
+              // A conformation near the native one is a picture a person can read.
+              if (m != 1 || n != 1 || verdict.pairs.size() <= worst.pairs.size()) return;
+              most_clashes_at = k;
+              worst.pairs.clear();
+              for (const Contact& pair : verdict.pairs) worst.pairs.push_back(pair.hit);
+            });
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
         const double rate = static_cast<double>(options.count) / seconds.count();
         plots[n].curves[m].values.push_back(rate);
-        colliding = 0;
-        for (std::size_t k = 0; k < verdicts.size(); ++k) {
-          const Verdict& verdict = verdicts[k];
-          colliding += verdict.collides ? 1 : 0;
-          // A conformation near the native one is a picture a person can read.
-          if (m != 1 || n != 1 || verdict.pairs.size() <= worst.pairs.size()) continue;
-          wide.check(sample_configuration(sampling, k, wide.dof_count()), mode);
-          worst = {{}, wide.positions()};
-          for (const Contact& pair : verdict.pairs) worst.pairs.push_back(pair.hit);
+        if (most_clashes_at) {
+          wide.check(sample_configuration(sampling, *most_clashes_at, wide.dof_count()), mode);
+          worst.positions = wide.positions();
         }
         fmt::print(" {:>14.0f}", rate);
         std::fflush(stdout);
@@ -153,9 +157,8 @@ Exit run_demo(const Options& options) {
   fmt::print("\nbrute force on {} conformations of each row, all four modes: {} differences\n",
              std::min(verified, options.count), different);
 
-  const std::filesystem::path folder(options.out);
-  std::filesystem::create_directories(folder);
-  open(folder / "speed.svg") << to_svg(plots);
+  plot.stream() << to_svg(plots);
+  plot.finish();
   fmt::print("written: {}", (folder / "speed.svg").string());
   if (!worst.pairs.empty()) {
     write_worst(s, worst, folder);

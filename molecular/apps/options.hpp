@@ -83,6 +83,13 @@ struct Job {
 
 Job load(const Options& options);
 
+/// What demo writes into its folder.
+inline constexpr const char* demo_files[] = {"speed.svg", "worst.pdb", "worst.cxc", "worst.pml"};
+
+/// ModelError: --out would write over an input of the command, a directory or the file that the results go to.
+/// is_folder: it names demo's folder.
+void check_outputs(const Options& options, bool is_folder);
+
 Exit run_info(const Options& options);
 Exit run_check(const Options& options);
 Exit run_sample(const Options& options);

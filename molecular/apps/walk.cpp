@@ -87,7 +87,10 @@ Exit run_walk(const Options& options) {
     } else {
       moves.reject();
     }
-    if (file.wanted() && (step + 1) % options.every == 0) write_pdb_model(file.stream(), s, positions(moves), ++frames);
+    if (file.wanted() && (step + 1) % options.every == 0) {
+      write_pdb_model(file.stream(), s, positions(moves), ++frames);
+      file.check();
+    }
     bar.show(step + 1);
   }
   const std::chrono::duration<double> walking = std::chrono::steady_clock::now() - start;

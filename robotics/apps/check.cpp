@@ -125,6 +125,7 @@ Exit run_check(const Options& options) {
     if (options.output == Output::table && !sampled)
       fmt::print("configuration {}: {}\n{}", k, answer.collides ? "collides" : "free", pair_lines(worker, answer));
     if (file.wanted()) write_row(file.stream(), configurations.at(k));
+    file.check();
     bar.show(k + 1);
   };
   hinge::Ensemble(worker, options.threads).run(configurations.count, judge, report);

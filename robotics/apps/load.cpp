@@ -3,15 +3,25 @@
 #include <cstdio>
 #include <filesystem>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "hinge/core/error.hpp"
 #include "hinge/robotics/read_urdf.hpp"
 #include "hinge/robotics/tested_pairs.hpp"
+#include "hinge/tool/check_output.hpp"
 #include "options.hpp"
 
 namespace robocd {
 
 using namespace hinge::robotics;
+
+void check_outputs(const Options& options) {
+  std::vector<std::filesystem::path> inputs{options.urdf, options.srdf, options.csv_in};
+  for (const auto* list : {&options.skip_pairs, &options.environment})
+    inputs.insert(inputs.end(), list->begin(), list->end());
+  hinge::tool::check_output("--out", options.out, inputs);
+}
 
 std::shared_ptr<const Robot> load_robot(const Options& options) {
   const std::filesystem::path path = options.urdf;
@@ -23,6 +33,11 @@ std::shared_ptr<const Robot> load_robot(const Options& options) {
   Tessellation tessellation;
   if (options.reference_primitives) tessellation.manner = Tessellation::Manner::inscribed;
   RobotDescription description = read_urdf(path, urdf);
+  std::vector<std::filesystem::path> meshes;
+  for (const LinkDescription& link : description.links)
+    for (const PlacedShape& placed : link.geometry)
+      if (const auto* mesh = std::get_if<MeshShape>(&placed.shape)) meshes.emplace_back(mesh->file);
+  hinge::tool::check_output("--out", options.out, meshes);
   try {
     return std::make_shared<const Robot>(std::move(description), tessellation);
   } catch (const hinge::ModelError& error) {  // the file is at fault, not the command line

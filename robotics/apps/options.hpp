@@ -61,6 +61,10 @@ struct Job {
   hinge::robotics::LinkPairs tested;
 };
 
+/// ModelError: --out would write over an input of the command, a directory or the file that the results go to. Meshes
+/// are known once the robot is: load_robot looks at them.
+void check_outputs(const Options& options);
+
 /// LoadError: one line naming file and element.
 std::shared_ptr<const hinge::robotics::Robot> load_robot(const Options& options);
 Job load(const Options& options);

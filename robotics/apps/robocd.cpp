@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 
+#include "hinge/core/error.hpp"
 #include "hinge/simd/instruction_set.hpp"
 #include "hinge/tool/pick_instruction_set.hpp"
 #include "hinge/tool/run_tool.hpp"
@@ -153,8 +154,10 @@ Exit run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? Exit::free : Exit::usage;
+    if (error.get_exit_code() == 0) return app.exit(error) == 0 ? Exit::free : Exit::usage;  // --help, --version
+    throw hinge::ModelError(std::string(error.what()) + "; --help says more");
   }
+  robocd::check_outputs(o);
   return command(o);
 }
 

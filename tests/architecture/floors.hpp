@@ -78,7 +78,8 @@ inline std::vector<std::string> floor_violations(const SourceTree& tree) {
         const bool is_standard = include.name.find_first_of("/.") == std::string::npos;
         const bool is_isa =
             row == "simd" && (include.name.ends_with("intrin.h") || include.name == "experimental/simd");
-        const bool is_process = row == "tool" && include.name == "unistd.h";
+        const bool is_process =
+            row == "tool" && (include.name == "unistd.h" || include.name == "fcntl.h" || include.name == "sys/stat.h");
         const bool is_threads = row == "ensemble" && include.name.starts_with("tbb/");
         if (is_core && !is_standard && !is_isa && !is_process && !is_threads && !include.name.starts_with("Eigen/")) {
           violations.push_back(path + " includes <" + include.name +

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What an option that names an output file may not name.
+#pragma once
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+
+namespace hinge::tool {
+
+/// Is it the same file: device and number, under whatever name?
+inline bool is_same_file(const struct stat& a, const struct stat& b) {
+  return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
+/// Refuses to write over what the same command reads, or where its results go. option: such as "--out". Inputs that do
+/// not exist are passed over: their reader refuses them. ModelError: the path is a directory, one of the inputs, or the
+/// regular file that standard output or standard error goes to.
+inline void check_output(const std::string& option, const std::filesystem::path& path,
+                         const std::vector<std::filesystem::path>& inputs) {
+  struct stat output {
+  }, other{};
+  if (path.empty() || ::stat(path.c_str(), &output) != 0) return;
+  const auto refuse = [&](const std::string& what) { throw ModelError(option + " " + path.string() + ": " + what); };
+  if (S_ISDIR(output.st_mode)) refuse("is a directory, expected a file to write");
+  if (!S_ISREG(output.st_mode)) return;
+  for (const std::filesystem::path& input : inputs)
+    if (::stat(input.c_str(), &other) == 0 && is_same_file(output, other))
+      refuse("is the input " + input.string() + ", expected another file to write");
+  for (const int descriptor : {STDOUT_FILENO, STDERR_FILENO})
+    if (::fstat(descriptor, &other) == 0 && is_same_file(output, other))
+      refuse(std::string("is where standard ") + (descriptor == STDOUT_FILENO ? "output" : "error") +
+             " goes, expected another file to write");
+}
+
+}  // namespace hinge::tool

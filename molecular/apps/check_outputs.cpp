@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Refuses output files that would destroy an input, before any work.
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "hinge/tool/check_output.hpp"
+#include "options.hpp"
+
+namespace biocd {
+
+namespace {
+
+std::vector<std::filesystem::path> input_files(const Options& options) {
+  std::vector<std::filesystem::path> files{options.file};
+  for (const auto* list : {&options.with, &options.trajectories, &options.rigid_from, &options.shards})
+    files.insert(files.end(), list->begin(), list->end());
+  files.insert(files.end(), options.read.components.begin(), options.read.components.end());
+  return files;
+}
+
+/// A monomer dictionary is read file by file, as the residues ask for them.
+bool is_inside(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  std::error_code error;
+  if (folder.empty() || !std::filesystem::exists(file, error)) return false;
+  for (std::filesystem::path up = std::filesystem::canonical(file, error); up.has_relative_path();
+       up = up.parent_path())
+    if (std::filesystem::equivalent(up, folder, error)) return true;
+  return false;
+}
+
+}  // namespace
+
+void check_outputs(const Options& options, bool is_folder) {
+  const std::filesystem::path out = options.out;
+  if (out.empty()) return;
+  if (!is_folder) {
+    hinge::tool::check_output("--out", out, input_files(options));
+    if (is_inside(out, options.read.dictionary))
+      throw hinge::ModelError("--out " + options.out +
+                              ": is in the monomer dictionary, expected another file to write");
+    return;
+  }
+  std::error_code error;
+  if (std::filesystem::exists(out, error) && !std::filesystem::is_directory(out, error))
+    throw hinge::ModelError("--out " + options.out + ": is a file, expected a folder");
+  for (const char* name : demo_files) hinge::tool::check_output("--out", out / name, input_files(options));
+}
+
+}  // namespace biocd
