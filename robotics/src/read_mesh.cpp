@@ -20,6 +20,7 @@
 #include "cut_polygon.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
+#include "missing_mesh.hpp"
 #include "read_file.hpp"
 
 namespace hinge::robotics {
@@ -86,6 +87,10 @@ class Collector {
   explicit Collector(const std::string& path) : path_(path) {}
 
   void operator()(const aiMesh& mesh, const aiFace& face, const Transform& transform) {
+    if (face.mNumIndices < 3) {
+      ++flat_;
+      return;
+    }
     polygon_.clear();
     for (unsigned k = 0; k < face.mNumIndices; ++k) {
       const unsigned index = face.mIndices[k];
@@ -100,34 +105,37 @@ class Collector {
       polygon_.push_back(vertex);
     }
     ++faces_;
-    if (polygon_.empty()) return;
     const std::vector<Triangle> triangles = cut_polygon(polygon_);
     mesh_.triangles.insert(mesh_.triangles.end(), triangles.begin(), triangles.end());
   }
   TriangleMesh take() { return std::move(mesh_); }
+  std::size_t lines_and_points() const { return flat_; }
 
  private:
   const std::string& path_;
-  std::size_t faces_ = 0;
+  std::size_t faces_ = 0;  // lines and points not counted
+  std::size_t flat_ = 0;
   std::vector<Vec3> polygon_;
   TriangleMesh mesh_;
 };
 
 }  // namespace
 
-TriangleMesh read_mesh(const std::filesystem::path& path) {
+TriangleMesh read_mesh(const std::filesystem::path& path, std::vector<std::string>* notes) {
   const std::string name = path.string(), extension = lower_case_extension(path);
   if (extension != ".stl" && extension != ".obj" && extension != ".dae" && extension != ".ply")
-    throw LoadError(name + ": a mesh of format '" + extension + "', expected .stl, .obj, .dae or .ply");
+    throw MissingMesh(name + ": a mesh of format '" + extension + "', expected .stl, .obj, .dae or .ply");
   std::string bytes = read_file(path);
   const std::size_t announced = extension == ".stl" ? check_stl(bytes, name) : 0;
   if (extension == ".ply") check_ply(bytes, name);
   if (extension == ".dae" && !bytes.empty()) bytes = check_dae(path);
   if (extension == ".obj") bytes = without_materials(bytes);
-  if (bytes.empty() || (extension == ".stl" && announced == 0)) throw LoadError(name + ": has no triangles");
+  if (bytes.empty() || (extension == ".stl" && announced == 0)) throw MissingMesh(name + ": has no triangles");
 
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  // assimp would draw the nodes of a scene without meshes as little pyramids.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, extension.c_str() + 1);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     std::string why = importer.GetErrorString();
@@ -139,7 +147,12 @@ TriangleMesh read_mesh(const std::filesystem::path& path) {
     collector(mesh, face, transform);
   });
   TriangleMesh mesh = collector.take();
-  if (mesh.triangles.empty()) throw LoadError(name + ": has no triangles");
+  const std::string left_out = std::to_string(collector.lines_and_points()) + " lines or points";
+  if (mesh.triangles.empty())
+    throw MissingMesh(name + ": has no triangles" +
+                      (collector.lines_and_points() > 0 ? ", only " + left_out : std::string()));
+  if (collector.lines_and_points() > 0 && notes != nullptr)
+    notes->push_back(name + ": " + left_out + " are left out, they are no surface");
   if (extension == ".stl" && mesh.triangles.size() != announced)
     throw LoadError(name + ": " + std::to_string(announced) + " facets, of which " +
                     std::to_string(mesh.triangles.size()) + " could be read");

@@ -158,14 +158,23 @@ TEST(ReadMesh, LooksAtNoMaterialsOfAnObj) {
   EXPECT_EQ(refusal("a.obj", "mtllib a.mtl"), "a.obj: has no triangles");
 }
 
-TEST(ReadMesh, KeepsLinesAsDegenerateTriangles) {
-  const TriangleMesh mesh = read("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 2 3\n");
-  ASSERT_EQ(mesh.triangles.size(), 2U);
-  const Triangle* line = &mesh.triangles[0];
-  if (line->b != line->c) line = &mesh.triangles[1];
-  EXPECT_EQ(line->a, Vec3(1, 0, 0));
-  EXPECT_EQ(line->b, Vec3(0, 1, 0));
-  EXPECT_EQ(line->c, line->b);
+/// What reading says besides the triangles, without the folder.
+std::vector<std::string> notes_of(const std::string& name, const std::string& bytes, std::size_t triangles) {
+  const test::TemporaryFolder folder;
+  std::vector<std::string> notes;
+  EXPECT_EQ(read_mesh(folder.write(name, bytes), &notes).triangles.size(), triangles) << name;
+  for (std::string& note : notes) note.erase(0, folder.path().string().size() + 1);
+  return notes;
+}
+
+// No surface: MoveIt and Coal leave them out, too. A polygon without area is one, of triangles without area.
+TEST(ReadMesh, LeavesLinesAndPointsOutWithANote) {
+  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  EXPECT_EQ(notes_of("a.obj", vertices + "f 1 2 3\nl 2 3\np 1\n", 1),
+            (std::vector<std::string>{"a.obj: 2 lines or points are left out, they are no surface"}));
+  EXPECT_TRUE(notes_of("a.obj", vertices + "f 1 2 3\nf 1 2 2\n", 2).empty());
+  EXPECT_EQ(refusal("a.obj", vertices + "l 1 2 3\n"), "a.obj: has no triangles, only 2 lines or points");
+  EXPECT_EQ(read("a.obj", vertices + "f 1 2 3\nl 2 3\n").triangles.size(), 1U);  // notes are not asked for
 }
 
 TEST(ReadMesh, ReadsPly) {
@@ -204,6 +213,54 @@ TEST(ReadMesh, AppliesNodesAndUnitsOfADaeButNotItsUpAxis) {
     EXPECT_EQ(mesh.triangles[1].c, Vec3(10, 21, 32)) << axis;
   }
   EXPECT_EQ(read("a.dae", collada("", "Y_UP")).triangles.at(1).b, Vec3(22, 40, 60));
+}
+
+// Of such scenes assimp makes a mesh of its own, a pyramid for every node.
+TEST(ReadMesh, InventsNoTrianglesForADaeThatShowsNone) {
+  const std::string nothing = "a.dae: has no triangles";
+  const std::string shown = "<instance_geometry url='#g'/>";
+  std::string hidden = collada("", "Z_UP");
+  for (std::size_t at = hidden.find(shown); at != std::string::npos; at = hidden.find(shown))
+    hidden.erase(at, shown.size());
+  EXPECT_EQ(refusal("a.dae", hidden), nothing);
+  EXPECT_EQ(refusal_with("<triangles count='1'><input semantic='VERTEX' source='#v' offset='0'/><p>0 1 2</p>",
+                         "<triangles count='0'><input semantic='VERTEX' source='#v' offset='0'/><p/>"),
+            nothing);
+  EXPECT_EQ(refusal_with("<triangles count='1'><input semantic='VERTEX' source='#v' offset='0'/><p>0 1 2</p>"
+                         "</triangles>",
+                         ""),
+            nothing);
+  const std::string scene =
+      "<library_visual_scenes><visual_scene id='s'><node id='n'><instance_camera url='#c'/></node></visual_scene>"
+      "</library_visual_scenes><scene><instance_visual_scene url='#s'/></scene></COLLADA>";
+  const std::string head = "<COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'>";
+  EXPECT_EQ(refusal("a.dae", head + "<library_cameras><camera id='c'/></library_cameras>" + scene), nothing);
+  EXPECT_EQ(refusal("a.dae", head + scene), nothing);
+}
+
+TEST(ReadMesh, LeavesTheLinesOfADaeOut) {
+  std::string text = collada("", "Z_UP");
+  const std::string lines = "<lines count='1'><input semantic='VERTEX' source='#v' offset='0'/><p>0 1</p></lines>";
+  text.insert(text.find("</mesh>"), lines);
+  // Two nodes show the mesh.
+  EXPECT_EQ(notes_of("a.dae", text, 2),
+            (std::vector<std::string>{"a.dae: 2 lines or points are left out, they are no surface"}));
+}
+
+TEST(ReadMesh, InventsNoTrianglesForOtherFilesWithoutFaces) {
+  EXPECT_EQ(refusal("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), "a.obj: has no triangles");
+  EXPECT_EQ(refusal("a.stl", binary_stl({})), "a.stl: has no triangles");
+  EXPECT_EQ(refusal("a.stl", "solid a\nendsolid a\n"), "a.stl: has no triangles");
+  const std::string vertices =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+  const std::string xyz = "end_header\n0 0 0\n1 0 0\n0 1 0\n";
+  EXPECT_EQ(refusal("a.ply", vertices + xyz), "a.ply: has no triangles");
+  EXPECT_EQ(refusal("a.ply", vertices + "element face 0\nproperty list uchar int vertex_indices\n" + xyz),
+            "a.ply: has no triangles");
+  EXPECT_EQ(
+      notes_of("a.ply",
+               vertices + "element face 2\nproperty list uchar int vertex_indices\n" + xyz + "3 0 1 2\n2 0 1\n", 1),
+      (std::vector<std::string>{"a.ply: 1 lines or points are left out, they are no surface"}));
 }
 
 // assimp would look beyond the array.
