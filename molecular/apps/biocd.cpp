@@ -24,11 +24,13 @@ constexpr const char* footer =
     "Exit status: 0 free, 1 collision found, 2 usage, 3 bad input, 4 undecided (path).\n"
     "Selections (--free): all none loops every:N count:K backbone chi ligands, a torsion's name (phi psi omega "
     "chi1...,\n"
-    "alpha beta gamma epsilon zeta chi kappa), A:45, A:10-20, A:45:chi1, A:chi, a ligand's bond B:401:C5-C6; joined by "
-    "commas.\n"
+    "alpha beta gamma epsilon zeta chi kappa), a chain A, A:45, A:10-20, A:HEM, file:2, A:45:chi1, A:10-20:phi,psi, "
+    "A:chi,\n"
+    "a ligand's bond B:401:C5-C6; joined by ',' or 'or', and, not, parentheses: 'A and not (A:10-20 or omega)'.\n"
     "omega stays at its reference unless --omega is given or it is named.\n"
-    "Parts (--place, --between, --inside): a chain (A), a ligand (KNI), residues (A:10-20), a file (file:2), joined by "
-    "+.";
+    "Parts (--place, --between, --inside): a chain (A), a ligand (KNI), residues (A:10-20), a file (file:2), joined in "
+    "the\n"
+    "same way; '+' is ',' here and there.";
 
 void add_model_options(CLI::App& command, Options& o) {
   command.add_option("FILE", o.file, "PDB or mmCIF file, plain or .gz")->required();

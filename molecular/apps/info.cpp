@@ -122,6 +122,7 @@ Exit run_info(const Options& options) {
     Json json{{"tool", "biocd"}, {"command", "info"}, {"model", model_json(options, job)}};
     json["notes"] = s.notes;
     for (const std::string& note : job.molecule->notes()) json["notes"].push_back(note);
+    for (const std::string& note : job.selected.notes) json["notes"].push_back(note);
     for (const auto& [name, of_class] : residues_by_class(s))
       json["residue_classes"][name] = {
           {"residues", of_class.residues}, {"chains", of_class.chains}, {"names", of_class.names}};

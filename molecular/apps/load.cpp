@@ -45,8 +45,8 @@ Job load(const Options& options) {
   if (loops) made.loops = find_loops(structure, options.loop);
   made.keep_hydrogen_bonds = options.keep_hydrogen_bonds;
   auto molecule = std::make_shared<const Molecule>(std::move(structure), made);
-  auto torsions = loops ? select_loop_torsions(*molecule, options.free, options.omega)
-                        : select_torsions(*molecule, options.free, options.omega);
+  SelectedTorsions selected = read_selection(*molecule, options.free, options.omega);
+  auto torsions = loops ? select_loop_torsions(*molecule, options.free, options.omega) : selected.torsions;
   std::optional<EnsembleGroups> ensemble;
   if (!options.rigid_from.empty()) {
     if (loops) throw hinge::ModelError("--rigid-from with --loop: expected one of them, a loop stands still outside");
@@ -60,7 +60,8 @@ Job load(const Options& options) {
   if (options.keep_closures && !loops) held = find_held_torsions(*molecule, torsions);
   std::erase_if(torsions, [&](std::size_t k) { return std::binary_search(held.begin(), held.end(), k); });
   Checker checker(molecule, molecule->select_placed(torsions), rules);
-  return {std::move(molecule), std::move(checker), std::move(held), std::move(ranges), std::move(ensemble)};
+  return {std::move(molecule), std::move(checker), std::move(selected),
+          std::move(held),     std::move(ranges),  std::move(ensemble)};
 }
 
 namespace {

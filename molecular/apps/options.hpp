@@ -15,6 +15,7 @@
 #include "hinge/molecular/molecule.hpp"
 #include "hinge/molecular/read_structure.hpp"
 #include "hinge/molecular/sampler.hpp"
+#include "hinge/molecular/selection.hpp"
 #include "hinge/motion/path_answer.hpp"
 #include "hinge/tool/run_tool.hpp"
 
@@ -76,6 +77,7 @@ struct Options {
 struct Job {
   std::shared_ptr<const hinge::molecular::Molecule> molecule;
   hinge::molecular::Checker checker;
+  hinge::molecular::SelectedTorsions selected;  // by --free
   std::vector<std::size_t> held;  // torsions selected that closed cycles hold at the reference, and so not free
   std::vector<hinge::molecular::PlacementRange> ranges;        // per placed part
   std::optional<hinge::molecular::EnsembleGroups> ensemble{};  // of --rigid-from

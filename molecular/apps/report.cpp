@@ -56,6 +56,20 @@ std::size_t exempted_pairs(const Job& job) {
   }));
 }
 
+Json free_words_json(const Job& job) {
+  Json list = Json::array();
+  for (const auto& word : job.selected.words) list.push_back({{"word", word.text}, {"torsions", word.count}});
+  return list;
+}
+
+/// How many torsions each word of --free selects, where there are several.
+std::string free_words_line(const Job& job) {
+  if (job.selected.words.size() < 2) return "";
+  std::string text = "selected by word:";
+  for (const auto& word : job.selected.words) text += fmt::format(" [{}] {}", word.text, word.count);
+  return text + "\n";
+}
+
 }  // namespace
 
 Json model_json(const Options& options, const Job& job) {
@@ -70,6 +84,7 @@ Json model_json(const Options& options, const Job& job) {
               {"chains", s.chains.size()},
               {"models", s.models.size()},
               {"free", options.free},
+              {"free_words", free_words_json(job)},
               {"omega", options.omega},
               {"dof", checker.dof_count()},
               {"rigid_groups", checker.rigid_group_count()},
@@ -239,7 +254,7 @@ std::string heading(const Options& options, const Job& job) {
       options.file, s.atoms.size(), s.residues.size(), s.chains.size(), s.bonds.size(), options.free,
       options.omega ? " with omega" : "", options.loop.empty() ? "" : " and loop " + options.loop, checker.dof_count(),
       checker.rigid_group_count(), job.molecule->model().tree().closures().size(), rule_line(checker), exempt);
-  text += scene_lines(options, job);
+  text += free_words_line(job) + scene_lines(options, job);
   text += fmt::format("reference: {} colliding pairs; constant contacts under this selection: {}\n",
                       checker.reference_collisions().size(), checker.constant_contacts().size());
   for (const hinge::Hit& hit : checker.constant_contacts()) text += pair_line(job, {hit, true}) + "  (constant)\n";
@@ -254,6 +269,7 @@ void print_constant_contacts(const Job& job) {
 void print_notes(const Job& job) {
   for (const std::string& note : job.molecule->structure().notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   for (const std::string& note : job.molecule->notes()) std::fprintf(stderr, "note: %s\n", note.c_str());
+  for (const std::string& note : job.selected.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   if (job.checker.thresholds().rules->name == "molprobity" && !has_hydrogens(job.molecule->structure()))
     std::fprintf(stderr, "note: rules molprobity: the structure has no hydrogens, MolProbity would add them first\n");
   for (const std::size_t k : job.held) {

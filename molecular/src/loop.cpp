@@ -10,7 +10,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/molecule.hpp"
 #include "hinge/molecular/selection.hpp"
-#include "residue_range.hpp"
+#include "residue_words.hpp"
 
 namespace hinge::molecular {
 
@@ -52,15 +52,28 @@ void check_backbone(const Structure& s, std::uint32_t r, std::string_view word) 
   }
 }
 
+/// The residues of a term, which follow one another.
+Loop stretch_of(const Structure& s, const SelectionTerm& term) {
+  const auto begin = std::ranges::find(term.selected, true);
+  if (begin == term.selected.end()) refuse_loop(term.text, "selects no residues, expected CHAIN:FIRST-LAST");
+  const auto end = std::find(begin, term.selected.end(), false);
+  const auto first = static_cast<std::uint32_t>(begin - term.selected.begin());
+  const auto last = static_cast<std::uint32_t>(end - term.selected.begin() - 1);
+  if (std::find(end, term.selected.end(), true) != term.selected.end())
+    refuse_loop(term.text, "its residues do not follow one another behind " + name_of(s, last) +
+                               ", expected CHAIN:FIRST-LAST, as in A:40-52");
+  return {first, last};
+}
+
 }  // namespace
 
 std::vector<Loop> find_loops(const Structure& structure, std::string_view words) {
   const auto next = residues_behind(structure);
   std::vector<Loop> loops;
-  while (true) {
-    const std::string_view word = words.substr(0, words.find(','));
-    const ResidueRange range = read_residue_range(structure, word);
-    if (!range.rest.empty()) refuse_loop(word, "expected CHAIN:FIRST-LAST, as in A:40-52");
+  ResidueWords meaning(structure, ResidueNames::only);
+  for (const SelectionTerm& term : read_terms(words, meaning)) {
+    const std::string_view word = term.text;
+    const Loop range = stretch_of(structure, term);
     for (std::uint32_t r = range.first; r <= range.last; ++r) check_backbone(structure, r, word);
     for (std::uint32_t r = range.first; r < range.last; ++r)
       if (next[r] != r + 1)
@@ -75,10 +88,9 @@ std::vector<Loop> find_loops(const Structure& structure, std::string_view words)
     for (const Loop& other : loops)
       if (range.first <= other.last && other.first <= range.last)
         refuse_loop(word, "shares residues with loop " + label(structure, other));
-    loops.push_back({range.first, range.last});
-    if (word.size() == words.size()) return loops;
-    words.remove_prefix(word.size() + 1);
+    loops.push_back(range);
   }
+  return loops;
 }
 
 std::string label(const Structure& structure, const Loop& loop) {

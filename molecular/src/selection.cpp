@@ -1,154 +1,238 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The grammar of selections.
+// What the words of a selection say about torsions.
 #include "hinge/molecular/selection.hpp"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
+#include <utility>
 
-#include "residue_range.hpp"
+#include "residue_words.hpp"
 
 namespace hinge::molecular {
 
 namespace {
 
-std::size_t read_count(std::string_view word, std::string_view text) {
-  std::size_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || value == 0) refuse(word, "a whole number above 0");
-  return value;
+constexpr std::array<std::string_view, 14> torsion_names{"phi",  "psi",  "omega", "chi1",  "chi2",    "chi3", "chi4",
+                                                         "chi5", "beta", "gamma", "alpha", "epsilon", "zeta", "kappa"};
+
+bool is_bond_name(std::string_view word) { return word.find('-') != std::string_view::npos; }
+bool is_torsion_name(std::string_view word) {
+  return !word.empty() && std::ranges::find(torsion_names, word) != torsion_names.end();
+}
+/// May it stand behind CHAIN: or CHAIN:RESIDUES: and a comma?
+bool is_torsion_word(std::string_view word) {
+  return is_torsion_name(word) || word == "all" || word == "backbone" || word == "chi" || word == "delta";
 }
 
-class Selector {
+class TorsionWords : public SelectionWords {
  public:
-  Selector(const Molecule& molecule, bool omega)
-      : molecule_(molecule), s_(molecule.structure()), omega_(omega), chosen_(molecule.torsions().size(), false) {
-    for (std::uint32_t r = 0; r < s_.residues.size(); ++r)
-      if (in_polymer(r)) polymer_.push_back(r);
+  TorsionWords(const Molecule& molecule, std::vector<std::string>& notes)
+      : m_(molecule), s_(molecule.structure()), residues_(s_), named_omega_(m_.torsions().size()), notes_(notes) {}
+
+  /// omega that a word names.
+  const std::vector<bool>& named_omega() const { return named_omega_; }
+  bool asked_for_none() const { return asked_for_none_; }
+
+  bool binds(std::string_view word, std::string_view next) const override {
+    if (!is_torsion_word(next) && !(is_bond_name(next) && next.find(':') == std::string_view::npos)) return false;
+    const std::size_t colon = word.rfind(':');
+    if (colon == std::string_view::npos) return false;
+    const std::string_view last = word.substr(colon + 1);
+    return is_torsion_word(last) || (is_bond_name(last) && !ResidueWords::is_range(last));
   }
 
-  void add(std::string_view word) {
-    if (word == "none") return;
-    if (word == "all") return choose([](std::uint32_t) { return true; }, "all", word);
-    if (word == "loops") return add_loops(word);
-    if (word.starts_with("every:")) return add_every(word, read_count(word, word.substr(6)));
-    if (word.starts_with("count:")) return add_count(word, read_count(word, word.substr(6)));
-    if (word.find(':') == std::string_view::npos) return choose([](std::uint32_t) { return true; }, word, word);
-    add_residues(word);
-  }
-
-  std::vector<std::size_t> take() const {
-    std::vector<std::size_t> positions;
-    for (std::size_t k = 0; k < chosen_.size(); ++k)
-      if (chosen_[k]) positions.push_back(k);
-    return positions;
+  std::vector<bool> select(const SelectionWord& word, std::span<const SelectionWord> bound) override {
+    const std::string_view text = word.text;
+    const std::size_t colon = text.find(':'), last = text.rfind(':');
+    const std::string before(last_residues_);
+    last_residues_ = {};
+    if (colon == std::string_view::npos) return bare(word, before);
+    const std::string_view name = text.substr(last + 1);
+    last_residues_ = text;
+    std::optional<std::vector<bool>> in;
+    if (colon != last) {
+      in = residues_.find(word, text.substr(0, last));
+      if (!in) refuse(word, "CHAIN:RESIDUES:TORSION, as in A:45:chi1 or A:10-20:backbone" + residues_.left_out());
+    } else if (is_torsion_word(name) || name == "ligands") {
+      in = residues_.chain(word, text.substr(0, colon));
+    } else if (in = residues_.find(word, text); in) {
+      std::vector<bool> chosen = choose(*in, "all");
+      require_some(word, chosen, *in);
+      return chosen;
+    } else if (is_bond_name(name)) {
+      in = residues_.chain(word, text.substr(0, colon));
+    } else {
+      refuse(word, "CHAIN:45, CHAIN:10-20, CHAIN:NAME, CHAIN:45:chi1 or CHAIN:chi1" + residues_.left_out());
+    }
+    last_residues_ = text.substr(0, last);
+    std::vector<bool> chosen = named(word, *in, name);
+    for (const SelectionWord& more : bound) {
+      const std::vector<bool> also = named(more, *in, more.text);
+      for (std::size_t k = 0; k < chosen.size(); ++k) chosen[k] = chosen[k] || also[k];
+    }
+    return chosen;
   }
 
  private:
-  bool in_polymer(std::uint32_t r) const {
-    return s_.residues[r].kind == ResidueKind::amino_acid || s_.residues[r].kind == ResidueKind::nucleotide;
+  using Set = std::vector<bool>;
+  static bool any(const Set& set) { return std::ranges::find(set, true) != set.end(); }
+
+  /// Torsions of residues by one name that stands behind them.
+  Set named(const SelectionWord& word, const Set& in, std::string_view name) {
+    if (!is_torsion_word(name) && name != "ligands" && !is_bond_name(name))
+      refuse(word, "a torsion (" + names_in(in) + "), backbone, chi or all behind the residues");
+    Set chosen = choose(in, checked(word, name));
+    require_some(word, chosen, in);
+    return chosen;
+  }
+
+  /// A word about the whole molecule; `before`: the residues that the word in front of it was about.
+  Set bare(const SelectionWord& word, const std::string& before) {
+    const std::string_view text = word.text;
+    const Set everywhere(s_.residues.size(), true);
+    if (text == "none") {
+      asked_for_none_ = true;
+      return Set(m_.torsions().size(), false);
+    }
+    if (is_torsion_word(text) && text != "all") {
+      Set chosen = choose(everywhere, checked(word, text));
+      const auto count = std::ranges::count(chosen, true);
+      const std::string name(text);
+      if (count == 0)
+        notes_.push_back(about(word) + "selects nothing, there are " + names_in(everywhere));
+      else if (word.alternative && !before.empty())
+        notes_.push_back(about(word) + "is about all residues (" + std::to_string(count) + " torsions), not only " +
+                         before + "; write " + before + ":" + name + " for these");
+      return chosen;
+    }
+    if (const auto in = residues_.find(word, text)) {
+      Set chosen = choose(*in, "all");
+      if (text == "all" || text == "loops" || text == "ligands") {
+        if (!any(chosen)) notes_.push_back(about(word) + "selects nothing");
+        return chosen;
+      }
+      last_residues_ = text;
+      require_some(word, chosen, *in);
+      return chosen;
+    }
+    if (!is_bond_name(text))
+      refuse(word, "all, none, backbone, chi, ligands, loops, every:N, count:K, the name of a torsion (" +
+                       names_in(everywhere) + "), a chain (" + residues_.chains() +
+                       "), the name of a residue, CHAIN:RESIDUES[:NAME] or file:N" + residues_.left_out());
+    Set chosen = choose(everywhere, text);
+    require_some(word, chosen, everywhere);
+    return chosen;
+  }
+
+  static std::string_view checked(const SelectionWord& word, std::string_view name) {
+    if (name == "delta") refuse(word, "a torsion that turns; delta lies in the ring of the sugar, which is rigid");
+    return name;
   }
 
   /// "C5-C6", either way round.
-  static bool is_bond(const Structure& s, const Torsion& torsion, std::string_view word) {
-    const std::string &a = s.atoms[torsion.atoms[1]].name, &b = s.atoms[torsion.atoms[2]].name;
+  bool is_bond(const Torsion& torsion, std::string_view word) const {
+    const std::string &a = s_.atoms[torsion.atoms[1]].name, &b = s_.atoms[torsion.atoms[2]].name;
     return word.size() == a.size() + b.size() + 1 && (word == a + "-" + b || word == b + "-" + a);
   }
 
-  /// Frees the torsions of residues for which `in` holds whose name falls under `names`.
-  template <class InResidues>
-  void choose(const InResidues& in, std::string_view names, std::string_view word) {
-    static constexpr std::array<std::string_view, 18> words{"all",  "backbone", "ligands", "phi",   "psi",  "omega",
-                                                            "chi",  "chi1",     "chi2",    "chi3",  "chi4", "chi5",
-                                                            "beta", "gamma",    "epsilon", "alpha", "zeta", "kappa"};
-    if (names == "delta") refuse(word, "a torsion that turns; delta lies in the ring of the sugar, which is rigid");
-    const bool by_atoms = names.find('-') != std::string_view::npos;
-    if (!by_atoms && std::find(words.begin(), words.end(), names) == words.end())
-      refuse(word,
-             "all, none, backbone, chi, ligands, loops, every:N, count:K, a torsion name or CHAIN:RESIDUES[:NAME]");
-    bool found = false;
-    for (std::size_t k = 0; k < chosen_.size(); ++k) {
-      const Torsion& torsion = molecule_.torsions()[k];
-      if (!in(torsion.residue)) continue;
-      const std::string_view name = torsion.name;
-      const bool polymer = in_polymer(torsion.residue), bond = name.find('-') != std::string_view::npos;
-      const bool side_chain = polymer && (name.starts_with("chi") || name == "kappa" || bond);
-      bool wanted = by_atoms ? is_bond(s_, torsion, names) : name == names;
-      if (names == "chi") wanted = side_chain;
-      if (names == "ligands") wanted = !polymer;
-      if (names == "all" || (names == "backbone" && polymer && !side_chain)) wanted = name != "omega" || omega_;
-      found = found || wanted;
-      if (wanted) chosen_[k] = true;
+  /// The torsions of these residues that fall under a name.
+  Set choose(const Set& in, std::string_view name) {
+    const bool by_atoms = is_bond_name(name), by_name = by_atoms || is_torsion_name(name);
+    Set chosen(m_.torsions().size(), false);
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+      const Torsion& torsion = m_.torsions()[k];
+      if (!in[torsion.residue]) continue;
+      const bool polymer = residues_.in_polymer(torsion.residue);
+      const bool side_chain =
+          polymer && (torsion.name.starts_with("chi") || torsion.name == "kappa" || is_bond_name(torsion.name));
+      if (by_atoms)
+        chosen[k] = is_bond(torsion, name);
+      else if (name == "chi")
+        chosen[k] = side_chain;
+      else if (name == "ligands")
+        chosen[k] = !polymer;
+      else if (name == "backbone")
+        chosen[k] = polymer && !side_chain;
+      else
+        chosen[k] = name == "all" || torsion.name == name;
+      if (by_name && chosen[k] && torsion.name == "omega") named_omega_[k] = true;
     }
-    if (by_atoms && !found) refuse(word, "the two atoms of a bond that turns there");
+    return chosen;
   }
 
-  void add_loops(std::string_view word) {
-    std::vector<bool> structured(s_.residues.size(), false);
-    for (const SecondaryStructure& element : s_.secondary_structure)
-      std::fill(structured.begin() + element.first, structured.begin() + element.last + 1, true);
-    if (s_.secondary_structure.empty()) refuse(word, "a file with HELIX or SHEET records; this one has none");
-    choose([&](std::uint32_t r) { return !structured[r]; }, "all", word);
+  void require_some(const SelectionWord& word, const Set& chosen, const Set& in) const {
+    if (!any(chosen)) refuse(word, "torsions that turn there; these residues have " + names_in(in));
   }
 
-  void add_every(std::string_view word, std::size_t n) {
-    std::vector<std::uint32_t> residues;
-    for (std::size_t k = n; k <= polymer_.size(); k += n) residues.push_back(polymer_[k - 1]);
-    choose_residues(residues, word);
+  /// "phi, psi, chi1": those of these residues, the first few.
+  std::string names_in(const Set& in) const {
+    std::vector<std::string> names;
+    for (const Torsion& torsion : m_.torsions())
+      if (in[torsion.residue] && std::ranges::find(names, torsion.name) == names.end()) names.push_back(torsion.name);
+    if (names.empty()) return "none";
+    std::string text;
+    for (std::size_t k = 0; k < std::min<std::size_t>(names.size(), 12); ++k) text += (k == 0 ? "" : ", ") + names[k];
+    return text + (names.size() > 12 ? " ..." : "");
   }
 
-  void add_count(std::string_view word, std::size_t count) {
-    const std::size_t n = polymer_.size();
-    if (count > n) refuse(word, "at most the " + std::to_string(n) + " amino acids and nucleotides there are");
-    std::vector<std::uint32_t> residues;
-    for (std::size_t i = 0; i < count; ++i) residues.push_back(polymer_[(2 * i + 1) * n / (2 * count)]);
-    choose_residues(residues, word);
+  static std::string about(const SelectionWord& word) {
+    return "selection '" + std::string(word.expression) + "': '" + std::string(word.text) + "' ";
   }
 
-  void choose_residues(const std::vector<std::uint32_t>& sorted, std::string_view word) {
-    choose([&](std::uint32_t r) { return std::binary_search(sorted.begin(), sorted.end(), r); }, "all", word);
-  }
-
-  void add_residues(std::string_view word) {
-    // No residue's number starts with a lower-case letter: torsions of a whole chain.
-    if (const std::size_t colon = word.find(':');
-        colon + 1 < word.size() && word[colon + 1] >= 'a' && word[colon + 1] <= 'z')
-      return add_chain(word.substr(0, colon), word.substr(colon + 1), word);
-    const ResidueRange range = read_residue_range(s_, word);
-    const std::string_view name = range.rest.empty() ? "all" : range.rest.substr(1);
-    choose([&](std::uint32_t r) { return range.first <= r && r <= range.last; }, name, word);
-  }
-
-  void add_chain(std::string_view chain, std::string_view names, std::string_view word) {
-    const auto is_in = [&](std::uint32_t r) {
-      return s_.chains[s_.residues[r].chain].name == (chain == "_" ? std::string_view() : chain);
-    };
-    bool seen = false;
-    for (std::uint32_t r = 0; r < s_.residues.size(); ++r) seen = seen || is_in(r);
-    if (!seen) refuse(word, "a chain of the file; there is no chain '" + std::string(chain) + "'");
-    choose(is_in, names, word);
-  }
-
-  const Molecule& molecule_;
+  const Molecule& m_;
   const Structure& s_;
-  bool omega_;
-  std::vector<bool> chosen_;
-  std::vector<std::uint32_t> polymer_;
+  ResidueWords residues_;
+  Set named_omega_;
+  bool asked_for_none_ = false;
+  std::vector<std::string>& notes_;
+  std::string_view last_residues_;  // of the word before; empty when that was about no residues of its own
 };
 
 }  // namespace
 
-std::vector<std::size_t> select_torsions(const Molecule& molecule, std::string_view spec, bool omega) {
-  Selector selector(molecule, omega);
-  while (true) {
-    const std::size_t comma = spec.find(',');
-    selector.add(spec.substr(0, comma));
-    if (comma == std::string_view::npos) break;
-    spec.remove_prefix(comma + 1);
+SelectedTorsions read_selection(const Molecule& molecule, std::string_view expression, bool omega) {
+  SelectedTorsions result;
+  TorsionWords words(molecule, result.notes);
+  const auto torsions = molecule.torsions();
+  std::vector<SelectionTerm> terms = read_terms(expression, words);
+  const auto turns = [&](std::size_t k) { return omega || torsions[k].name != "omega" || words.named_omega()[k]; };
+  std::vector<bool> chosen(torsions.size(), false);
+  for (SelectionTerm& term : terms) {
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < torsions.size(); ++k) {
+      if (!term.selected[k] || !turns(k)) continue;
+      chosen[k] = true;
+      ++count;
+    }
+    result.words.push_back({std::string(term.text), count});
   }
-  return selector.take();
+  std::size_t all = 0;
+  for (std::size_t k = 0; k < torsions.size(); ++k) {
+    if (chosen[k]) result.torsions.push_back(k);
+    if (omega || torsions[k].name != "omega") ++all;
+  }
+  if (result.torsions.empty() && !words.asked_for_none())
+    refuse({expression, expression}, "torsions to free; it selects nothing" +
+                                         (result.notes.empty() ? std::string() : " (" + result.notes.front() + ")"));
+  if (result.words.size() > 1)
+    for (const SelectedTorsions::Word& word : result.words) {
+      const std::string who = "selection '" + std::string(expression) + "': '" + word.text + "' ";
+      if (word.count >= all && all > 0)
+        result.notes.push_back(who + "frees all " + std::to_string(word.count) +
+                               " torsions, whatever stands beside it");
+      else if (word.count == 0 && word.text != "none" &&
+               std::ranges::none_of(result.notes, [&](const std::string& note) { return note.starts_with(who); }))
+        result.notes.push_back(who + "selects nothing");
+    }
+  return result;
+}
+
+std::vector<std::size_t> select_torsions(const Molecule& molecule, std::string_view expression, bool omega) {
+  return read_selection(molecule, expression, omega).torsions;
 }
 
 }  // namespace hinge::molecular

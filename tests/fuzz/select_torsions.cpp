@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <iterator>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -52,18 +53,37 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const Molecule molecule = make_molecule();
   const std::string_view words = fuzz::Bytes(data, size).text();
   const auto without = select(molecule, words, false), with = select(molecule, words, true);
-  fuzz::require(without.has_value() == with.has_value(), "omega decides what is a word");
-  if (!with) return 0;
+  fuzz::require(with.has_value() || !without, "omega decides what is a word");
+  if (!with || !without) return 0;  // only omega, which is nothing where it is not asked for
   fuzz::require(std::includes(with->begin(), with->end(), without->begin(), without->end()),
                 "omega takes torsions away");
-  // The words' union counts, in whatever order.
-  const std::size_t comma = words.find(',');
-  if (comma == std::string_view::npos) return 0;
+  // Parentheses change nothing around a whole expression, and sets obey the laws of sets.
+  const std::string whole = "(" + std::string(words) + ")";
+  const auto expect = [&](const std::string& other, const Positions& expected, const char* what) {
+    const auto found = select(molecule, other, true);
+    fuzz::require(found && *found == expected, what);
+  };
+  if (words.size() > 1000 || std::ranges::count(words, '(') > 90) return 0;
+  expect(whole, *with, "parentheses change what is selected");
+  expect(whole + "," + whole, *with, "a union with itself is something else");
+  expect(whole + " and " + whole, *with, "an intersection with itself is something else");
+  expect("not not " + whole, *with, "not not is something else");
+  Positions rest;
+  const auto all = select(molecule, "all", true);
+  std::set_difference(all->begin(), all->end(), with->begin(), with->end(), std::back_inserter(rest));
+  if (!rest.empty()) expect("not " + whole, rest, "not is something else than the rest");
+  // The union counts, in whatever order: alternatives by themselves select what they do in a list.
+  const auto comma = words.find(" or ");
+  if (comma == std::string_view::npos || words.find('(') != std::string_view::npos) return 0;
   const auto head = select(molecule, words.substr(0, comma), true),
-             tail = select(molecule, words.substr(comma + 1), true);
-  fuzz::require(head && tail, "a list is accepted whose parts are not");
+             tail = select(molecule, words.substr(comma + 4), true);
   Positions both;
-  std::set_union(head->begin(), head->end(), tail->begin(), tail->end(), std::back_inserter(both));
+  if (head) both = *head;
+  if (tail) {
+    const Positions left = std::move(both);
+    both.clear();
+    std::set_union(left.begin(), left.end(), tail->begin(), tail->end(), std::back_inserter(both));
+  }
   fuzz::require(both == *with, "a list selects something else than its parts");
   return 0;
 }

@@ -116,7 +116,7 @@ TEST(BiocdLoop, RefusesWhatIsNoLoop) {
   EXPECT_NE(refused("--loop A:10-20,A:15-25").find("shares residues with loop A:GLY10-SER20"), std::string::npos);
   EXPECT_NE(refused("--loop A:10-20 --free backbone").find("only side chains"), std::string::npos);
   EXPECT_NE(refused("--loop A:10").find("turns"), std::string::npos);
-  EXPECT_NE(refused("--loop nonsense").find("CHAIN:10-20"), std::string::npos);
+  EXPECT_NE(refused("--loop nonsense").find("CHAIN:RESIDUES"), std::string::npos);
   EXPECT_NE(refused("--collision-free").find("expected --loop or --closures keep"), std::string::npos);
   refused("--closures maybe");
   refused("--loop A:10-20 --tries 0");

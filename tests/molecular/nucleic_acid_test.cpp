@@ -236,7 +236,7 @@ TEST(NucleicAcid, IsSelectedByTheNamesOfItsTorsions) {
   EXPECT_EQ(select_torsions(m, "chi", false).size(), 24U);
   EXPECT_EQ(select_torsions(m, "every:2", false).size(), 10U * 6U + 2U * 4U)
       << "A12 and B24 have four, the other ten six";
-  EXPECT_TRUE(select_torsions(m, "ligands", false).empty());
+  EXPECT_THROW(select_torsions(m, "ligands", false), ModelError) << "there are none";
   EXPECT_THROW(select_torsions(m, "count:25", false), ModelError);
   EXPECT_THROW(select_torsions(m, "A:5:C1'-C2'", false), ModelError) << "a bond of the sugar's ring";
   try {

@@ -101,14 +101,14 @@ TEST(Part, SaysWhatItCouldNotFind) {
             "selection 'Q': expected a chain (A B L C), the name of a residue, CHAIN:RESIDUES or file:N");
   EXPECT_EQ(refusal([&] { find_part(s, "Q:3"); }),
             "selection 'Q:3': expected a chain (A B L C); there is no chain 'Q'");
-  EXPECT_EQ(refusal([&] { find_part(s, "A:99"); }), "selection 'A:99': expected a residue of chain A; it has no 99");
+  EXPECT_EQ(refusal([&] { find_part(s, "A:99"); }),
+            "selection 'A:99': expected a residue of chain A; it has no 99, it goes from A:ALA1 to A:GLU5");
   EXPECT_EQ(refusal([&] { find_part(s, "A:TRP"); }),
             "selection 'A:TRP': expected CHAIN:45, CHAIN:10-20 or CHAIN:NAME of a residue there is");
   EXPECT_EQ(refusal([&] { find_part(s, "A:4-2"); }),
             "selection 'A:4-2': expected the first residue to come before the last");
   EXPECT_EQ(refusal([&] { find_part(s, "file:5"); }), "selection 'file:5': expected file:N with N from 1 to 4");
-  EXPECT_EQ(refusal([&] { find_part(s, "A+"); }),
-            "selection '': expected a chain, a residue or a file on either side of '+'");
+  EXPECT_EQ(refusal([&] { find_part(s, "A+"); }), "selection 'A+', at its end: expected a word to select by, or '('");
   EXPECT_EQ(find_part(s, "LIG").residues.size(), 2U);
   EXPECT_EQ(refusal([&] { find_part(s, "LIG", ResidueNames::only); }),
             "selection 'LIG': expected one residue; there are 2: L:LIG1 C:LIG1; say which as CHAIN:NUMBER");

@@ -22,9 +22,10 @@ struct Loop {
   std::uint32_t last = 0;
 };
 
-/// From "A:40-52"; several joined by commas. ModelError: a word of another form; residues that are no amino acids, lack
-/// N, CA or C, or are not joined by peptide bonds to each other, to the one before and to the one after (a chain's end
-/// or a break: free it as it is, it needs no closing); loops that share residues.
+/// From "A:40-52"; several joined by commas: a loop is what one word, or one expression of residues (find_part) between
+/// commas, selects. ModelError: another form; residues that do not follow one another, residues that are no amino
+/// acids, lack N, CA or C, or are not joined by peptide bonds to each other, to the one before and to the one after (a
+/// chain's end or a break: free it as it is, it needs no closing); loops that share residues.
 std::vector<Loop> find_loops(const Structure& structure, std::string_view words);
 
 /// "A:ASP39-GLY47".

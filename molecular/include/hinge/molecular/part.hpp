@@ -19,12 +19,13 @@ struct Part {
 /// Whether a bare residue name may stand for several residues: for all of them, or for one that has to be the only one.
 enum class ResidueNames : std::uint8_t { all, only };
 
-/// The residues of words joined by '+':
+/// The residues that an expression selects (its grammar: select_torsions). The words:
 ///   A          a chain ("_" for a blank name)
 ///   KNI        the residues of that name, where no chain is called so
 ///   A:45  A:10-20  A:60A  A:HEM    residues of a chain, by number (and insertion code) or name
 ///   file:2     all of the second file (join_structures)
-/// ModelError names the word, what was found and what was expected.
+///   all, ligands, loops, every:N, count:K    the residues that these words are about in selections of torsions
+/// ModelError names the word, where it stands, what was found and what was expected; nothing selected is one.
 Part find_part(const Structure& structure, std::string_view words, ResidueNames names = ResidueNames::all);
 
 /// Every residue that `part` does not hold; ModelError when it holds all.
