@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -44,6 +48,23 @@ TEST(Floors, OraclesStayInTheirFolders) {
 TEST(Conventions, EveryFileKeepsThem) { EXPECT_EQ(joined(architecture::convention_violations(library())), ""); }
 
 TEST(Conventions, TopLevelHoldsNothingElse) { EXPECT_EQ(joined(architecture::strangers_at_top(root)), ""); }
+
+/// Presets that share a build folder take each other's programs away.
+TEST(Presets, HaveAFolderEach) {
+  std::ifstream in(root / "CMakePresets.json");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const auto matches = [&](const std::string& pattern) {
+    const std::regex regex(pattern);
+    std::vector<std::string> all;
+    for (std::sregex_iterator match(text.begin(), text.end(), regex), end; match != end; ++match)
+      all.push_back((*match)[1]);
+    return all;
+  };
+  const std::vector<std::string> folders = matches(R"re("binaryDir": "([^"]*)")re");
+  EXPECT_EQ(folders.size(), matches(R"re("description": "([^"]*)")re").size()) << "a preset inherits its folder";
+  EXPECT_EQ(std::set<std::string>(folders.begin(), folders.end()).size(), folders.size());
+  EXPECT_GE(folders.size(), 2U);
+}
 
 /// One file planted into a small sound tree, and how many breaches it makes.
 std::size_t floor_breaches(const std::string& path, const std::string& line) {
