@@ -7,9 +7,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -31,6 +33,10 @@ class ShardFile {
 
   /// Reads what stands before the rows.
   void open() {
+    std::error_code error;
+    const auto status = std::filesystem::status(path_, error);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+      refuse("is no regular file, expected one: shards are read twice");
     stream_ = std::ifstream(path_);  // closed by for_rows, or the next open(): there may be more shards than files
     if (!stream_) throw LoadError(path_ + ": cannot be opened");
     if (!next()) refuse("is empty, expected what biocd --shard printed");

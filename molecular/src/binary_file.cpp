@@ -14,10 +14,13 @@
 namespace hinge::molecular {
 
 BinaryFile::BinaryFile(const std::filesystem::path& path) : name_(path.string()) {
-  if (std::filesystem::is_directory(path)) throw LoadError(name_ + ": is a directory, expected a file of coordinates");
+  struct stat status {};
+  if (::stat(name_.c_str(), &status) != 0) throw LoadError(name_ + ": cannot be opened: " + std::strerror(errno));
+  if (S_ISDIR(status.st_mode)) throw LoadError(name_ + ": is a directory, expected a file of coordinates");
+  if (!S_ISREG(status.st_mode))
+    throw LoadError(name_ + ": is a pipe or device, expected a regular file: coordinates are read in any order");
   descriptor_ = ::open(name_.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor_ < 0) throw LoadError(name_ + ": cannot be opened: " + std::strerror(errno));
-  struct stat status {};
   if (::fstat(descriptor_, &status) != 0 || status.st_size <= 0) {
     ::close(descriptor_);
     throw LoadError(name_ + ": is empty, expected a file of coordinates");

@@ -2,20 +2,17 @@
 // Bytes, checks, parser, assembly, bonds.
 #include "hinge/molecular/read_structure.hpp"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <memory>
+#include <cstdint>
 #include <string_view>
 #include <utility>
 
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/bonds.hpp"
 #include "read_file.hpp"
+#include "unpacked_file.hpp"
 
 namespace hinge::molecular {
 
@@ -78,23 +75,17 @@ void move_conect(std::string& text, std::string& bytes) {
 }  // namespace
 
 std::string read_bytes(const std::filesystem::path& path, bool first_model, bool* cut_short) {
-  if (std::filesystem::is_directory(path))
-    throw LoadError(path.string() + ": is a directory, expected a PDB or mmCIF file");
-  errno = 0;
-  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), gzclose);
-  if (!file) throw LoadError(path.string() + ": cannot be opened: " + std::strerror(errno != 0 ? errno : ENOMEM));
+  UnpackedFile file(path);
   std::string bytes, rest;  // rest: what was read behind the first model and not looked at yet
   FirstModel first;
   bool behind = false;
   std::size_t total = 0;
   std::array<char, 1U << 16> chunk{};
-  int got = 0;
-  while ((got = gzread(file.get(), chunk.data(), static_cast<unsigned>(chunk.size()))) > 0) {
-    (behind ? rest : bytes).append(chunk.data(), static_cast<std::size_t>(got));
-    total += static_cast<std::size_t>(got);
+  while (const std::size_t got = file.read(chunk)) {
+    (behind ? rest : bytes).append(chunk.data(), got);
+    total += got;
     // Plain files never get there: they are as long as what was read of them.
-    if (const auto read = gzoffset(file.get());
-        read >= 0 && total > harmless + most_times * static_cast<std::size_t>(read))
+    if (const std::uint64_t read = file.packed(); total > harmless + most_times * read)
       throw LoadError(path.string() + ": " + std::to_string(read) + " bytes unpack to more than " +
                       std::to_string(total) + ", expected at most 64 MiB + " + std::to_string(most_times) +
                       " times as many; unpack it first if it is a structure");
@@ -107,10 +98,6 @@ std::string read_bytes(const std::filesystem::path& path, bool first_model, bool
     }
     if (behind) move_conect(rest, bytes);
   }
-  int status = Z_OK;
-  const char* message = gzerror(file.get(), &status);
-  if (got < 0 || (status != Z_OK && status != Z_STREAM_END))
-    throw LoadError(path.string() + ": cannot be read to its end: " + message);
   if (behind) move_conect(rest += '\n', bytes);
   if (bytes.find_first_not_of(" \t\r\n") == std::string::npos)
     throw LoadError(path.string() + ": is empty, expected a PDB or mmCIF file");

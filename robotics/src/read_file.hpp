@@ -7,7 +7,7 @@
 
 namespace hinge::robotics {
 
-/// LoadError: no such file, a directory, cannot be read.
+/// LoadError: no such file, a directory or device, cannot be read, a pipe that gives more than 1 GiB.
 std::string read_file(const std::filesystem::path& path);
 
 }  // namespace hinge::robotics

@@ -177,6 +177,37 @@ TEST(ReadStructure, ReadsGzippedFilesAsTheirText) {
   EXPECT_EQ(read_structure(file.path()).models, read_structure(test::ubiquitin()).models);
 }
 
+TEST(ReadStructure, ReadsAllMembersOfAGzippedFileOrRefusesIt) {
+  const auto read = [](const std::string& bytes) {
+    const TemporaryFile file(bytes, ".pdb.gz");
+    return read_structure(file.path()).models.size();
+  };
+  const std::string first = gzipped("MODEL 1\n" + alanine() + "ENDMDL\n", 1),
+                    second = gzipped("MODEL 2\n" + alanine() + "ENDMDL\n", 1);
+  EXPECT_EQ(read(first + second), 2U);
+  EXPECT_EQ(read(first + second + std::string(1000, '\0')), 2U) << "a tape's last block";
+  const auto refused = [](const std::string& bytes, std::size_t byte, const char* why) {
+    const std::string said = refusal(bytes, {}, ".pdb.gz");
+    EXPECT_NE(said.find("cannot be read to its end: byte "), std::string::npos) << said;
+    EXPECT_NE(said.find(why), std::string::npos) << said;
+    const std::size_t at = said.find("byte ") + 5;
+    EXPECT_NEAR(std::stod(said.substr(std::min(at, said.size()))), static_cast<double>(byte), 12.0) << said;
+  };
+  // Any bit of the second member's first two bytes.
+  for (std::size_t bit = 0; bit < 16; ++bit) {
+    std::string flipped = first + second;
+    flipped[first.size() + bit / 8] = static_cast<char>(flipped[first.size() + bit / 8] ^ (1 << bit % 8));
+    refused(flipped, first.size(), "expected a gzip member or the end of the file");
+  }
+  refused(first + "more", first.size(), "expected a gzip member or the end of the file");
+  refused(first + std::string(9, '\0') + "more", first.size() + 9, "expected nothing but zeros");
+  refused(first + second.substr(0, second.size() - 1), first.size() + second.size() - 1, "cut short");
+  refused(first + second.substr(0, 5), first.size() + 5, "cut short");
+  std::string wrong_sum = first;
+  wrong_sum[first.size() - 5] = static_cast<char>(wrong_sum[first.size() - 5] ^ 1);
+  refused(wrong_sum, first.size(), "damaged");
+}
+
 TEST(ReadStructure, RefusesAFileThatUnpacksWithoutEndNearlyAtOnce) {
   // 16 KiB of file for each 16 MiB of blanks behind the atoms: 256 MiB in all, refused before a third of it.
   const std::string bomb = gzipped(alanine() + std::string(std::size_t{16} << 20, ' '), 16);
