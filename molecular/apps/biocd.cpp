@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <functional>
 #include <string>
 
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/components.hpp"
 #include "hinge/simd/instruction_set.hpp"
+#include "hinge/tool/number_option.hpp"
 #include "hinge/tool/pick_instruction_set.hpp"
 #include "hinge/tool/run_tool.hpp"
 #include "hinge/version.hpp"
@@ -19,6 +21,13 @@ namespace {
 
 using biocd::Exit;
 using biocd::Options;
+using hinge::tool::add_number;
+using hinge::tool::NumberRange;
+using Reals = NumberRange<double>;
+
+constexpr NumberRange<std::uint64_t> counts{1, std::uint64_t{1} << 53};
+constexpr NumberRange<std::uint64_t> seeds{0, UINT64_MAX};
+constexpr Reals lengths_above_0{0.0, hinge::tool::largest_length, true};  // angstrom, or degrees
 
 constexpr const char* footer =
     "Exit status: 0 free, 1 collision found, 2 usage, 3 bad input, 4 undecided (path).\n"
@@ -50,10 +59,8 @@ void add_model_options(CLI::App& command, Options& o) {
           "conformations (DCD, XTC, .npy, PDB, mmCIF): torsions inside groups that these keep rigid stay at their "
           "reference (repeatable)")
       ->allow_extra_args(false);
-  command
-      .add_option("--rigid-tolerance", o.rigid_tolerance,
-                  "by how much distances inside a rigid group may vary: standard deviation, angstrom")
-      ->capture_default_str();
+  add_number(command, "--rigid-tolerance", o.rigid_tolerance, lengths_above_0,
+             "by how much distances inside a rigid group may vary: standard deviation, angstrom");
   command
       .add_option("--place", o.place,
                   "PART[=DISTANCE[,DEGREES]]: a chain, ligand or file that moves and turns as one against the rest, in "
@@ -69,9 +76,9 @@ void add_model_options(CLI::App& command, Options& o) {
   rules->capture_default_str();
   command.add_option("--radii", o.check.thresholds.radii, "radii set: bondi, probe, probe-united, amber")
       ->capture_default_str();
-  command.add_option("--rho", o.check.thresholds.rho, "M = rho * (sum of radii)")->capture_default_str();
-  command.add_option("--min-bonds", o.check.min_bonds,
-                     "pairs count from this bond distance on (default: the radii set's, 4 for bondi)");
+  add_number(command, "--rho", o.check.thresholds.rho, Reals{0.0, 1000.0, true}, "M = rho * (sum of radii)");
+  add_number(command, "--min-bonds", o.check.min_bonds, NumberRange<int>{1, 1000},
+             "pairs count from this bond distance on (default: the radii set's, 4 for bondi)");
   command
       .add_option_function<std::string>(
           "--hbond",
@@ -80,17 +87,14 @@ void add_model_options(CLI::App& command, Options& o) {
           },
           "hydrogen-bond rule: auto (on with hydrogens), on, off")
       ->check(CLI::IsMember({"auto", "on", "off"}));
-  command
-      .add_option("--hbond-allowance", o.check.thresholds.hydrogen_bond_allowance,
-                  "taken from M(polar H, acceptor), angstrom")
-      ->capture_default_str();
+  add_number(command, "--hbond-allowance", o.check.thresholds.hydrogen_bond_allowance, Reals{0.0, 1000.0},
+             "taken from M(polar H, acceptor), angstrom");
   command
       .add_option_function<std::string>(
           "--hydrogens", [&o](const std::string& text) { o.read.keep_hydrogens = text == "keep"; },
           "hydrogens of the file: keep (default) or drop")
       ->check(CLI::IsMember({"keep", "drop"}));
-  command.add_option_function<int>(
-      "--model", [&o](int number) { o.read.model = number; }, "number of the model to use");
+  add_number(command, "--model", o.read.model, NumberRange<int>{-99999999, 99999999}, "number of the model to use");
   command.add_option_function<std::string>(
       "--altloc",
       [&o](const std::string& text) {
@@ -130,7 +134,16 @@ void add_check_options(CLI::App& command, Options& o) {
       .add_flag_callback(
           "--csv", [&o] { o.output = biocd::Output::csv; }, "CSV on standard output")
       ->excludes("--json");
-  command.add_option("--mode", o.mode, "any, all, within:D (angstrom) or closest")->capture_default_str();
+  command
+      .add_option_function<std::string>(
+          "--mode",
+          [&o](const std::string& text) {
+            if (hinge::Mode::parse(text, "angstrom").margin > hinge::tool::largest_length)
+              throw hinge::ModelError("--mode '" + text + "': expected D in angstrom, at most 1e+09");
+            o.mode = text;
+          },
+          "any, all, within:D (angstrom) or closest")
+      ->default_str(o.mode);
   command.add_option("--out", o.out, "write the conformations to this .pdb, .dcd or .npy file");
   command
       .add_option_function<std::string>(
@@ -141,9 +154,8 @@ void add_check_options(CLI::App& command, Options& o) {
   command.add_option_function<std::string>(
       "--shard", [&o](const std::string& text) { o.shard = biocd::parse_shard(text); },
       "i/n: part i of n (from 1), for biocd merge; with --json or --csv");
-  command.add_option("--threads", o.threads, "worker threads; the output does not depend on them")
-      ->check(CLI::Range(1U, 1024U))
-      ->capture_default_str();
+  add_number(command, "--threads", o.threads, NumberRange<unsigned>{1, 1024},
+             "worker threads; the output does not depend on them");
 }
 
 void add_path_options(CLI::App& command, Options& o) {
@@ -153,14 +165,11 @@ void add_path_options(CLI::App& command, Options& o) {
       "per DOF";
   command.add_option("--from", o.from, end)->required();
   command.add_option("--to", o.to, end)->required();
-  CLI::Option* sampled = command
-                             .add_option("--sampled", o.sampled_degrees,
-                                         "look at states at most so many degrees apart (default: certify every state)")
-                             ->check(CLI::PositiveNumber);
-  command.add_option("--min-step", o.min_step, "stretches no longer than this share of the path are not cut any more")
-      ->check(CLI::PositiveNumber)
-      ->excludes(sampled)
-      ->capture_default_str();
+  CLI::Option* sampled = add_number(command, "--sampled", o.sampled_degrees, lengths_above_0,
+                                    "look at states at most so many degrees apart (default: certify every state)");
+  add_number(command, "--min-step", o.min_step, Reals{0.0, 1.0, true},
+             "stretches no longer than this share of the path are not cut any more")
+      ->excludes(sampled);
 }
 
 Exit run(int argc, char** argv) {
@@ -189,33 +198,29 @@ Exit run(int argc, char** argv) {
   CLI::App* sample = app.add_subcommand("sample", "random conformations of the free torsions, each checked");
   add_model_options(*sample, o);
   add_check_options(*sample, o);
-  sample->add_option("-n,--count", o.count, "number of conformations")->capture_default_str();
-  sample->add_option("--seed", o.seed, "seed; conformation k is a function of (seed, k) alone")->capture_default_str();
-  sample->add_option("--sigma", o.sigma_degrees, "Gaussian about the reference, degrees (default: full range)")
-      ->check(CLI::PositiveNumber);
+  add_number(*sample, "-n,--count", o.count, counts, "number of conformations");
+  add_number(*sample, "--seed", o.seed, seeds, "seed; conformation k is a function of (seed, k) alone");
+  add_number(*sample, "--sigma", o.sigma_degrees, lengths_above_0,
+             "Gaussian about the reference, degrees (default: full range)");
   sample
       ->add_option_function<std::string>(
           "--closures", [&o](const std::string& text) { o.keep_closures = text == "keep"; },
           "cycles through disulphides and other bonds: open (default) or keep; loops are always kept")
       ->check(CLI::IsMember({"open", "keep"}));
   sample->add_flag("--collision-free", o.collision_free, "of closed conformations only those that do not collide");
-  sample->add_option("--tries", o.most_tries, "starts for each closed conformation at most")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  add_number(*sample, "--tries", o.most_tries, counts, "starts for each closed conformation at most");
   sample->callback([&] { command = biocd::run_sample; });
 
   CLI::App* walk = app.add_subcommand("walk", "Monte Carlo walk of collision-free moves from the file's conformation");
   add_model_options(*walk, o);
   add_json_option(*walk, o);
-  walk->add_option("--steps", o.steps, "moves to try")->capture_default_str();
-  walk->add_option("--step-size", o.step_degrees, "standard deviation of a torsion's change, degrees")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  walk->add_option("--changes", o.changes, "torsions that a move changes")->capture_default_str();
-  walk->add_option("--seed", o.seed, "seed; a walk is a function of it, the file and the options alone")
-      ->capture_default_str();
+  add_number(*walk, "--steps", o.steps, counts, "moves to try");
+  add_number(*walk, "--step-size", o.step_degrees, lengths_above_0,
+             "standard deviation of a torsion's change, degrees");
+  add_number(*walk, "--changes", o.changes, counts, "torsions that a move changes");
+  add_number(*walk, "--seed", o.seed, seeds, "seed; a walk is a function of it, the file and the options alone");
   walk->add_option("--out", o.out, "write conformations as a multi-model PDB file");
-  walk->add_option("--every", o.every, "steps from one conformation written to the next")->capture_default_str();
+  add_number(*walk, "--every", o.every, counts, "steps from one conformation written to the next");
   walk->callback([&] { command = biocd::run_walk; });
 
   CLI::App* merge = app.add_subcommand("merge", "joins the outputs of all shards of one run");
@@ -232,8 +237,8 @@ Exit run(int argc, char** argv) {
   CLI::App* demo = app.add_subcommand("demo", "the main job on one protein: sample, time, verify, draw");
   demo->add_option("FILE", o.file, "PDB or mmCIF file")->required();
   demo->add_option("--out", o.out, "folder for the plot and the viewer scripts")->required();
-  demo->add_option("-n,--count", o.count, "conformations per row")->capture_default_str();
-  demo->add_option("--seed", o.seed, "seed")->capture_default_str();
+  add_number(*demo, "-n,--count", o.count, counts, "conformations per row");
+  add_number(*demo, "--seed", o.seed, seeds, "seed");
   demo->callback([&] { command = biocd::run_demo; });
 
   try {

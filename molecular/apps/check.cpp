@@ -108,7 +108,7 @@ Exit run_check(const Options& options) {
 
   const BondGauge gauge(*job.molecule);
   const bool has_closures = !job.molecule->closure_atoms().empty();
-  Summary summary(closure_names(job), false);
+  Summary summary(closure_names(job), false, options.output == Output::json);
   BondDeviation worst;  // of all bonds and conformations
   std::string worst_name;
   hinge::tool::ProgressBar bar(end - begin);
@@ -172,6 +172,7 @@ Exit run_check(const Options& options) {
   try {
     hinge::Ensemble(job.checker, options.threads)
         .run(static_cast<std::size_t>(end - begin), judge, report, results_at_once(s.atoms.size()));
+    file.finish();
   } catch (const hinge::LoadError& error) {
     // What was checked before counts, and is complete in itself.
     finish(error.what());
@@ -182,7 +183,6 @@ Exit run_check(const Options& options) {
     throw;
   }
   finish({});
-  file.finish();
   return summary.colliding() > 0 ? Exit::collision : Exit::free;
 }
 

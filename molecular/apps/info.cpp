@@ -8,6 +8,7 @@
 #include <string>
 
 #include "hinge/molecular/summary.hpp"
+#include "hinge/tool/json_text.hpp"
 #include "options.hpp"
 #include "report.hpp"
 #include "rigid_ensemble.hpp"
@@ -138,7 +139,7 @@ Exit run_info(const Options& options) {
       json["bonds"] = bonds_json(s);
       json["thresholds"] = thresholds_json(job.checker.thresholds());
     }
-    fmt::print("{}\n", json.dump(1));
+    fmt::print("{}\n", hinge::tool::json_text(json, 1));
   } else {
     print_table(options, job);
   }

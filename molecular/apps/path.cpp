@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
-#include "hinge/core/finite.hpp"
 #include "hinge/molecular/path_checker.hpp"
 #include "hinge/motion/path_answer.hpp"
+#include "hinge/tool/json_text.hpp"
 #include "options.hpp"
 #include "path_end.hpp"
 #include "report.hpp"
@@ -113,8 +113,6 @@ void print_table(const Options& options, const Job& job, const Asked& asked) {
 }  // namespace
 
 Exit run_path(const Options& options) {
-  if (options.sampled_degrees && !hinge::is_finite(*options.sampled_degrees))
-    throw hinge::ModelError("--sampled: expected a finite number of degrees");
   if (!options.loop.empty())
     throw hinge::ModelError("--loop: cycles are not closed along a path, expected no loops; sample closes them");
   const Job job = load(options);
@@ -149,7 +147,7 @@ Exit run_path(const Options& options) {
     asked.pairs = checker.check(asked.answer.configuration, Mode{Mode::Kind::all}).pairs;
 
   if (options.output == Output::json)
-    fmt::print("{}\n", path_json(options, job, asked).dump(1));
+    fmt::print("{}\n", hinge::tool::json_text(path_json(options, job, asked), 1));
   else
     print_table(options, job, asked);
   switch (asked.answer.verdict) {

@@ -5,18 +5,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string_view>
 #include <system_error>
 
 #include "hinge/core/error.hpp"
-#include "hinge/core/finite.hpp"
+#include "hinge/tool/input_file.hpp"
+#include "hinge/tool/number_option.hpp"
 #include "report.hpp"
 #include "scene.hpp"
 
@@ -42,8 +39,9 @@ std::vector<double> read_degrees(std::string_view text, std::size_t count, const
     if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
     double value = 0.0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc{} || end != word.data() + word.size() || !hinge::is_finite(value))
-      refuse(fmt::format("value {} is '{}', expected a finite number of degrees", turns.size() + 1, word));
+    if (error != std::errc{} || end != word.data() + word.size() || !(std::abs(value) <= hinge::tool::largest_value))
+      refuse(
+          fmt::format("value {} is '{}', expected a finite number of degrees, at most 1e+15", turns.size() + 1, word));
     turns.push_back(value);
     if (comma && text.find_first_not_of(blanks) == std::string_view::npos) refuse("ends with a comma");
   }
@@ -53,17 +51,6 @@ std::vector<double> read_degrees(std::string_view text, std::size_t count, const
                     "(moves of placed parts in angstrom)",
                     turns.size(), count));
   return turns;
-}
-
-std::string read_text(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw hinge::LoadError(path + ": is a directory, expected a file");
-  errno = 0;
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw hinge::LoadError(path + ": cannot be opened: " + std::strerror(errno != 0 ? errno : ENOENT));
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (in.bad()) throw hinge::LoadError(path + ": cannot be read to its end");
-  return text;
 }
 
 std::size_t find_model(const std::string& option, std::string_view number, const Structure& s) {
@@ -122,7 +109,7 @@ PathEnd read_path_end(const char* option, const std::string& text, const Job& jo
     end.from_model = superpose(rebuilt.positions(), model);
   } else if (text.starts_with('@')) {
     const std::string path = text.substr(1);
-    end.turns = turned(job, read_degrees(read_text(path), count,
+    end.turns = turned(job, read_degrees(hinge::tool::read_whole(path), count,
                                          [&](const std::string& what) { throw hinge::LoadError(path + ": " + what); }));
   } else {
     end.turns = turned(job, read_degrees(text, count, [&](const std::string& what) {

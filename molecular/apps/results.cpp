@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "hinge/core/error.hpp"
+#include "hinge/tool/json_text.hpp"
 
 namespace biocd {
 
@@ -47,19 +48,21 @@ std::pair<std::uint64_t, std::uint64_t> shard_range(const Shard& shard, std::uin
 }
 
 void print_json_head(const Json& head) {
-  std::string text = head.dump(1);
+  std::string text = hinge::tool::json_text(head, 1);
   text.resize(text.rfind('\n'));  // the closing brace comes with the summary
   fmt::print("{},\n{}", text, json_rows_begin);
 }
 
 const char* json_row_separator(bool is_first) { return is_first ? "\n" : ",\n"; }
 
-void print_json_end(const Json& summary) { fmt::print("\n{}\n\"summary\": {}}}\n", json_rows_end, summary.dump()); }
+void print_json_end(const Json& summary) {
+  fmt::print("\n{}\n\"summary\": {}}}\n", json_rows_end, hinge::tool::json_text(summary));
+}
 
 std::string csv_shard_line(const Shard& shard, std::uint64_t total, const Json& head) {
   const auto [first, end] = shard_range(shard, total);
   return fmt::format("# biocd shard {}/{}: {} conformations from {} of {}, question {:016x}\n", shard.index, shard.of,
-                     end - first, first, total, digest(head.dump()));
+                     end - first, first, total, digest(hinge::tool::json_text(head)));
 }
 
 Results::Results(const Options& options, Json head, std::uint64_t total, const std::string& columns)
@@ -83,7 +86,7 @@ Results::Results(const Options& options, Json head, std::uint64_t total, const s
 }
 
 void Results::add(const Json& row) {
-  fmt::print("{}{}", json_row_separator(empty_), row.dump());
+  fmt::print("{}{}", json_row_separator(empty_), hinge::tool::json_text(row));
   empty_ = false;
 }
 

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <cstdio>
 #include <optional>
 #include <span>
 #include <string>
@@ -76,6 +77,9 @@ void print_table(const Job& job, const Summary& summary, double seconds) {
   }
   print_closures(job, summary.worst_residuals());
   for (const Offender& o : summary.top()) fmt::print("  {:<18} {:<18} {:8}\n", o.label_i, o.label_j, o.count);
+  if (summary.count_error() > 0)
+    fmt::print("  counts of pairs may be too low by up to {}: there were too many different ones\n",
+               summary.count_error());
 }
 
 }  // namespace
@@ -88,7 +92,6 @@ Exit run_sample(const Options& options) {
     explain(options, job);
     return Exit::free;
   }
-  if (options.count == 0) throw hinge::ModelError("-n 0: expected at least one conformation");
   Sampling sampling{options.seed, {}};
   if (options.sigma_degrees) sampling.sigma = *options.sigma_degrees * degree;
   const bool closed = options.keep_closures || !options.loop.empty();
@@ -106,7 +109,7 @@ Exit run_sample(const Options& options) {
   if (options.output == Output::csv) print_constant_contacts(job);
   if (options.output == Output::table) fmt::print("{}", heading(options, job));
 
-  Summary summary(closure_names(job), closed);
+  Summary summary(closure_names(job), closed, options.output != Output::csv);
   hinge::tool::ProgressBar bar(end - begin);
   const auto start = std::chrono::steady_clock::now();
   Worker worker{job.checker, {}};
@@ -133,16 +136,23 @@ Exit run_sample(const Options& options) {
       results.add(with_placements(csv_rows(job, k, sample.verdict), sample.placements));
     file.add(sample.positions, static_cast<int>(k) + 1, sample.verdict.collides);
   };
-  hinge::Ensemble(worker, options.threads)
-      .run(static_cast<std::size_t>(end - begin), judge, report, results_at_once(s.atoms.size()));
+  try {
+    hinge::Ensemble(worker, options.threads)
+        .run(static_cast<std::size_t>(end - begin), judge, report, results_at_once(s.atoms.size()));
+    file.finish();
+  } catch (const hinge::Error& error) {  // such as a full disk
+    results.finish(summary.json(true), error.what());
+    throw;
+  }
   const std::chrono::duration<double> checking = std::chrono::steady_clock::now() - start;
-  file.finish();
   results.finish(summary.json(true));
   if (options.output == Output::table) print_table(job, summary, checking.count());
   const std::uint64_t missing = summary.starts() ? summary.starts()->missing : 0;
   if (missing > 0)
-    fmt::print(stderr, "{} of {} samples are missing: none of {} starts closed{}\n", missing, end - begin,
-               options.most_tries, options.collision_free ? " without a collision" : "");
+    std::fputs(fmt::format("{} of {} samples are missing: none of {} starts closed{}\n", missing, end - begin,
+                           options.most_tries, options.collision_free ? " without a collision" : "")
+                   .c_str(),
+               stderr);
   if (summary.checked() == 0 && end > begin) return Exit::usage;
   return summary.colliding() > 0 ? Exit::collision : Exit::free;
 }

@@ -15,6 +15,7 @@
 #include "hinge/molecular/join_structures.hpp"
 #include "hinge/molecular/part.hpp"
 #include "hinge/tool/csv_field.hpp"
+#include "hinge/tool/number_option.hpp"
 
 namespace biocd {
 
@@ -48,11 +49,11 @@ std::pair<std::string, PlacementRange> read_placement(const std::string& word) {
       read = std::from_chars(read.ptr + 1, end, degrees);
       sound = read.ec == std::errc{};
     }
-    if (!sound || read.ptr != end || !(range.distance >= 0.0) || !std::isfinite(range.distance) ||
+    if (!sound || read.ptr != end || !(range.distance >= 0.0 && range.distance <= hinge::tool::largest_length) ||
         !(degrees >= 0.0 && degrees <= 180.0))
       throw hinge::ModelError(
           "--place '" + word +
-          "': expected PART=DISTANCE,DEGREES, a distance >= 0 in angstrom and a turn from 0 to 180");
+          "': expected PART=DISTANCE,DEGREES, a distance from 0 to 1e+09 angstrom and a turn from 0 to 180");
     range.turn = std::min(degrees * degree, std::numbers::pi);
   }
   return {word.substr(0, equals), range};

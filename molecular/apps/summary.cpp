@@ -8,7 +8,14 @@
 
 namespace biocd {
 
-Summary::Summary(std::vector<std::string> closures, bool closed) : closures_(std::move(closures)) {
+namespace {
+
+constexpr std::uint64_t key_of(std::uint32_t i, std::uint32_t j) { return (std::uint64_t{i} << 32U) + j; }
+
+}  // namespace
+
+Summary::Summary(std::vector<std::string> closures, bool closed, bool with_offenders)
+    : closures_(std::move(closures)), with_offenders_(with_offenders) {
   if (closed) starts_.emplace();
 }
 
@@ -19,13 +26,12 @@ void Summary::add(const hinge::molecular::Structure& structure, const hinge::mol
   worst_residuals_.resize(verdict.closure_residuals.size());
   for (std::size_t k = 0; k < worst_residuals_.size(); ++k)
     worst_residuals_[k] = std::max(worst_residuals_[k], verdict.closure_residuals[k]);
-  for (const hinge::molecular::Contact& pair : verdict.pairs) {
-    if (!pair.collides) continue;
-    const auto i = static_cast<std::uint32_t>(hinge::index(pair.hit.first));
-    const auto j = static_cast<std::uint32_t>(hinge::index(pair.hit.second));
-    Offender& offender = offenders_[{i, j}];
-    if (offender.count++ == 0) offender = {i, j, label(structure, i), label(structure, j), 1};
-  }
+  if (!with_offenders_) return;
+  structure_ = &structure;
+  for (const hinge::molecular::Contact& pair : verdict.pairs)
+    if (pair.collides)
+      offenders_.add(key_of(static_cast<std::uint32_t>(hinge::index(pair.hit.first)),
+                            static_cast<std::uint32_t>(hinge::index(pair.hit.second))));
 }
 
 void Summary::add_clashscore(double clashscore) {
@@ -43,9 +49,9 @@ void Summary::add(const Json& row) {
   for (const Json& pair : *pairs) {
     if (!pair.at("collides").get<bool>()) continue;
     const auto i = pair.at("i").get<std::uint32_t>(), j = pair.at("j").get<std::uint32_t>();
-    Offender& offender = offenders_[{i, j}];
-    if (offender.count++ == 0)
-      offender = {i, j, pair.at("label_i").get<std::string>(), pair.at("label_j").get<std::string>(), 1};
+    offenders_.add(key_of(i, j));
+    for (const auto& [atom, key] : {std::pair{i, "label_i"}, std::pair{j, "label_j"}})
+      if (!labels_.contains(atom)) labels_[atom] = pair.at(key).get<std::string>();
   }
 }
 
@@ -79,10 +85,12 @@ void Summary::add_closures(const Json& summary) {
 
 std::vector<Offender> Summary::top() const {
   constexpr std::size_t most = 10;
+  const auto label_of = [&](std::uint32_t atom) { return structure_ ? label(*structure_, atom) : labels_.at(atom); };
   std::vector<Offender> all;
-  for (const auto& [pair, offender] : offenders_) all.push_back(offender);
-  std::stable_sort(all.begin(), all.end(), [](const Offender& a, const Offender& b) { return a.count > b.count; });
-  all.resize(std::min(most, all.size()));
+  for (const auto& [key, count] : offenders_.top(most)) {
+    const auto i = static_cast<std::uint32_t>(key >> 32U), j = static_cast<std::uint32_t>(key);
+    all.push_back({i, j, label_of(i), label_of(j), count});
+  }
   return all;
 }
 
@@ -102,6 +110,7 @@ Json Summary::json(bool with_closures) const {
       closures.push_back({{"bond", closures_[k]}, {"residual", worst_residuals_[k]}});
   }
   summary["offenders"] = offenders;
+  if (count_error() > 0) summary["offenders_count_error"] = count_error();
   if (starts_) {
     summary["missing"] = starts_->missing;
     summary["starts_unclosed"] = starts_->unclosed;

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
-#include <utility>
+#include <unordered_map>
 #include <vector>
 
 #include "hinge/molecular/checker.hpp"
+#include "hinge/tool/frequent_keys.hpp"
 #include "report.hpp"
 
 namespace biocd {
@@ -33,9 +33,10 @@ struct Starts {
 class Summary {
  public:
   Summary() = default;
-  /// closures: their names. Starts are counted only where samples are closed.
-  Summary(std::vector<std::string> closures, bool closed);
+  /// closures: their names. Starts are counted only where samples are closed, offenders only where they are shown.
+  Summary(std::vector<std::string> closures, bool closed, bool with_offenders);
 
+  /// The structure must outlive the summary.
   void add(const hinge::molecular::Structure& structure, const hinge::molecular::Verdict& verdict);
   /// MolProbity's, of a conformation added before.
   void add_clashscore(double clashscore);
@@ -55,9 +56,11 @@ class Summary {
   const std::optional<Starts>& starts() const { return starts_; }
   /// The ten pairs that collide most often, most frequent first.
   std::vector<Offender> top() const;
+  /// Counts of offenders may be too low by at most this: memory is bounded (FrequentKeys).
+  std::uint64_t count_error() const { return offenders_.count_error(); }
   /// checked, colliding, clashscore (mean) and worst_clashscore where there are any, worst_closure_residual and
-  /// closures where conformations were computed, offenders, and missing, starts_unclosed, closed_refused where they
-  /// were closed.
+  /// closures where conformations were computed, offenders, offenders_count_error unless it is 0, and missing,
+  /// starts_unclosed, closed_refused where they were closed.
   Json json(bool with_closures) const;
   /// With the keys that another summary has.
   Json json_like(const Json& other) const { return json(other.contains("worst_closure_residual")); }
@@ -72,7 +75,10 @@ class Summary {
   std::uint64_t scored_ = 0;
   double clashscores_ = 0.0;  // sum
   double worst_clashscore_ = 0.0;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Offender> offenders_;
+  bool with_offenders_ = true;
+  hinge::tool::FrequentKeys offenders_;  // (i << 32) + j
+  const hinge::molecular::Structure* structure_ = nullptr;
+  std::unordered_map<std::uint32_t, std::string> labels_;  // of rows, by atom
 };
 
 }  // namespace biocd

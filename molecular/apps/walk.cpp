@@ -13,6 +13,7 @@
 #include "hinge/moves/move_checker.hpp"
 #include "hinge/moves/random_move.hpp"
 #include "hinge/tool/complete_file.hpp"
+#include "hinge/tool/json_text.hpp"
 #include "hinge/tool/progress_bar.hpp"
 #include "options.hpp"
 #include "report.hpp"
@@ -30,9 +31,6 @@ void check_options(const Options& options, const Job& job) {
   if (!options.place.empty()) throw hinge::ModelError("--place: a walk turns torsions, expected no placed parts");
   if (!options.loop.empty() || options.keep_closures)
     throw hinge::ModelError("--loop and --closures keep: a walk's moves close no cycles; sample does");
-  if (options.steps == 0) throw hinge::ModelError("--steps 0: expected at least one step");
-  if (options.changes == 0) throw hinge::ModelError("--changes 0: expected at least one torsion");
-  if (options.every == 0) throw hinge::ModelError("--every 0: expected at least one step");
   const std::size_t dof = job.checker.dof_count();
   if (dof == 0) throw hinge::ModelError("--free " + options.free + ": no torsion is free, so nothing can walk");
   if (options.changes > dof)
@@ -109,7 +107,7 @@ Exit run_walk(const Options& options) {
     json["summary"] = {{"steps", options.steps}, {"accepted", accepted},
                        {"rejected", rejected},   {"full_queries", moves.counts().full_queries},
                        {"frames", frames},       {"closure_residual", end.closure_residual}};
-    fmt::print("{}\n", json.dump(1));
+    fmt::print("{}\n", hinge::tool::json_text(json, 1));
   } else {
     fmt::print("{} of {} steps accepted ({:.2f} %), {} rejected, {:.0f} steps per second\n", accepted, options.steps,
                100.0 * static_cast<double>(accepted) / static_cast<double>(options.steps), rejected,

@@ -17,6 +17,7 @@
 #include "hinge/ensemble/ensemble.hpp"
 #include "hinge/tool/complete_file.hpp"
 #include "hinge/tool/csv_field.hpp"
+#include "hinge/tool/json_text.hpp"
 #include "hinge/tool/progress_bar.hpp"
 #include "report.hpp"
 
@@ -50,17 +51,19 @@ void print_json_start(const Options& options, const Job& job, const Mode& mode) 
   head["seed"] = options.count > 0 ? Json(options.seed) : Json();
   head["environment"] = options.environment;
   head["notes"] = job.srdf.notes;
-  std::string text = head.dump(1);
+  std::string text = hinge::tool::json_text(head, 1);
   text.resize(text.rfind('\n'));  // the closing brace comes with the summary
   fmt::print("{},\n\"configurations\": [", text);
 }
 
-void print_json_end(const Summary& summary) {
+/// error: where one ended the run early.
+void print_json_end(const Summary& summary, const std::string& error = {}) {
   Json pairs = Json::array();
   for (const auto& [pair, count] : summary.top(shown_pairs))
     pairs.push_back({{"first", pair.first}, {"second", pair.second}, {"count", count}});
-  const Json end{{"checked", summary.checked}, {"colliding", summary.colliding}, {"most_frequent", pairs}};
-  fmt::print("\n],\n\"summary\": {}}}\n", end.dump());
+  Json end{{"checked", summary.checked}, {"colliding", summary.colliding}, {"most_frequent", pairs}};
+  if (!error.empty()) end["error"] = error;
+  fmt::print("\n],\n\"summary\": {}}}\n", hinge::tool::json_text(end));
 }
 
 void print_table_end(const Summary& summary, bool sampled, double seconds) {
@@ -120,7 +123,7 @@ Exit run_check(const Options& options) {
     summary.colliding += answer.collides ? 1 : 0;
     for (NamedPair& pair : named_pairs(worker, answer)) ++summary.pairs[std::move(pair)];
     if (options.output == Output::json)
-      fmt::print("{}\n{}", k == 0 ? "" : ",", answer_json(worker, k, answer, columns).dump());
+      fmt::print("{}\n{}", k == 0 ? "" : ",", hinge::tool::json_text(answer_json(worker, k, answer, columns)));
     if (options.output == Output::csv) fmt::print("{}", csv_rows(worker, k, answer));
     if (options.output == Output::table && !sampled)
       fmt::print("configuration {}: {}\n{}", k, answer.collides ? "collides" : "free", pair_lines(worker, answer));
@@ -128,9 +131,14 @@ Exit run_check(const Options& options) {
     file.check();
     bar.show(k + 1);
   };
-  hinge::Ensemble(worker, options.threads).run(configurations.count, judge, report);
+  try {
+    hinge::Ensemble(worker, options.threads).run(configurations.count, judge, report);
+    file.finish();
+  } catch (const hinge::Error& error) {  // such as a full disk
+    if (options.output == Output::json) print_json_end(summary, error.what());
+    throw;
+  }
   const std::chrono::duration<double> checking = std::chrono::steady_clock::now() - start;
-  file.finish();
   if (options.output == Output::json) print_json_end(summary);
   if (options.output == Output::table) print_table_end(summary, sampled, checking.count());
   return summary.colliding > 0 ? Exit::collision : Exit::free;

@@ -12,6 +12,7 @@
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 #include "hinge/robotics/containment.hpp"
+#include "hinge/tool/json_text.hpp"
 #include "options.hpp"
 #include "report.hpp"
 
@@ -150,7 +151,7 @@ Exit run_info(const Options& options) {
     json["tested_pairs"] = pairs_json(job);
     json["states"] = states_json(job);
     json["notes"] = job.srdf.notes;
-    fmt::print("{}\n", json.dump(1));
+    fmt::print("{}\n", hinge::tool::json_text(json, 1));
     return Exit::free;
   }
   fmt::print("{}", heading(options, job));

@@ -11,9 +11,9 @@
 #include "answer.hpp"
 #include "configurations.hpp"
 #include "hinge/core/error.hpp"
-#include "hinge/core/finite.hpp"
 #include "hinge/motion/path_answer.hpp"
 #include "hinge/robotics/path_checker.hpp"
+#include "hinge/tool/json_text.hpp"
 #include "options.hpp"
 #include "path_end.hpp"
 #include "report.hpp"
@@ -98,8 +98,6 @@ void print_table(const Options& options, const Job& job, const Worker& worker, c
 }  // namespace
 
 Exit run_path(const Options& options) {
-  if (options.sampled && !hinge::is_finite(*options.sampled))
-    throw hinge::ModelError("--sampled: expected a finite number of rad or m");
   const Job job = load(options);
   Asked asked{
       read_path_end("--from", options.from, options, job), read_path_end("--to", options.to, options, job), {}, {}};
@@ -117,7 +115,7 @@ Exit run_path(const Options& options) {
     asked.state = ask(worker, asked.path.configuration, Mode{Mode::Kind::all}, false);
 
   if (options.output == Output::json)
-    fmt::print("{}\n", path_json(options, job, worker, asked).dump(1));
+    fmt::print("{}\n", hinge::tool::json_text(path_json(options, job, worker, asked), 1));
   else
     print_table(options, job, worker, asked);
   switch (asked.path.verdict) {

@@ -3,17 +3,17 @@
 #include "read_configurations.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <cstring>
-#include <fstream>
+#include <cmath>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
 
 #include "hinge/core/error.hpp"
-#include "hinge/core/finite.hpp"
+#include "hinge/tool/input_file.hpp"
+#include "hinge/tool/number_option.hpp"
 
 namespace robocd {
 
@@ -43,7 +43,8 @@ std::optional<double> parse(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !hinge::is_finite(value)) return {};
+  if (error != std::errc{} || end != text.data() + text.size() || !(std::abs(value) <= hinge::tool::largest_value))
+    return {};
   return value;
 }
 
@@ -52,12 +53,7 @@ class ConfigurationReader {
   ConfigurationReader(const std::filesystem::path& path, const Robot& robot) : path_(path.string()), robot_(robot) {}
 
   std::vector<std::vector<double>> read() {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(path_, ignored))
-      throw hinge::LoadError(path_ + ": is a directory, expected a file");
-    errno = 0;
-    std::ifstream in(path_, std::ios::binary);
-    if (!in) throw hinge::LoadError(path_ + ": cannot be opened: " + std::strerror(errno != 0 ? errno : ENOENT));
+    std::istringstream in(hinge::tool::read_whole(path_));
     std::string line;
     if (!std::getline(in, line)) throw hinge::LoadError(path_ + ": is empty, expected a header of joint names");
     if (line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
@@ -73,7 +69,6 @@ class ConfigurationReader {
       if (blank != 0) refuse(blank, "is blank, but lines follow it");
       rows.push_back(read_row(line));
     }
-    if (in.bad()) throw hinge::LoadError(path_ + ": cannot be read to its end");
     if (rows.empty()) throw hinge::LoadError(path_ + ": holds no configurations, only a header");
     return rows;
   }
@@ -117,7 +112,7 @@ class ConfigurationReader {
       const auto value = parse(fields[column]);
       if (!value)
         refuse(number_, "column " + std::to_string(column + 1) + ": joint '" + robot_.independent_name(place_[column]) +
-                            "' is '" + std::string(fields[column]) + "', expected a finite number");
+                            "' is '" + std::string(fields[column]) + "', expected a finite number, at most 1e+15");
       q[place_[column]] = *value;
     }
     return q;
@@ -146,7 +141,7 @@ std::vector<double> read_configuration(const std::string& what, std::string_view
     const auto value = parse(fields[k]);
     if (!value)
       throw hinge::ModelError(what + ": joint '" + robot.independent_name(k) + "' is '" + std::string(fields[k]) +
-                              "', expected a finite number");
+                              "', expected a finite number, at most 1e+15");
     q.push_back(*value);
   }
   return q;

@@ -8,7 +8,9 @@
 #include <string>
 
 #include "hinge/core/error.hpp"
+#include "hinge/query/mode.hpp"
 #include "hinge/simd/instruction_set.hpp"
+#include "hinge/tool/number_option.hpp"
 #include "hinge/tool/pick_instruction_set.hpp"
 #include "hinge/tool/run_tool.hpp"
 #include "hinge/version.hpp"
@@ -16,8 +18,14 @@
 
 namespace {
 
+using hinge::tool::add_number;
+using hinge::tool::NumberRange;
 using robocd::Exit;
 using robocd::Options;
+using Reals = NumberRange<double>;
+
+constexpr NumberRange<std::uint64_t> counts{1, std::uint64_t{1} << 53};
+constexpr NumberRange<std::uint64_t> seeds{0, UINT64_MAX};
 
 constexpr const char* footer =
     "Exit status: 0 free, 1 collision found, 2 usage, 3 bad input, 4 undecided (path).\n"
@@ -49,8 +57,8 @@ void add_json_option(CLI::App& command, Options& o) {
 }
 
 void add_clearance_option(CLI::App& command, Options& o) {
-  command.add_option("--clearance", o.clearance, "links closer than this collide, m; touching ones always do")
-      ->capture_default_str();
+  add_number(command, "--clearance", o.clearance, Reals{0.0, hinge::tool::largest_length},
+             "links closer than this collide, m; touching ones always do");
 }
 
 void add_environment_option(CLI::App& command, Options& o) {
@@ -59,14 +67,14 @@ void add_environment_option(CLI::App& command, Options& o) {
 
 void add_configuration_options(CLI::App& command, Options& o) {
   CLI::Option_group* source = command.add_option_group("configurations", "one of these");
-  CLI::Option* random = source->add_option("--random", o.count, "number of configurations uniform within the limits")
-                            ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 53));
+  CLI::Option* random =
+      add_number(*source, "--random", o.count, counts, "number of configurations uniform within the limits")
+          ->default_str("");
   source->add_option("--csv-in", o.csv_in, "file of configurations, a row each, under a header of joint names");
   source->add_option("--state", o.states, "GROUP/NAME of the SRDF; repeatable, together one configuration, rest zero");
   source->add_flag("--zero", o.zero, "every joint zero");
   source->require_option(1);
-  command.add_option("--seed", o.seed, "seed; random configuration k is a function of (seed, k) alone")
-      ->capture_default_str()
+  add_number(command, "--seed", o.seed, seeds, "seed; random configuration k is a function of (seed, k) alone")
       ->needs(random);
 }
 
@@ -78,21 +86,30 @@ void add_check_options(CLI::App& command, Options& o) {
       .add_flag_callback(
           "--csv", [&o] { o.output = robocd::Output::csv; }, "CSV on standard output")
       ->excludes("--json");
-  command.add_option("--mode", o.mode, "any, all, within:D (m) or closest")->capture_default_str();
+  command
+      .add_option_function<std::string>(
+          "--mode",
+          [&o](const std::string& text) {
+            if (hinge::Mode::parse(text, "metres").margin > hinge::tool::largest_length)
+              throw hinge::ModelError("--mode '" + text + "': expected D in metres, at most 1e+09");
+            o.mode = text;
+          },
+          "any, all, within:D (m) or closest")
+      ->default_str(o.mode);
   add_environment_option(command, o);
   command.add_flag("--contained", o.contained, "a closed mesh with another one inside it collides too");
   command.add_option("--engine", o.engine, "wide, lazy (the paper's) or brute")->capture_default_str();
-  command.add_option("--threads", o.threads, "worker threads; the output does not depend on them")
-      ->check(CLI::Range(1U, 1024U))
-      ->capture_default_str();
+  add_number(command, "--threads", o.threads, NumberRange<unsigned>{1, 1024},
+             "worker threads; the output does not depend on them");
   command.add_option("--out", o.out, "CSV file of the configurations to write, as --csv-in reads them");
 }
 
 void add_matrix_options(CLI::App& command, Options& o) {
-  command.add_option("--samples", o.matrix.samples, "random configurations looked at")->capture_default_str();
-  command.add_option("--seed", o.matrix.seed, "seed of the random configurations")->capture_default_str();
-  command.add_option("--cells", o.matrix.cells, "boxes of joint values a proof may try, per pair; 0: no proofs")
-      ->capture_default_str();
+  constexpr NumberRange<std::size_t> numbers{0, std::size_t{1} << 53};
+  add_number(command, "--samples", o.matrix.samples, numbers, "random configurations looked at");
+  add_number(command, "--seed", o.matrix.seed, seeds, "seed of the random configurations");
+  add_number(command, "--cells", o.matrix.cells, numbers,
+             "boxes of joint values a proof may try, per pair; 0: no proofs");
   add_clearance_option(command, o);
   command.add_flag("--disable-unseen", o.disable_unseen,
                    "disable pairs that were never seen to meet too, although that is no proof");
@@ -105,14 +122,11 @@ void add_path_options(CLI::App& command, Options& o) {
       "separated, one per independent joint";
   command.add_option("--from", o.from, end)->required();
   command.add_option("--to", o.to, end)->required();
-  CLI::Option* sampled = command
-                             .add_option("--sampled", o.sampled,
-                                         "look at states at most so far apart, rad or m (default: certify every state)")
-                             ->check(CLI::PositiveNumber);
-  command.add_option("--min-step", o.min_step, "stretches no longer than this share of the path are not cut any more")
-      ->check(CLI::PositiveNumber)
-      ->excludes(sampled)
-      ->capture_default_str();
+  CLI::Option* sampled = add_number(command, "--sampled", o.sampled, Reals{0.0, hinge::tool::largest_length, true},
+                                    "look at states at most so far apart, rad or m (default: certify every state)");
+  add_number(command, "--min-step", o.min_step, Reals{0.0, 1.0, true},
+             "stretches no longer than this share of the path are not cut any more")
+      ->excludes(sampled);
   add_environment_option(command, o);
   add_clearance_option(command, o);
   add_json_option(command, o);

@@ -121,8 +121,8 @@ TEST(BiocdPath, TakesEndsFromAFile) {
   EXPECT_EQ(said(empty),
             "3: 0 values, expected 2: a turn from the reference, in degrees, for each DOF of the selection "
             "(moves of placed parts in angstrom)\n");
-  EXPECT_EQ(said(words), "3: value 2 is 'x', expected a finite number of degrees\n");
-  EXPECT_EQ(said(comma), "3: value 2 is '', expected a finite number of degrees\n");
+  EXPECT_EQ(said(words), "3: value 2 is 'x', expected a finite number of degrees, at most 1e+15\n");
+  EXPECT_EQ(said(comma), "3: value 2 is '', expected a finite number of degrees, at most 1e+15\n");
   EXPECT_EQ(path(two + "/nonexistent 2>&1").out, "biocd: /nonexistent: cannot be opened: No such file or directory\n");
   EXPECT_EQ(path(two + "/tmp 2>&1").out, "biocd: /tmp: is a directory, expected a file\n");
 }
@@ -163,9 +163,9 @@ TEST(BiocdPath, MovesPlacedParts) {
 
 TEST(BiocdPath, RefusesEndsThatDoNotFit) {
   EXPECT_EQ(refusal("--from reference --to abc"),
-            "2: biocd: --to 'abc': value 1 is 'abc', expected a finite number of degrees\n");
+            "2: biocd: --to 'abc': value 1 is 'abc', expected a finite number of degrees, at most 1e+15\n");
   EXPECT_EQ(refusal("--from nan --to 1"),
-            "2: biocd: --from 'nan': value 1 is 'nan', expected a finite number of degrees\n");
+            "2: biocd: --from 'nan': value 1 is 'nan', expected a finite number of degrees, at most 1e+15\n");
   EXPECT_EQ(refusal("--from 1,2 --to 1"),
             "2: biocd: --from '1,2': 2 values, expected 1: a turn from the reference, in degrees, for each DOF of the "
             "selection (moves of placed parts in angstrom)\n");

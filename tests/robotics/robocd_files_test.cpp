@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
 #include "robotics/run_robocd.hpp"
@@ -55,6 +57,80 @@ TEST(RobocdFiles, ClosedStandardOutputIsAnError) {
                 .status,
             0);
   EXPECT_TRUE(content(folder.path() / "m.srdf").starts_with("<?xml"));
+}
+
+TEST(RobocdFiles, AFullDiskEndsTheRunAndJsonSaysSo) {
+  const test::ArmFolder folder;
+  const std::string command = "check" + folder.urdf() + " --random 100000000 --json --out";
+  const test::Said said = run_robocd(command + " /dev/full 2>/dev/null");
+  EXPECT_EQ(said.status, 3);
+  EXPECT_NE(nlohmann::json::parse(said.out)["summary"]["error"].get<std::string>().find("No space left"),
+            std::string::npos);
+  const test::Said limited = test::run_tool("/bin/sh", "-c 'ulimit -f 100; " HINGE_ROBOCD " " + command + " " +
+                                                           (folder.path() / "q.csv").string() + " 2>&1 >/dev/null'");
+  EXPECT_EQ(limited.status, 3);
+  EXPECT_NE(limited.out.find("File too large"), std::string::npos) << limited.out;
+}
+
+TEST(RobocdFiles, NumbersAreCheckedBeforeAnythingElse) {
+  const test::ArmFolder folder;
+  const auto refused = [&](const std::string& command, const std::string& option, const char* values) {
+    std::istringstream words(values);
+    for (std::string value; words >> value;) {
+      const test::Said said = run_robocd(command + folder.urdf() + " " + option + " " + value + " 2>&1");
+      EXPECT_EQ(said.status, 2) << option << " " << value;
+      EXPECT_TRUE(said.out.starts_with("robocd: " + option + " '" + value + "': expected ")) << said.out;
+      EXPECT_EQ(std::count(said.out.begin(), said.out.end(), '\n'), 1) << said.out;
+    }
+  };
+  refused("check", "--random", "-1 0 1.5 nan 18446744073709551616");
+  refused("check --random 1", "--seed", "-1 1.5 18446744073709551616");
+  refused("check --zero", "--threads", "-1 0 1025 1.5");
+  refused("check --zero", "--mode", "within:1e308 within:1e10");
+  for (const char* command : {"check --zero", "matrix", "path --from zero --to zero"})
+    refused(command, "--clearance", "nan inf -1 1e308");
+  for (const char* option : {"--samples", "--cells", "--seed"})
+    refused("matrix", option, "-1 1.5 nan 18446744073709551616");
+  refused("path --from zero --to zero", "--sampled", "nan inf 0 -1 1e308");
+  refused("path --from zero --to zero", "--min-step", "nan inf 0 -1 2");
+  EXPECT_EQ(run_robocd("path" + folder.urdf() + " --from zero --to 1e308,0 2>/dev/null").status, 2);
+  // A value that no joint can take, behind one that it can: no output, and file, line and column.
+  folder.write("q.csv", "shoulder,elbow\n0,0\n1e308,0\n");
+  const std::string json = "check" + folder.urdf() + " --json --csv-in" + folder.file("q.csv");
+  EXPECT_EQ(run_robocd(json + " 2>/dev/null").out, "");
+  EXPECT_EQ(run_robocd(json + " 2>&1").out, "robocd: " + (folder.path() / "q.csv").string() +
+                                                ":3: column 1: joint 'shoulder' is '1e308', expected a finite "
+                                                "number, at most 1e+15\n");
+}
+
+TEST(RobocdFiles, RefusalsAreOneLineThatNamesTheFile) {
+  const test::ArmFolder folder;
+  for (const std::string& arguments :
+       {std::string(), std::string("check"), "check" + folder.urdf(), "check" + folder.urdf() + " --zero --random 3",
+        std::string("info /dev/zero"), std::string("info /tmp"), std::string("info /proc/self/mem"),
+        "check" + folder.urdf() + " --csv-in /dev/zero", "check" + folder.urdf() + " --zero --env /proc/self/mem"}) {
+    const test::Said said = run_robocd(arguments + " 2>&1");
+    EXPECT_GE(said.status, 2) << arguments;
+    EXPECT_TRUE(said.out.starts_with("robocd: ")) << said.out;
+    EXPECT_EQ(std::count(said.out.begin(), said.out.end(), '\n'), 1) << said.out;
+    for (const char* file : {"/dev/zero", "/tmp", "/proc/self/mem"})
+      if (arguments.ends_with(file)) {
+        EXPECT_NE(said.out.find(std::string(file) + ": "), std::string::npos) << said.out;
+      }
+  }
+}
+
+TEST(RobocdFiles, NamesNeedNotBeText) {
+  const test::ArmFolder folder;
+  folder.write("l\xfcs.urdf", test::arm_urdf);
+  for (const char* command : {"info", "check --zero", "path --from zero --to zero"}) {
+    const test::Said said =
+        run_robocd(command + folder.file("l\xfcs.urdf") + " --json 2>" + (folder.path() / "notes").string());
+    EXPECT_LE(said.status, 1) << command;
+    const auto json = nlohmann::json::parse(said.out);
+    EXPECT_TRUE(json["robot"]["file"].get<std::string>().ends_with("l\xEF\xBF\xBDs.urdf"));
+    EXPECT_NE(content(folder.path() / "notes").find("not UTF-8"), std::string::npos);
+  }
 }
 
 }  // namespace

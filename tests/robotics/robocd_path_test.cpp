@@ -119,7 +119,7 @@ TEST(RobocdPath, RefusesEndsThatDoNotFit) {
   EXPECT_EQ(refused(arm, "--from zero --to 1"),
             "2: robocd: --to '1': 1 values, expected 2, one for each independent joint\n");
   EXPECT_EQ(refused(arm, "--from 0,nan --to 1,1"),
-            "2: robocd: --from '0,nan': joint 'elbow' is 'nan', expected a finite number\n");
+            "2: robocd: --from '0,nan': joint 'elbow' is 'nan', expected a finite number, at most 1e+15\n");
   EXPECT_EQ(refused(arm, "--from zero --to state:all/gone"),
             "2: robocd: --to 'all/gone': expected one of all/turned, slide/in\n");
   for (const char* options : {"--from zero", "--to zero", "--from zero --to zero --sampled 0",
