@@ -177,9 +177,11 @@ Exit run(int argc, char** argv) {
 
 }  // namespace
 
+extern const char hinge_build_id[];  // made by the build: .cmake/write_build_id.cmake
+
 int main(int argc, char** argv) {
   return hinge::tool::run_tool("robocd", [&] {
-    hinge::tool::pick_instruction_set(argv);
+    hinge::tool::pick_instruction_set(argv, hinge_build_id);
     return run(argc, argv);
   });
 }

@@ -11,6 +11,7 @@
 #include "hinge/simd/instruction_set.hpp"
 #include "molecular/run_biocd.hpp"
 #include "molecular/test_files.hpp"
+#include "tool/foreign_programs.hpp"
 
 namespace hinge::molecular {
 namespace {
@@ -75,6 +76,8 @@ void expect_same(const std::string& question, const std::vector<std::string>& va
                                           << " bytes, expected " << expected.out.size();
   }
 }
+
+TEST(Biocd, RunsNoProgramOfAnotherBuild) { test::expect_own_build_only(HINGE_BIOCD); }
 
 TEST(BiocdBytes, AreTheSameOnEveryInstructionSet) {
   const Sampled sampled;

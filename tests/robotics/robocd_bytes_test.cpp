@@ -6,6 +6,7 @@
 
 #include "hinge/simd/instruction_set.hpp"
 #include "robotics/run_robocd.hpp"
+#include "tool/foreign_programs.hpp"
 
 namespace hinge::robotics {
 namespace {
@@ -29,6 +30,8 @@ TEST(RobocdBytes, AreTheSameForEveryEngineAndThreadCount) {
   const std::string closest = "check" + arm.urdf() + " --random 300 --seed 9 --csv --mode closest";
   EXPECT_TRUE(run_robocd(closest).out == run_robocd(closest + " --threads 3").out);
 }
+
+TEST(Robocd, RunsNoProgramOfAnotherBuild) { test::expect_own_build_only(HINGE_ROBOCD); }
 
 TEST(RobocdBytes, AreTheSameOnEveryInstructionSet) {
   const ArmFolder arm;
