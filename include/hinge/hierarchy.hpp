@@ -95,9 +95,14 @@ class Hierarchy {
     return self(Closest{-(largest_threshold_.within() + (most + most))}, options).hit();
   }
 
-  /// Any collector of your own, handed over in the order the engine finds the pairs.
+  /// Any collector of your own, handed over in the order the engine finds the pairs. ConfigurationError: extra
+  /// clearances that are no lengths or not one per group, or other_clearance, which needs another model.
   template <Collector C>
   void self_query(C& collector, const QueryOptions& options = {}) {
+    if (!options.other_clearance.empty())
+      throw ConfigurationError(
+          "other_clearance: expected none in a query of one model, where clearance counts for both "
+          "primitives of a pair");
     check_clearance(options.clearance, model().groups()->size());
     engine_.self_query(collector, options);
   }

@@ -153,6 +153,12 @@ TYPED_TEST(EveryHierarchy, RefusesBadInputNamingItAndKeepsItsState) {
   QueryOptions options;
   options.clearance = clearance;
   EXPECT_NE(message([&] { points.self_collides(options); }).find("rigid group 1"), std::string::npos);
+  const double of_another[] = {0.0, 1.0};
+  options = {};
+  options.other_clearance = of_another;
+  EXPECT_NE(message([&] { points.self_collides(options); }).find("other_clearance"), std::string::npos);
+  EXPECT_NE(message([&] { points.self_within(1.0, options); }).find("other_clearance"), std::string::npos);
+  EXPECT_NE(message([&] { points.self_closest(options); }).find("other_clearance"), std::string::npos);
   EXPECT_EQ(points.self_collisions(), before);
 }
 
