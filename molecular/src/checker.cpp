@@ -148,6 +148,7 @@ Verdict ask(H& hierarchy, const Rule& rule, const Mode& mode) {
 
 Checker::Checker(std::shared_ptr<const Molecule> molecule, DofSelection selection, const CheckOptions& options)
     : molecule_(std::move(molecule)) {
+  if (molecule_ == nullptr) throw ModelError("checker: expected a molecule, got none");
   thresholds_ = std::make_shared<const Thresholds>(make_thresholds(molecule_->structure(), options.thresholds));
   if (options.min_bonds && thresholds_->rules->name != "biocd")
     throw ModelError("clash rules " + options.thresholds.rules +
