@@ -7,6 +7,7 @@
 #include <atomic>
 #include <limits>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "engine/random_mechanism.hpp"
@@ -93,6 +94,17 @@ TEST(Ensemble, PassesOnTheFirstException) {
   std::size_t taken = 0;
   ensemble.run(0, fail_at(0), [&](std::size_t, std::size_t) { ++taken; });
   EXPECT_EQ(taken, 0U);
+}
+
+TEST(Ensemble, TakesMoreThreadsThanCoresWithoutAWord) {
+  const unsigned threads = 4 * std::thread::hardware_concurrency() + 1;
+  testing::internal::CaptureStderr();
+  std::size_t sum = 0;
+  Ensemble<int>(0, threads)
+      .run(
+          10'000, [](int&, std::size_t k) { return k; }, [&](std::size_t, std::size_t k) { sum += k; });
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(sum, 49'995'000U);
 }
 
 TEST(Ensemble, RefusesBadInput) {

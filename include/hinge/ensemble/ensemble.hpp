@@ -3,6 +3,7 @@
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
@@ -10,6 +11,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -67,6 +69,10 @@ class Ensemble {
       for (std::size_t k = 0; k < chunk->results.size(); ++k) take(chunk->first + k, std::move(chunk->results[k]));
       chunk->results.clear();
     };
+    // More threads than cores have to be allowed, or TBB warns on standard error and takes fewer.
+    constexpr auto most = tbb::global_control::max_allowed_parallelism;
+    std::optional<tbb::global_control> allowed;
+    if (threads > tbb::global_control::active_value(most)) allowed.emplace(most, threads);
     arena_.execute([&] {
       tbb::parallel_pipeline(chunks.size(),
                              tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, hand_out) &
