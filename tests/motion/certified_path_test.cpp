@@ -206,6 +206,46 @@ TEST(CertifiedPath, AnswersForAPointThatComesNearAnother) {
   come_near_a_point<Wide>();
 }
 
+/// Admits nothing, whatever its base says.
+struct NoPair : AdmitAll {
+  bool admits(PrimitiveId, PrimitiveId) const noexcept { return false; }
+};
+
+template <class P>
+Model<P> arm_and_obstacle(const P& tip, const P& obstacle) {
+  ModelBuilder<P> builder;
+  builder.add_link(world, Revolute{}, {tip});
+  builder.add_link(world, Fixed{}, {obstacle});
+  return builder.finish();
+}
+
+template <class P>
+void expect_filter_is_asked(const Model<P>& model) {
+  const std::vector from{0.0}, to{pi};
+  EXPECT_EQ(CertifiedPath(bodies<Wide>(model, 0.1)).check(from, to).verdict, PathVerdict::colliding);
+  CertifiedPath none(Hierarchy(model, NoPair{}, UniformClearance(0.1)));
+  EXPECT_EQ(none.check(from, to).verdict, PathVerdict::free);
+}
+
+TEST(CertifiedPath, AsksAFilterDerivedFromAStockOne) {
+  expect_filter_is_asked(arm_and_obstacle(Point{{1, 0, 0}}, Point{{0, 1, 0}}));
+  expect_filter_is_asked(
+      arm_and_obstacle(Triangle{{1, 0, 0}, {2, 0, 0}, {1, 0, 1}}, Triangle{{0, 1, 0}, {0, 2, 0}, {0, 1, 1}}));
+}
+
+/// A copy, and one that was moved to, know nothing of the first one's path, which is gone.
+TEST(CertifiedPath, MayBeCopiedAndMovedAfterAPath) {
+  CertifiedPath first(bodies<Wide>(arm_and_obstacle(Point{{1, 0, 0}}, Point{{0, 1, 0}}), 0.1));
+  const auto check = [](auto& path, double to) { return path.check(std::vector{0.0}, std::vector{to}).verdict; };
+  EXPECT_EQ(check(first, 1.0), PathVerdict::free);
+  CertifiedPath copy(first);
+  EXPECT_EQ(check(copy, pi), PathVerdict::colliding);
+  CertifiedPath moved(std::move(first));
+  copy = moved;
+  EXPECT_EQ(check(moved, pi), PathVerdict::colliding);
+  EXPECT_EQ(check(copy, 1.0), PathVerdict::free);
+}
+
 TEST(CertifiedPath, AnswersTheSameWhateverTheUnit) {
   for (const double clearance : {1.5, 1.9, 2.2}) {
     CertifiedPath one(arm_above_floor(clearance));

@@ -41,4 +41,18 @@ inline std::size_t check_block(std::span<const double> block, std::size_t dof_co
   return dof_count == 0 ? 1 : block.size() / dof_count;
 }
 
+/// Keeps the caller's block in a member while a query runs, and not a moment longer.
+class PresentBlock {
+ public:
+  PresentBlock(std::span<const double>& member, std::span<const double> block) noexcept : member_(member) {
+    member_ = block;
+  }
+  PresentBlock(const PresentBlock&) = delete;
+  PresentBlock& operator=(const PresentBlock&) = delete;
+  ~PresentBlock() { member_ = {}; }
+
+ private:
+  std::span<const double>& member_;
+};
+
 }  // namespace hinge

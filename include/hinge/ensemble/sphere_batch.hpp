@@ -49,6 +49,7 @@ class SphereBatch {
 
   /// Does any configuration of the block collide? Stops at the first hit.
   bool any(std::span<const double> block) {
+    const PresentBlock present(block_, block);
     const simd::Bits lanes = place(block);
     for (const BodyPair& pair : bodies_.pairs())
       if (hits<true>(pair, lanes) != 0) return true;
@@ -57,6 +58,7 @@ class SphereBatch {
 
   /// Bit k: configuration k collides.
   simd::Bits each(std::span<const double> block) {
+    const PresentBlock present(block_, block);
     const simd::Bits lanes = place(block);
     simd::Bits hit = 0;
     for (const BodyPair& pair : bodies_.pairs()) {
@@ -119,7 +121,7 @@ class SphereBatch {
 
   SphereBodies bodies_;
   Placement<Sphere> exact_;
-  std::span<const double> block_{};  // of the present query
+  std::span<const double> block_{};  // while a query runs
   std::size_t exact_lane_ = size;    // lane that exact_ is at; size: none of this block
   std::uint64_t decided_ = 0;
   std::vector<std::uint8_t> is_placed_;        // by body
@@ -131,7 +133,6 @@ class SphereBatch {
 /// Returns the lanes that hold a configuration.
 inline simd::Bits SphereBatch::place(std::span<const double> block) {
   const std::size_t count = check_block(block, dof_count(), *exact_.model().groups());
-  block_ = block;
   exact_lane_ = size;
   LaneKinematics& kinematics = bodies_.kinematics();
   bodies_.cover_slide(kinematics.largest_slide(block, dof_count()));
@@ -226,7 +227,9 @@ inline void SphereBatch::learn(std::span<const double> configurations) {
   std::vector<std::pair<std::int64_t, BodyPair>> ranked;
   for (const BodyPair& pair : pairs) ranked.emplace_back(0, pair);
   for (std::size_t k = 0; k < configurations.size(); k += size * dof) {
-    const simd::Bits lanes = place(configurations.subspan(k, std::min(size * dof, configurations.size() - k)));
+    const auto block = configurations.subspan(k, std::min(size * dof, configurations.size() - k));
+    const PresentBlock present(block_, block);
+    const simd::Bits lanes = place(block);
     for (std::size_t p = 0; p < pairs.size(); ++p) ranked[p].first -= std::popcount(hits<false>(pairs[p], lanes));
   }
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& x, const auto& y) { return x.first < y.first; });

@@ -155,7 +155,7 @@ class StateBatch {
   FrameLanes frames_;
   LaneTravel travel_;
   List near_;
-  std::span<const double> block_{};  // of the present query
+  std::span<const double> block_{};  // while a query runs
   bool has_list_ = false;
   std::vector<double> allowed_;  // per group: the way the list was made for
   std::vector<double> usual_;    // per group: the way of late
@@ -174,7 +174,7 @@ template <class InLanes, class Alone>
 void StateBatch<P, F, D, EngineOf>::for_lanes(std::span<const double> block, const InLanes& in_lanes,
                                               const Alone& alone) {
   const std::size_t count = check_block(block, dof_count(), *single_.model().groups());
-  block_ = block;
+  const PresentBlock present(block_, block);
   const auto one_by_one = [&](std::size_t first, std::size_t end) {
     for (std::size_t lane = first; lane < end; ++lane) {
       single_.update(configuration(lane));

@@ -75,7 +75,7 @@ class CertifiedPath {
   GroupRates rates_;
   Displacements displacements_;
   double list_limit_;
-  const StraightPath* path_ = nullptr;
+  StraightPath path_{{}, {}, 0};  // the one under way, or the last
   double smallest_step_ = 0.0;
   PathAnswer answer_;
   std::vector<double> q_;
@@ -91,12 +91,11 @@ PathAnswer CertifiedPath<P, F, D, EngineOf>::check(std::span<const double> from,
                                                    double smallest_step) {
   if (!(smallest_step > 0.0))
     throw ConfigurationError("smallest step " + std::to_string(smallest_step) + ": expected a share above 0");
-  const StraightPath path(from, to, hierarchy_.dof_count());
-  path_ = &path;
+  path_ = StraightPath(from, to, hierarchy_.dof_count());
   smallest_step_ = smallest_step;
   answer_ = {};
   answer_.verdict = PathVerdict::free;
-  rates_.begin(path);
+  rates_.begin(path_);
   segments_.start();
   for (std::size_t k = 0; k < segments_.size(); ++k) {
     const PathSegment segment = segments_[k];
@@ -118,7 +117,7 @@ PathAnswer CertifiedPath<P, F, D, EngineOf>::check(std::span<const double> from,
 
 template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
 void CertifiedPath<P, F, D, EngineOf>::place(double t) {
-  path_->at(t, q_);
+  path_.at(t, q_);
   hierarchy_.update(q_);
   ++answer_.counts.configurations;
   rates_.set_middle(hierarchy_.frames());
@@ -288,7 +287,7 @@ void CertifiedPath<P, F, D, EngineOf>::leave_undecided(const PathSegment& segmen
   answer_.verdict = PathVerdict::undecided;
   answer_.parameter = segment.middle();
   answer_.half_width = segment.half();
-  path_->at(answer_.parameter, answer_.configuration);
+  path_.at(answer_.parameter, answer_.configuration);
   answer_.hit.reset();
   if (pair == nullptr) return;
   place(segment.middle());
