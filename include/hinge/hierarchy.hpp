@@ -22,6 +22,7 @@
 #include "hinge/policy/collector.hpp"
 #include "hinge/policy/distance_matrix.hpp"
 #include "hinge/policy/largest_threshold.hpp"
+#include "hinge/policy/laws.hpp"
 #include "hinge/policy/pair_filter.hpp"
 #include "hinge/policy/primitive.hpp"
 #include "hinge/query/collectors.hpp"
@@ -37,7 +38,8 @@ requires Engine<EngineOf<P, F, D>, P, F, D>
 class Hierarchy {
  public:
   /// Every DOF free. ModelError: a filter or matrix made for another number of primitives, or for other links; listed
-  /// exclusions of a primitive with itself, with one that does not exist, or out of order.
+  /// exclusions of a primitive with itself, with one that does not exist, or out of order. Without NDEBUG also a filter
+  /// that breaks the laws of laws::check_refinements.
   Hierarchy(Model<P> model, F filter, D matrix)
       : Hierarchy(model, DofSelection::all(model.tree()), std::move(filter), std::move(matrix)) {}
 
@@ -136,6 +138,7 @@ class Hierarchy {
     if (!matrix_.compatible(other.matrix_)) throw ModelError("the two models use different distance matrices");
     check_clearance(options.clearance, model().groups()->size());
     check_clearance(options.other_clearance, other.model().groups()->size());
+    check_laws(across, model().model().links(), other.model().model().links());
     if (this == &other) {
       Hierarchy twin(other);  // engines keep scratch on either side
       return engine_.query(twin.engine_, across, collector, options);
@@ -191,7 +194,16 @@ class Hierarchy {
         throw ModelError("pair filter made for primitives that hang on other links than the model's");
     if constexpr (ListsExclusions<F>)
       for (std::size_t i = 0; i < model.size(); ++i) check_exclusions(i, filter.excluded(id<PrimitiveId>(i)), model);
+    check_laws(filter, model.links());
     return model;
+  }
+  /// In debug builds: do the refinements of a filter agree with what it admits?
+  template <class G, class... Links>
+  static void check_laws([[maybe_unused]] const G& filter, [[maybe_unused]] const Links&... links) {
+#ifndef NDEBUG
+    if (const laws::Violations broken = laws::check_refinements(filter, links...); !broken.empty())
+      throw ModelError("pair filter: " + broken.front());
+#endif
   }
   static void check_exclusions(std::size_t i, std::span<const PrimitiveId> excluded, const Model<P>& model) {
     for (std::size_t k = 0; k < excluded.size(); ++k) {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The stock policies keep the laws, and the laws catch policies that do not.
-#include "laws/laws.hpp"
+#include "hinge/policy/laws.hpp"
 
-#include <gtest/gtest-spi.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "engine/random_mechanism.hpp"
@@ -24,13 +25,15 @@ using test::Random;
 
 std::vector<Pose> poses(Random& random) { return {random.pose(1.0), random.pose(100.0), random.pose(1e4)}; }
 
+const laws::Violations none;
+
 template <class Make>
 void check(std::uint64_t seed, const Make& make) {
   for (const double size : {1e-6, 1.0, 1e6}) {
     Random random(seed);
     std::vector<decltype(make(random, size))> samples;
     for (int k = 0; k < 25; ++k) samples.push_back(make(random, size));
-    laws::check_primitive(std::span<const decltype(make(random, size))>(samples), poses(random));
+    EXPECT_EQ(laws::check_primitive(std::span<const decltype(make(random, size))>(samples), poses(random)), none);
   }
 }
 
@@ -55,10 +58,14 @@ TEST(PrimitiveLaws, HoldForTriangleDegenerateOnesIncluded) {
 
 TEST(FilterLaws, HoldForStockFilters) {
   Random random(5);
-  laws::check_pair_filter(AdmitAll{}, 10);
-  laws::check_pair_filter(test::ExcludedPairs(30, random, 4), 30);
+  EXPECT_EQ(laws::check_pair_filter(AdmitAll{}, 10), none);
+  const test::ExcludedPairs listed(30, random, 4), many(300, random, 4);
+  EXPECT_EQ(laws::check_pair_filter(listed, 30), none);
+  EXPECT_EQ(laws::check_refinements(many, std::vector<LinkId>(300, world)), none);
   const LinkId a{1}, b{2}, c{3};
-  laws::check_pair_filter(DifferentLinks({a, a, b, c, c}, {{a, b}}), 5);
+  const std::vector<LinkId> links{a, a, b, c, c};
+  EXPECT_EQ(laws::check_pair_filter(DifferentLinks(links, {{a, b}}), 5, links), none);
+  EXPECT_EQ(laws::check_refinements(DifferentLinks(links, {{a, b}}), links), none);
   EXPECT_FALSE(DifferentLinks({a, b}, {{b, a}}).admits(PrimitiveId{0}, PrimitiveId{1}));
   EXPECT_FALSE(DifferentLinks({a, a}).admits(PrimitiveId{0}, PrimitiveId{1}));
   EXPECT_TRUE(DifferentLinks({a, b}).admits(PrimitiveId{0}, PrimitiveId{1}));
@@ -66,8 +73,8 @@ TEST(FilterLaws, HoldForStockFilters) {
 
 TEST(MatrixLaws, HoldForStockMatrices) {
   Random random(6);
-  laws::check_distance_matrix(UniformClearance{0.3}, 5);
-  laws::check_distance_matrix(test::random_thresholds(20, random), 20);
+  EXPECT_EQ(laws::check_distance_matrix(UniformClearance{0.3}, 5), none);
+  EXPECT_EQ(laws::check_distance_matrix(test::random_thresholds(20, random), 20), none);
 }
 
 TEST(CollectorLaws, HoldForTheFourModes) {
@@ -75,10 +82,10 @@ TEST(CollectorLaws, HoldForTheFourModes) {
   std::vector<Hit> hits;
   for (std::uint32_t k = 0; k < 50; ++k)
     hits.push_back({PrimitiveId{k}, PrimitiveId{k + 1}, random.uniform(0.0, 3.0), random.uniform(0.0, 3.0)});
-  laws::check_collector(AnyHit{}, hits);
-  laws::check_collector(HitsWithin{}, hits);
-  laws::check_collector(HitsWithin{0.5}, hits);
-  laws::check_collector(Closest{}, hits);
+  EXPECT_EQ(laws::check_collector(AnyHit{}, hits), none);
+  EXPECT_EQ(laws::check_collector(HitsWithin{}, hits), none);
+  EXPECT_EQ(laws::check_collector(HitsWithin{0.5}, hits), none);
+  EXPECT_EQ(laws::check_collector(Closest{}, hits), none);
 }
 
 /// Bounds too small for the radius.
@@ -101,35 +108,71 @@ struct ShortReach {
   double reach(PrimitiveId) const noexcept { return 0.4; }
 };
 
-TEST(Laws, CatchBoundsThatDoNotHoldThePrimitive) {
-  testing::TestPartResultArray failures;
-  {
-    testing::ScopedFakeTestPartResultReporter reporter(
-        testing::ScopedFakeTestPartResultReporter::INTERCEPT_ONLY_CURRENT_THREAD, &failures);
-    const std::vector<Liar> samples{{Vec3(0, 0, 0)}, {Vec3(5, 0, 0)}};
-    laws::check_primitive(std::span<const Liar>(samples), std::span<const Pose>());
+/// Lists a pair that it admits.
+struct LooseList {
+  PrimitiveId fifth{5};
+  bool admits(PrimitiveId, PrimitiveId) const noexcept { return true; }
+  std::span<const PrimitiveId> excluded(PrimitiveId i) const noexcept {
+    return index(i) == 2 ? std::span(&fifth, 1) : std::span<const PrimitiveId>();
   }
-  EXPECT_GT(failures.size(), 0);
+};
+
+/// Refuses two links whose primitives it admits.
+struct LooseLinks : DifferentLinks {
+  using DifferentLinks::admits;
+  using DifferentLinks::DifferentLinks;
+  bool admits(PrimitiveId i, PrimitiveId j) const noexcept { return i != j; }
+};
+
+struct GrowingCutoff {
+  static constexpr bool ranks = false;
+  double most = 0.0;
+  void add(const Hit&) { most += 1.0; }
+  double cutoff() const noexcept { return most; }
+  bool done() const noexcept { return most > 0.5 && most < 1.5; }
+};
+
+/// The one sentence that says all of this.
+void expect_told(const laws::Violations& broken, const std::vector<std::string>& words) {
+  ASSERT_FALSE(broken.empty());
+  EXPECT_LE(broken.size(), 20U);
+  for (const std::string& word : words)
+    EXPECT_NE(broken.front().find(word), std::string::npos) << word << " in: " << broken.front();
+}
+
+TEST(Laws, CatchBoundsThatDoNotHoldThePrimitive) {
+  const std::vector<Liar> samples{{Vec3(0, 0, 0)}, {Vec3(5, 0, 0)}};
+  expect_told(laws::check_primitive(std::span<const Liar>(samples), std::span<const Pose>()),
+              {"samples 0 and 1", "bounds"});
 }
 
 TEST(Laws, CatchAsymmetricFilters) {
-  testing::TestPartResultArray failures;
-  {
-    testing::ScopedFakeTestPartResultReporter reporter(
-        testing::ScopedFakeTestPartResultReporter::INTERCEPT_ONLY_CURRENT_THREAD, &failures);
-    laws::check_pair_filter(OneSided{}, 3);
-  }
-  EXPECT_GT(failures.size(), 0);
+  expect_told(laws::check_pair_filter(OneSided{}, 3), {"primitives 0 and 1", "swapped"});
+}
+
+TEST(Laws, CatchListsOfAdmittedPairs) {
+  expect_told(laws::check_pair_filter(LooseList{}, 6), {"primitives 2 and 5", "excluded(2)"});
+  const std::vector<LinkId> links(1000, world);  // so many that pairs are sampled: what is listed is asked all the same
+  expect_told(laws::check_refinements(LooseList{}, links), {"primitives 2 and 5", "excluded(2)"});
+}
+
+TEST(Laws, CatchRefusedLinksOfAdmittedPairs) {
+  const std::vector<LinkId> links{LinkId{1}, LinkId{2}, LinkId{3}};
+  const LooseLinks filter(links, {{LinkId{1}, LinkId{3}}});
+  expect_told(laws::check_pair_filter(filter, 3, links), {"primitives 0 and 2", "links 1 and 3"});
+  expect_told(laws::check_refinements(filter, links), {"primitives 0 and 2", "links 1 and 3"});
+  expect_told(laws::check_refinements(filter, links, links), {"of the two models", "links"});
 }
 
 TEST(Laws, CatchReachesThatDoNotCoverThresholds) {
-  testing::TestPartResultArray failures;
-  {
-    testing::ScopedFakeTestPartResultReporter reporter(
-        testing::ScopedFakeTestPartResultReporter::INTERCEPT_ONLY_CURRENT_THREAD, &failures);
-    laws::check_distance_matrix(ShortReach{}, 2);
-  }
-  EXPECT_GT(failures.size(), 0);
+  expect_told(laws::check_distance_matrix(ShortReach{}, 2), {"primitives 0 and 0", "reaches"});
+}
+
+TEST(Laws, CatchCollectorsThatGoBack) {
+  const std::vector<Hit> hits(2);
+  const laws::Violations broken = laws::check_collector(GrowingCutoff{}, hits);
+  expect_told(broken, {"hit 0", "cutoff"});
+  EXPECT_EQ(broken.size(), 3U);  // twice the cutoff, once what is done
 }
 
 }  // namespace

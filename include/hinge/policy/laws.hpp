@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the concepts demand of policies beyond syntax, as checks for policies of your own. Each check returns the laws
+// that were broken, one sentence each; an empty list means that the samples keep them all.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hinge/bounds/aabb.hpp"
+#include "hinge/core/finite.hpp"
+#include "hinge/core/id.hpp"
+#include "hinge/core/philox.hpp"
+#include "hinge/core/pose.hpp"
+#include "hinge/core/vec3.hpp"
+#include "hinge/policy/collector.hpp"
+#include "hinge/policy/distance_matrix.hpp"
+#include "hinge/policy/pair_filter.hpp"
+#include "hinge/policy/primitive.hpp"
+
+namespace hinge::laws {
+
+using Violations = std::vector<std::string>;
+
+/// Lengths compare to within this share of the largest coordinate: room for a few dozen roundings; a wrong formula is
+/// off by much more.
+inline constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+
+namespace detail {
+
+/// More sentences than this are not told.
+inline constexpr std::size_t most_told = 20;
+
+inline void require(bool kept, Violations& broken, const auto& sentence) {
+  if (!kept && broken.size() < most_told) broken.push_back(sentence());
+}
+
+inline double magnitude(const Aabb& box) {
+  double largest = 0.0;
+  for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(box.lower[k]), std::abs(box.upper[k])});
+  return largest;
+}
+
+inline std::string two(const char* what, std::size_t i, std::size_t j) {
+  return std::string(what) + " " + std::to_string(i) + " and " + std::to_string(j);
+}
+
+template <PairFilter F>
+void check_pair(const F& filter, PrimitiveId i, PrimitiveId j, std::span<const LinkId> links, Violations& broken) {
+  const bool admitted = filter.admits(i, j);
+  const auto names = [&] { return two("primitives", index(i), index(j)); };
+  require(filter.admits(i, j) == admitted && filter.admits(j, i) == admitted, broken, [&] {
+    return names() + ": admits answers " + (admitted ? "true" : "false") +
+           ", and otherwise when asked again or with "
+           "the two swapped; expected one answer";
+  });
+  if constexpr (ListsExclusions<F>) {
+    const std::span<const PrimitiveId> list = filter.excluded(i);
+    require(!(admitted && std::find(list.begin(), list.end(), j) != list.end()), broken, [&] {
+      return names() + ": excluded(" + std::to_string(index(i)) + ") lists the second, but admits answers true";
+    });
+  }
+  if constexpr (AdmitsLinks<F>) {
+    if (links.empty()) return;
+    const LinkId a = links[index(i)], b = links[index(j)];
+    if (a == b) return;
+    require(filter.admits(a, b) == filter.admits(b, a), broken,
+            [&] { return two("links", index(a), index(b)) + ": admits answers otherwise with the two swapped"; });
+    require(!admitted || filter.admits(a, b), broken, [&] {
+      return names() + ": admits answers true, but refuses all pairs of their " + two("links", index(a), index(b));
+    });
+  }
+}
+
+}  // namespace detail
+
+/// Distances of all pairs of samples are symmetric, >= 0, 0 to itself, not below the gap of the bounds, and the same
+/// under a common pose; closer_than follows the distance and grows with its threshold; closest points realise the
+/// distance. samples: a few dozen as they occur, the odd ones included (a point's size, flat, touching).
+template <Primitive P>
+Violations check_primitive(std::span<const P> samples, std::span<const Pose> poses) {
+  Violations broken;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const P& p = samples[i];
+    const auto require = [&](bool kept, const char* sentence) {
+      detail::require(kept, broken, [&] { return "sample " + std::to_string(i) + ": " + sentence; });
+    };
+    require(squared_distance(p, p) == 0.0, "its squared_distance to itself is not 0");
+    const Aabb same = p.placed(Pose{}).bounds();
+    require(same.contains(p.bounds()) && p.bounds().contains(same), "the identity pose changes its bounds");
+  }
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    for (std::size_t j = 0; j < samples.size(); ++j) {
+      const P &p = samples[i], &q = samples[j];
+      const auto require = [&](bool kept, const char* sentence) {
+        detail::require(kept, broken, [&] { return detail::two("samples", i, j) + ": " + sentence; });
+      };
+      const double d = std::sqrt(squared_distance(p, q));
+      const double tolerance = rounding * (detail::magnitude(p.bounds()) + detail::magnitude(q.bounds()));
+      const auto near = [](double x, double y, double within) { return std::abs(x - y) <= within; };
+      require(d >= 0.0, "squared_distance is negative or no number");
+      require(near(d, std::sqrt(squared_distance(q, p)), tolerance), "squared_distance differs when they are swapped");
+      require(d >= separation(p.bounds(), q.bounds()) - tolerance,
+              "they are closer than their bounds, which do not hold them");
+      require(closer_than(p, q, d + tolerance + 1e-3 * d), "closer_than denies a distance above squared_distance's");
+      require(!(d > tolerance) || !closer_than(p, q, d - std::min(d, tolerance + 1e-3 * d)),
+              "closer_than affirms a distance below squared_distance's");
+      require(closer_than(p, q, d) == closer_than(q, p, d), "closer_than answers an exact tie in two ways");
+      for (const Pose& pose : poses) {
+        const P a = p.placed(pose), b = q.placed(pose);
+        const double moved = rounding * (detail::magnitude(a.bounds()) + detail::magnitude(b.bounds())) + tolerance;
+        require(near(std::sqrt(squared_distance(a, b)), d, moved), "their distance changes under a common pose");
+      }
+      if constexpr (HasClosestPoints<P>) {
+        const auto [x, y] = closest_points(p, q);
+        require(near(std::sqrt(squared_norm(Vec3(x - y))), d, tolerance),
+                "their closest_points are not squared_distance apart");
+        require(separation(Aabb(x), p.bounds()) <= tolerance && separation(Aabb(y), q.bounds()) <= tolerance,
+                "their closest_points lie outside the bounds");
+      }
+    }
+  return broken;
+}
+
+/// Of `primitives` primitives: admits is symmetric and repeatable; excluded(i) is sorted and free of doubles and of i
+/// itself, and names only primitives that admits refuses; links are refused only where admits refuses all their pairs.
+/// links: of every primitive (Model::links()); none are needed where the filter does not go by links.
+template <PairFilter F>
+Violations check_pair_filter(const F& filter, std::size_t primitives, std::span<const LinkId> links = {}) {
+  Violations broken;
+  if constexpr (ListsExclusions<F>)
+    for (std::size_t i = 0; i < primitives; ++i) {
+      const std::span<const PrimitiveId> list = filter.excluded(id<PrimitiveId>(i));
+      const auto require = [&](bool kept, const char* sentence) {
+        detail::require(kept, broken, [&] { return "excluded(" + std::to_string(i) + ") " + sentence; });
+      };
+      require(std::adjacent_find(list.begin(), list.end(), [](auto a, auto b) { return !(a < b); }) == list.end(),
+              "is not sorted, or names a primitive twice");
+      require(std::find(list.begin(), list.end(), id<PrimitiveId>(i)) == list.end(), "names the primitive itself");
+      require(list.empty() || index(list.back()) < primitives, "names a primitive that does not exist");
+    }
+  for (std::size_t i = 0; i < primitives; ++i)
+    for (std::size_t j = 0; j < primitives; ++j)
+      if (i != j) detail::check_pair(filter, id<PrimitiveId>(i), id<PrimitiveId>(j), links, broken);
+  return broken;
+}
+
+/// The laws of pairs as above, for a model of any size: all pairs of a small one, and of a large one what is listed and
+/// a sample of pairs, the same in every run. Hierarchy asks this when it is compiled without NDEBUG.
+template <PairFilter F>
+Violations check_refinements(const F& filter, std::span<const LinkId> links) {
+  constexpr std::size_t most_pairs = 4096, most_listed = 65536;
+  Violations broken;
+  const std::size_t n = links.size();
+  if (n * (n - 1) / 2 <= most_pairs || n < 2) {
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = i + 1; j < n; ++j)
+        detail::check_pair(filter, id<PrimitiveId>(i), id<PrimitiveId>(j), links, broken);
+    return broken;
+  }
+  SampleStream random(1, 0);
+  for (std::size_t k = 0; k < most_pairs; ++k) {
+    const std::size_t i = random.bits() % n, j = random.bits() % n;
+    if (i != j) detail::check_pair(filter, id<PrimitiveId>(i), id<PrimitiveId>(j), links, broken);
+  }
+  if constexpr (ListsExclusions<F>) {
+    std::size_t asked = 0;
+    for (std::size_t i = 0; i < n && asked < most_listed; ++i)
+      for (const PrimitiveId j : std::span<const PrimitiveId>(filter.excluded(id<PrimitiveId>(i)))) {
+        if (++asked > most_listed) break;
+        detail::check_pair(filter, id<PrimitiveId>(i), j, links, broken);
+      }
+  }
+  return broken;
+}
+
+/// The same of a filter between two models, whose primitives hang on `links` and `other_links`: it need not be
+/// symmetric, and lists no exclusions.
+template <PairFilter G>
+Violations check_refinements(const G& across, std::span<const LinkId> links, std::span<const LinkId> other_links) {
+  Violations broken;
+  if constexpr (AdmitsLinks<G>) {
+    constexpr std::size_t most_pairs = 256;
+    SampleStream random(1, 0);
+    for (std::size_t k = 0; k < most_pairs && !links.empty() && !other_links.empty(); ++k) {
+      const std::size_t i = random.bits() % links.size(), j = random.bits() % other_links.size();
+      if (!across.admits(links[i], other_links[j]))
+        detail::require(!across.admits(id<PrimitiveId>(i), id<PrimitiveId>(j)), broken, [&] {
+          return detail::two("primitives", i, j) +
+                 " of the two models: admits answers true, but refuses all pairs of " +
+                 detail::two("links", index(links[i]), index(other_links[j]));
+        });
+    }
+  }
+  return broken;
+}
+
+/// Of `primitives` primitives: thresholds are symmetric, finite and >= 0, and reach(i) + reach(j) >= threshold(i, j).
+template <DistanceMatrix D>
+Violations check_distance_matrix(const D& matrix, std::size_t primitives) {
+  Violations broken;
+  for (std::size_t i = 0; i < primitives; ++i)
+    for (std::size_t j = 0; j < primitives; ++j) {
+      const auto a = id<PrimitiveId>(i), b = id<PrimitiveId>(j);
+      const double m = matrix.threshold(a, b);
+      const auto require = [&](bool kept, const std::string& sentence) {
+        detail::require(kept, broken, [&] { return detail::two("primitives", i, j) + ": " + sentence; });
+      };
+      require(is_finite(m) && m >= 0.0, "the threshold is " + std::to_string(m) + ", expected a finite length >= 0");
+      require(m == matrix.threshold(b, a), "the threshold differs when they are swapped");
+      require(matrix.reach(a) + matrix.reach(b) >= m, "their reaches add up to less than the threshold");
+    }
+  return broken;
+}
+
+/// The cutoff never grows, and a collector that is done stays done, whatever hits come.
+template <Collector C>
+Violations check_collector(C collector, std::span<const Hit> hits) {
+  Violations broken;
+  double cutoff = collector.cutoff();
+  bool done = collector.done();
+  for (std::size_t k = 0; k < hits.size(); ++k) {
+    collector.add(hits[k]);
+    const auto require = [&](bool kept, const char* sentence) {
+      detail::require(kept, broken, [&] { return "hit " + std::to_string(k) + ": " + sentence; });
+    };
+    require(collector.cutoff() <= cutoff, "the cutoff grew");
+    require(!done || collector.done(), "the collector was done and no longer is");
+    cutoff = collector.cutoff();
+    done = collector.done();
+  }
+  return broken;
+}
+
+}  // namespace hinge::laws
