@@ -71,6 +71,7 @@ class Hierarchy {
   /// current state, stands for those to come. ModelError as by queries.
   template <PairFilter G = AdmitAll>
   void learn_order(Hierarchy& other, const G& across = {}) {
+    static_assert(CrossEngine<E, P, F, D, G>, "this engine or distance matrix cannot answer between two models");
     if (!matrix_.compatible(other.matrix_)) throw ModelError("the two models use different distance matrices");
     if constexpr (requires { engine_.learn_order(other.engine_, across); }) {
       if (this == &other) {

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/own_filters.hpp"
 #include "engine/random_mechanism.hpp"
 #include "hinge/engine/brute/brute.hpp"
 #include "hinge/hierarchy.hpp"
@@ -124,6 +125,24 @@ TEST(SphereBatch, AnswersEveryLaneAsSingleQueriesDo) {
   EXPECT_LT(decided, tally.lanes / 20) << "floats decide nearly everything";
   std::printf("%zu lanes, %zu hits, %llu decided in double\n", tally.lanes, tally.hits,
               static_cast<unsigned long long>(decided));
+}
+
+TEST(SphereBatch, AsksAFilterDerivedFromAStockOne) {
+  Tally tally;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Random random(seed);
+    const Model<Sphere> model = random_spheres(random, {12, 4, 0.8});
+    const DofSelection selection = DofSelection::all(model.tree());
+    if (selection.size() == 0) continue;
+    const auto filter = test::own_filter<test::OwnWithLinks>(model, random);
+    SphereBatch batch(model, filter);
+    Single<test::OwnWithLinks> single(model, filter, UniformClearance{0.0});
+    for (int k = 0; k < 10; ++k)
+      compare(batch, single, random_block(model.tree(), selection, random, SphereBatch::size, 2.0), tally);
+  }
+  EXPECT_EQ(tally.wrong, 0U);
+  EXPECT_GT(tally.hits, 0U);
+  EXPECT_LT(tally.hits, tally.lanes);
 }
 
 /// Configurations between a and b at whose ends the verdicts differ, down to neighbours; then some ulps around.

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/own_filters.hpp"
 #include "engine/random_mechanism.hpp"
 #include "hinge/engine/brute/brute.hpp"
 #include "hinge/hierarchy.hpp"
@@ -66,13 +67,14 @@ struct Tally {
   std::size_t hits = 0, pairs = 0, states = 0;
 };
 
+/// The filter lists exclusions and refuses further pairs.
 template <class P>
 void compare(const Model<P>& model, Random& random, BatchCounts& total, Tally& tally) {
   const DofSelection selection = test::random_selection(model.tree(), random);
-  const test::ExcludedPairs filter(model.size(), random, 4);
+  const auto filter = test::own_filter<test::OwnOfList>(model, random);
   const TypedThresholds matrix = test::random_thresholds(model.size(), random);
-  StateBatch<P, test::ExcludedPairs, TypedThresholds> batch(model, selection, filter, matrix);
-  Hierarchy<P, test::ExcludedPairs, TypedThresholds, Brute> single(model, selection, filter, matrix);
+  StateBatch<P, test::OwnOfList, TypedThresholds> batch(model, selection, filter, matrix);
+  Hierarchy<P, test::OwnOfList, TypedThresholds, Brute> single(model, selection, filter, matrix);
   const std::size_t dof = selection.size();
   for (const double spread : {0.0, 1e-7, 1e-3, 0.02, 0.02, 0.2, 3.0, 0.01}) {
     const std::size_t count = dof == 0 ? 1 : 1 + random.below(16);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/count_allocations.hpp"
+#include "engine/own_filters.hpp"
 #include "engine/random_mechanism.hpp"
 #include "engine/side_by_side.hpp"
 #include "hinge/engine/brute/brute.hpp"
@@ -149,6 +150,21 @@ TEST(MoveChecker, AnswersForPointsAsFullQueries) { walk_random_models<Point, Wid
 TEST(MoveChecker, AnswersForSpheresAsFullQueries) { walk_random_models<Sphere, Wide>(); }
 TEST(MoveChecker, AnswersForTrianglesAsFullQueries) { walk_random_models<Triangle, Wide>(); }
 TEST(MoveChecker, AnswersForCapsulesOfAnotherEngineAsFullQueries) { walk_random_models<Capsule, Lazy>(); }
+
+TEST(MoveChecker, AsksAFilterDerivedFromAStockOne) {
+  Random random(seed);
+  Tally tally;
+  for (int round = 0; round < 8; ++round) {
+    const auto model = test::random_model(random, 60, 6, false, test::make_primitive<Point>);
+    const TypedThresholds matrix{std::vector<std::uint16_t>(model.size(), 0), 1, {std::ldexp(0.25, round / 2)}};
+    walk<Point>(model, DofSelection::all(model.tree()), test::own_filter<test::OwnOfList>(model, random), matrix,
+                random, 40, 0.1, tally);
+    if (testing::Test::HasFailure()) return;
+  }
+  EXPECT_LT(tally.counts.full_queries, tally.counts.tried);
+  EXPECT_GT(tally.free, 0U);
+  EXPECT_LT(tally.free, tally.moves);
+}
 
 /// A chain of `links` links with side branches, joints a unit apart, three points each: like a protein, and free.
 Model<Point> comb(Random& random, std::size_t links, const Vec3& at) {

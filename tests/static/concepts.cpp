@@ -48,6 +48,13 @@ struct NoCopy {
 static_assert(!Primitive<NoCopy>);
 
 static_assert(PairFilter<AdmitAll> && PairFilter<DifferentLinks> && !ListsExclusions<DifferentLinks>);
+/// Declares admits anew, which hides all of its base's.
+template <class Stock>
+struct OwnOf : Stock {
+  bool admits(PrimitiveId, PrimitiveId) const noexcept { return false; }
+};
+static_assert(PairFilter<OwnOf<AdmitAll>> && !ListsExclusions<OwnOf<AdmitAll>> && !AdmitsLinks<OwnOf<AdmitAll>>);
+static_assert(PairFilter<OwnOf<DifferentLinks>> && !AdmitsLinks<OwnOf<DifferentLinks>>);
 struct TakesNumbers {
   bool admits(int, int) const noexcept { return true; }
 };
@@ -88,6 +95,20 @@ static_assert(CrossEngine<Lazy<Point, AdmitAll, UniformClearance>, Point, AdmitA
 static_assert(!CrossEngine<Lazy<Point, AdmitAll, OwnOnly>, Point, AdmitAll, OwnOnly, AdmitAll>);
 static_assert(CrossEngine<Wide<Point, AdmitAll, TypedThresholds>, Point, AdmitAll, TypedThresholds, AdmitAll>);
 static_assert(!CrossEngine<Wide<Point, AdmitAll, OwnOnly>, Point, AdmitAll, OwnOnly, AdmitAll>);
+/// An order can be learned against another model, whether the engine has one or not.
+template <class P, template <class, class, class> class EngineOf>
+using On = Hierarchy<P, AdmitAll, UniformClearance, EngineOf>;
+template <class P>
+void learn(On<P, Wide>& wide, On<P, Lazy>& lazy, On<P, Brute>& brute) {
+  wide.learn_order(wide);
+  lazy.learn_order(lazy);
+  brute.learn_order(brute);
+}
+template void learn(On<Point, Wide>&, On<Point, Lazy>&, On<Point, Brute>&);
+template void learn(On<Sphere, Wide>&, On<Sphere, Lazy>&, On<Sphere, Brute>&);
+template void learn(On<Capsule, Wide>&, On<Capsule, Lazy>&, On<Capsule, Brute>&);
+template void learn(On<Triangle, Wide>&, On<Triangle, Lazy>&, On<Triangle, Brute>&);
+
 static_assert(TypesPrimitives<TypedThresholds> && !TypesPrimitives<UniformClearance>);
 static_assert(!GrowsPrimitives<TypedThresholds> && !GrowsPrimitives<UniformClearance>);
 static_assert(TurnsBatch<Point> && !TurnsBatch<Sphere>);

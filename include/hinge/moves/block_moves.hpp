@@ -88,7 +88,7 @@ class BlockMoves {
     return true;
   }
   /// Offers every pair with d - M <= cutoff whose distance the move may have changed, and others, to
-  /// visit(i, j), which answers false to stop. Exclusions that a filter lists were regarded. motion_error: model unit.
+  /// visit(i, j), which answers false to stop and asks the filter. motion_error: model unit.
   /// False when floats cannot hold the new coordinates: take the move back then.
   template <class Visit>
   bool search(const MovingParts& parts, double cutoff, double motion_error, QueryCounts& counts, const Visit& visit);

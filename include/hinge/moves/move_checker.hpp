@@ -165,13 +165,11 @@ class MoveChecker {
     if constexpr (by_blocks) {
       const std::uint32_t a = part_of(i), b = part_of(j);
       if (a == b || model().constant(i, j)) return true;
-      if constexpr (!ListsExclusions<F>)
-        if (!hierarchy_.get().filter().admits(i, j)) return true;
       // Where the parts' motions take the two, in double: that decides nearly always.
       const P p = place(i, blocks_->frames().moved(parts().place(model().group_of(i)), a));
       const P q = place(j, blocks_->frames().moved(parts().place(model().group_of(j)), b));
       const double m = matrix().threshold(i, j), off = rounding_.pair_error(m);
-      if (!closer_than(p, q, m + (off + rounding_.tolerance()))) return true;
+      if (!closer_than(p, q, m + (off + rounding_.tolerance())) || !hierarchy_.get().filter().admits(i, j)) return true;
       if (!all && m > off && closer_than(p, q, m - off)) return note_collision(i, j);
       const bool collides = judge(i, j, tried(i), tried(j), matrix(), rounding_.tolerance(), tried_known_);
       return complete_ = all || !collides;

@@ -10,30 +10,27 @@
 
 namespace hinge {
 
-/// Pure and symmetric: admits(i, j) == admits(j, i). Asked for i != j only.
+/// Pure and symmetric: admits(i, j) == admits(j, i). Asked for i != j only. A pair counts only when admits says so: every
+/// engine asks it of every pair that comes too close. The refinements below only save time: they say earlier, of many
+/// pairs at once, what admits would say of each. hinge/policy/laws.hpp checks that they agree with it.
 template <class F>
 concept PairFilter = std::copyable<F> && requires(const F& filter, PrimitiveId i, PrimitiveId j) {
   { filter.admits(i, j) }
   noexcept->std::same_as<bool>;
 };
 
-/// Optional refinement: can name the few primitives that are not admitted with i (sorted, without i), so that engines
-/// look them up once when they are prepared and never in the inner loop.
+/// Optional refinement: names primitives that are not admitted with i (sorted, without i), bonded atoms for example.
+/// Engines look them up when they are prepared and leave such pairs out before distances are computed. Pairs that are
+/// not listed may be refused by admits all the same.
 template <class F>
 concept ListsExclusions = PairFilter<F> && requires(const F& filter, PrimitiveId i) {
   { filter.excluded(i) }
   noexcept->std::convertible_to<std::span<const PrimitiveId>>;
 };
 
-/// Optional refinement of filters that list exclusions: refuses further pairs, too many to list, by a rule that is
-/// cheap to ask. admits(i, j) is then in_scope(i, j) and that j is not listed with i.
-template <class F>
-concept ScopesPairs = ListsExclusions<F> && requires(const F& filter, PrimitiveId i, PrimitiveId j) {
-  { filter.in_scope(i, j) }
-  noexcept->std::same_as<bool>;
-};
-
-/// Optional refinement: can refuse all pairs of two links at once; where it does not, pairs are still asked for.
+/// Optional refinement: can refuse all pairs of two different links at once; where it does not, pairs are still asked
+/// for. A class derived from such a filter that declares an admits(PrimitiveId, PrimitiveId) of its own hides this
+/// function too, so that each pair is asked for.
 template <class F>
 concept AdmitsLinks = PairFilter<F> && requires(const F& filter, LinkId a, LinkId b) {
   { filter.admits(a, b) }
@@ -57,9 +54,8 @@ concept KnowsLinks = PairFilter<F> && requires(const F& filter) {
 /// Every pair counts.
 struct AdmitAll {
   bool admits(PrimitiveId, PrimitiveId) const noexcept { return true; }
-  std::span<const PrimitiveId> excluded(PrimitiveId) const noexcept { return {}; }
 };
 
-static_assert(ListsExclusions<AdmitAll>);
+static_assert(PairFilter<AdmitAll> && !ListsExclusions<AdmitAll> && !AdmitsLinks<AdmitAll>);
 
 }  // namespace hinge

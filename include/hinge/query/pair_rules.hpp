@@ -49,15 +49,12 @@ struct SelfRules {
     return m +
            (clearance_of(options.clearance, model.group_of(i)) + clearance_of(options.clearance, model.group_of(j)));
   }
-  /// Admission beyond the exclusions a filter lists: its scope, pairs of constant distance, and moved-only queries.
-  [[gnu::always_inline]] bool counts(PrimitiveId i, PrimitiveId j) const noexcept {
+  /// The filter's word, less pairs of constant distance and, in moved-only queries, those that did not move.
+  bool admits(PrimitiveId i, PrimitiveId j) const noexcept {
     const auto& model = placement.model();
-    if constexpr (ScopesPairs<F>)
-      if (!filter.in_scope(i, j)) return false;
-    return !placement.constant(i, j) &&
+    return filter.admits(i, j) && !placement.constant(i, j) &&
            (!options.moved_only || placement.moved_apart(model.group_of(i), model.group_of(j)));
   }
-  bool admits(PrimitiveId i, PrimitiveId j) const noexcept { return filter.admits(i, j) && counts(i, j); }
 };
 
 /// Pairs of two models: i of the first, j of the second.

@@ -211,30 +211,23 @@ class Lazy {
   template <Collector C>
   bool test_leaves(std::uint32_t a, std::uint32_t b, C& collector, const Rules& rules, QueryCounts& counts) {
     const std::span<const P> placed = placement_.placed();
-    const auto test = [&](PrimitiveId i, PrimitiveId j, const auto& admitted) {
-      offer(collector, i, j, placed[index(i)], placed[index(j)], rules.threshold(i, j), admitted);
+    const auto test = [&](PrimitiveId i, PrimitiveId j) {
+      offer(collector, i, j, placed[index(i)], placed[index(j)], rules.threshold(i, j),
+            [&] { return rules.admits(i, j); });
       return !collector.done();
     };
     std::span<const LazyLayout::PrimitivePair> sri;
-    const auto admission = layout_->admission(std::min(a, b), std::max(a, b), sri);
-    if (admission == LazyLayout::Admission::listed) {
+    if (layout_->lists(std::min(a, b), std::max(a, b), sri)) {
       counts.pairs_tested += sri.size();
       for (const auto& [i, j] : sri)
-        if (!test(i, j, [&, i = i, j = j] { return rules.counts(i, j); })) return false;
+        if (!test(i, j)) return false;
       return true;
     }
     const auto p = layout_->primitives(a), q = layout_->primitives(b);
     counts.pairs_tested += a == b ? p.size() * (p.size() - 1) / 2 : p.size() * q.size();
     for (std::size_t m = 0; m < p.size(); ++m)
-      for (std::size_t n = a == b ? m + 1 : 0; n < q.size(); ++n) {
-        const PrimitiveId i = std::min(p[m], q[n]), j = std::max(p[m], q[n]);
-        const auto admitted = [&] {
-          if constexpr (ListsExclusions<F>)
-            if (admission == LazyLayout::Admission::all) return rules.counts(i, j);
-          return rules.admits(i, j);
-        };
-        if (!test(i, j, admitted)) return false;
-      }
+      for (std::size_t n = a == b ? m + 1 : 0; n < q.size(); ++n)
+        if (!test(std::min(p[m], q[n]), std::max(p[m], q[n]))) return false;
     return true;
   }
 

@@ -20,9 +20,9 @@ namespace hinge {
 
 /// Leaves are the basic groups of BioCD section III. A body is what has a low-level tree of its own: a rigid group with
 /// the basic groups that lie wholly in it, or one basic group that spans several rigid groups (an articulated unit,
-/// such as a side chain whose torsions are free), which is a single leaf. Near leaf pairs are those with pairs the
-/// filter does not admit; the admitted rest of each is its SRI list, so that the filter is seldom asked inside a query:
-/// only about leaves so large that lists of their pairs would fill the memory.
+/// such as a side chain whose torsions are free), which is a single leaf. Near leaf pairs are those with pairs that the
+/// filter lists as excluded; the admitted rest of each is its SRI list. Leaves so large that lists of their pairs would
+/// fill the memory have none.
 class LazyLayout {
  public:
   using PrimitivePair = std::pair<PrimitiveId, PrimitiveId>;
@@ -44,24 +44,21 @@ class LazyLayout {
   std::span<const PrimitiveId> primitives(std::uint32_t leaf) const noexcept {
     return std::span(primitives_).subspan(leaf_start_[leaf], leaf_start_[leaf + 1] - leaf_start_[leaf]);
   }
-  enum class Admission : unsigned char { all, listed, ask };  ///< which pairs of two leaves the filter admits
-  /// For a <= b; `pairs` is set when they are listed.
-  Admission admission(std::uint32_t a, std::uint32_t b, std::span<const PrimitivePair>& pairs) const noexcept {
-    if (near_start_.empty()) return Admission::all;
+  /// For a <= b: the SRI list of the two leaves in `pairs`, or false when all pairs of the two are to be tested.
+  bool lists(std::uint32_t a, std::uint32_t b, std::span<const PrimitivePair>& pairs) const noexcept {
+    if (near_start_.empty()) return false;
     const auto end = near_.begin() + static_cast<std::ptrdiff_t>(near_start_[a + 1]);
     const auto found = std::lower_bound(near_.begin() + static_cast<std::ptrdiff_t>(near_start_[a]), end, b,
                                         [](const Near& near, std::uint32_t leaf) { return near.leaf < leaf; });
-    if (found == end || found->leaf != b) return Admission::all;
-    if (!found->listed) return Admission::ask;
+    if (found == end || found->leaf != b) return false;
     pairs = std::span(sri_).subspan(found->begin, found->end - found->begin);
-    return Admission::listed;
+    return true;
   }
 
  private:
   struct Near {
     std::uint32_t leaf;
     std::size_t begin, end;  // in sri_
-    bool listed;
   };
   /// Pairs of two leaves, up to which they are listed: two basic groups of 32, the largest of a protein has 14.
   static constexpr std::size_t longest_list = 1024;
@@ -135,12 +132,12 @@ void LazyLayout::make_sri_lists(const F& filter) {
     std::sort(neighbours.begin(), neighbours.end());
     neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
     for (const std::uint32_t b : neighbours) {
+      if (primitives(a).size() * primitives(b).size() > longest_list) continue;
       const std::size_t begin = sri_.size();
-      const bool listed = primitives(a).size() * primitives(b).size() <= longest_list;
-      for (const PrimitiveId i : listed ? primitives(a) : std::span<const PrimitiveId>())
+      for (const PrimitiveId i : primitives(a))
         for (const PrimitiveId j : primitives(b))
           if ((a != b || i < j) && filter.admits(i, j)) sri_.emplace_back(std::min(i, j), std::max(i, j));
-      near_.push_back({b, begin, sri_.size(), listed});
+      near_.push_back({b, begin, sri_.size()});
     }
     near_start_.push_back(near_.size());
   }

@@ -18,8 +18,8 @@
 namespace hinge {
 
 /// A near pair of blocks (b, a), a <= b, has sixteen rows: bit l of row k tells whether lane k of b is tested with lane
-/// l of a. Near pairs are those with a pair the filter lists as excluded, and every block with itself. What a filter
-/// that lists no exclusions forbids is found out pair by pair.
+/// l of a. Near pairs are those with a pair the filter lists as excluded, and every block with itself. Masks only leave
+/// pairs out early: what comes too close is asked of the filter in any case.
 class NearMasks {
  public:
   /// inside_groups: are pairs within one rigid group tested?

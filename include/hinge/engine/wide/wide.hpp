@@ -62,11 +62,8 @@ class Wide {
       }
     WideSide<P>& side = present_side(without_margin(collector, options));
     side.begin(placement_, options.moved_only, options.clearance);
-    const SelfVerdicts decide{collector, rules, [&](PrimitiveId first, PrimitiveId second) {
-                                // Blocks that hold listed exclusions are tested under masks.
-                                if constexpr (ListsExclusions<F>) return rules.counts(first, second);
-                                return rules.admits(first, second);
-                              }};
+    const SelfVerdicts decide{collector, rules,
+                              [&](PrimitiveId first, PrimitiveId second) { return rules.admits(first, second); }};
     if constexpr (C::ranks) {
       // The pair that was closest last time bounds the answer from the start; it is no part of the answer by itself.
       if (witness_)
@@ -130,7 +127,7 @@ class Wide {
   }
   /// The same for queries against other models, of which this one stands for all: the order of this model's links.
   template <PairFilter G>
-  requires CrossMatrix<D>
+  requires KeepsTrees<P> && CrossMatrix<D>
   void learn_order(Wide& other, const G& across) {
     if (!by_trees_with(other)) return;
     AnyHit any;

@@ -46,8 +46,9 @@ class BondExclusions {
     const auto list = excluded(i);
     return in_scope(i, j) && !std::binary_search(list.begin(), list.end(), j);
   }
+  /// Is the pair asked about, however many bonds lie between the two?
   bool in_scope(PrimitiveId i, PrimitiveId j) const noexcept { return scope_.holds(i, j); }
-  /// Sorted, without i.
+  /// Atoms too few bonds away from i, and those exempted with it: sorted, without i.
   std::span<const PrimitiveId> excluded(PrimitiveId i) const noexcept {
     return std::span(data_->excluded)
         .subspan(data_->start[index(i)], data_->start[index(i) + 1] - data_->start[index(i)]);
@@ -65,7 +66,7 @@ class BondExclusions {
   PairScope scope_;
 };
 
-static_assert(ScopesPairs<BondExclusions>);
+static_assert(ListsExclusions<BondExclusions>);
 
 /// Neighbours of every atom in the bond graph, sorted.
 std::vector<std::vector<std::uint32_t>> bonded_neighbours(const Structure& structure);
