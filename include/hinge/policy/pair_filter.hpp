@@ -10,9 +10,9 @@
 
 namespace hinge {
 
-/// Pure and symmetric: admits(i, j) == admits(j, i). Asked for i != j only. A pair counts only when admits says so: every
-/// engine asks it of every pair that comes too close. The refinements below only save time: they say earlier, of many
-/// pairs at once, what admits would say of each. hinge/policy/laws.hpp checks that they agree with it.
+/// Pure and symmetric: admits(i, j) == admits(j, i). Asked for i != j only. A pair counts only when admits says so:
+/// every engine asks it of every pair that comes too close. The refinements below only save time: they say earlier, of
+/// many pairs at once, what admits would say of each. hinge/policy/laws.hpp checks that they agree with it.
 template <class F>
 concept PairFilter = std::copyable<F> && requires(const F& filter, PrimitiveId i, PrimitiveId j) {
   { filter.admits(i, j) }
