@@ -18,9 +18,9 @@ namespace hinge::robotics {
 /// Admits what is not on a link that may touch the body.
 struct OtherLinks {
   std::span<const LinkId> links;
-  const std::vector<bool>* may_touch = nullptr;  // by link; null: none may
+  const std::vector<bool>* may_touch = nullptr;  // by link; empty: none may
 
-  bool admits(LinkId link, LinkId) const noexcept { return may_touch == nullptr || !(*may_touch)[index(link)]; }
+  bool admits(LinkId link, LinkId) const noexcept { return may_touch->empty() || !(*may_touch)[index(link)]; }
   bool admits(PrimitiveId i, PrimitiveId) const noexcept { return admits(links[index(i)], LinkId{}); }
 };
 
@@ -31,8 +31,10 @@ struct RobotChecker::BodyPair {
   BodyId held_id{};
   Environment::Body* body = nullptr;
   BodyId body_id{};
-  const std::vector<bool>* may_touch = nullptr;  ///< links of the robot that are not tested
-  double lower = 0.0;                            ///< no pair of triangles has a d - M below it
+  std::vector<bool> may_touch{};  ///< links of the robot that are not tested; empty: all are
+  double lower = 0.0;             ///< no pair of triangles has a d - M below it
+
+  bool tests(std::size_t link) const noexcept { return may_touch.empty() || !may_touch[link]; }
 };
 
 /// f(mine, theirs, filter, options), with thresholds raised by `extra`.
@@ -43,7 +45,7 @@ auto RobotChecker::ask(const BodyPair& pair, const Environment& environment, con
   // Bodies bring the clearance of the environment, all of them.
   const double missing = is_held ? 0.0 : missing_clearance(margins_.clearance(), environment.clearance());
   const std::vector<double> more = for_all_groups(first, missing + extra);
-  const OtherLinks filter{robot_->model().links(), pair.may_touch};
+  const OtherLinks filter{robot_->model().links(), &pair.may_touch};
   return with_same_engine(first, pair.body->hierarchy, [&](auto& mine, auto& theirs) {
     return f(mine, theirs, filter, QueryOptions{false, more, {}, nullptr});
   });

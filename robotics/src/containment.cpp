@@ -88,7 +88,7 @@ std::optional<OpenEdge> open_edge(std::span<const Triangle> mesh) {
   return OpenEdge{*open / 3, corners[*open % 3], corners[(*open + 1) % 3]};
 }
 
-std::vector<std::size_t> parts(std::span<const Triangle> mesh) {
+std::vector<std::size_t> part_numbers(std::span<const Triangle> mesh) {
   const std::vector<std::uint32_t> number = vertex_numbers(mesh);
   // Union-find over vertices; the root is the smallest place of its part.
   std::vector<std::uint32_t> root(number.size());
@@ -106,9 +106,16 @@ std::vector<std::size_t> parts(std::span<const Triangle> mesh) {
     join(k, number[k]);
     join(k, k - k % 3);
   }
+  std::vector<std::size_t> first(mesh.size());
+  for (std::size_t t = 0; t < mesh.size(); ++t) first[t] = find(static_cast<std::uint32_t>(3 * t)) / 3;
+  return first;
+}
+
+std::vector<std::size_t> parts(std::span<const Triangle> mesh) {
+  const std::vector<std::size_t> number = part_numbers(mesh);
   std::vector<std::size_t> first;
-  for (std::uint32_t k = 0; k < number.size(); k += 3)
-    if (find(k) == k) first.push_back(k / 3);
+  for (std::size_t t = 0; t < number.size(); ++t)
+    if (number[t] == t) first.push_back(t);
   return first;
 }
 

@@ -28,11 +28,21 @@ std::string who(std::size_t number, const std::string& name) {
   return "body " + std::to_string(number) + (name.empty() ? "" : " '" + name + "'");
 }
 
-/// A root without geometry, and one link with the mesh that turns against it: as far as hierarchies know, it is free.
-std::shared_ptr<const Robot> shape_of(std::shared_ptr<const TriangleMesh> mesh) {
+/// A root without geometry, and one link with the shape that turns against it: as far as hierarchies know, it is free.
+std::shared_ptr<const Robot> robot_of(const Shape& shape, const Tessellation& tessellation) {
   RobotDescription description{"body", {{"ground"}, {"body"}}, {{"pose", JointType::continuous, "ground", "body"}}};
-  description.links[1].geometry.push_back({MeshShape{std::move(mesh)}});
-  return std::make_shared<const Robot>(std::move(description));
+  description.links[1].geometry.push_back({shape});
+  return std::make_shared<const Robot>(std::move(description), tessellation);
+}
+
+/// Around all triangles, radii included.
+Aabb box_of(const Robot& robot) {
+  Aabb box;
+  for (std::size_t i = 0; i < robot.model().size(); ++i) {
+    const Aabb bounds = robot.model().primitives()[i].bounds();
+    box.extend(robot.radii().empty() ? bounds : bounds.inflated(robot.radii()[i]));
+  }
+  return box;
 }
 
 }  // namespace
@@ -44,20 +54,50 @@ Environment::Environment(double clearance, std::string engine) : clearance_(clea
     throw ModelError("engine '" + engine_ + "': expected wide, lazy or brute");
 }
 
-BodyId Environment::add(std::shared_ptr<const TriangleMesh> mesh, const Pose& pose, std::string name) {
+BodyId Environment::add(const Shape& shape, const Pose& pose, std::string name, const Tessellation& tessellation) {
   const std::string label = who(bodies_.size(), name);
-  const std::string problem = problem_of(MeshShape{mesh});
+  const std::string problem = problem_of(shape);
   if (!problem.empty()) throw ModelError(label + ": " + problem);
   if (!is_rigid(pose)) throw ModelError(label + ": its pose is " + std::string(not_rigid));
-  Aabb local;
-  for (const Triangle& triangle : mesh->triangles) local.extend(triangle.bounds());
-  std::shared_ptr<const Robot> shape = shape_of(std::move(mesh));
+  std::shared_ptr<const Robot> robot;
+  try {
+    robot = robot_of(shape, tessellation);
+  } catch (const ModelError& error) {
+    throw ModelError(label + ": " + error.what());
+  }
   AnyHierarchy hierarchy = make_hierarchy(
-      engine_, shape->model(), LinkPairFilter(*shape, LinkPairs(shape->link_count())), LinkMargins(*shape, clearance_));
-  Body body{std::move(name), std::move(shape), std::move(hierarchy), pose, local};
+      engine_, robot->model(), LinkPairFilter(*robot, LinkPairs(robot->link_count())), LinkMargins(*robot, clearance_));
+  const Aabb local = box_of(*robot);
+  Body body{std::move(name), std::move(robot), std::move(hierarchy), pose, local};
   place(body, pose);
   bodies_.emplace_back(std::move(body));
   return BodyId{static_cast<std::uint32_t>(bodies_.size() - 1)};
+}
+
+void Environment::allow(BodyId body, const std::shared_ptr<const Robot>& robot, const std::vector<LinkId>& links) {
+  Body& touched = at(body);
+  const std::string label = who(static_cast<std::size_t>(body), touched.name);
+  if (robot == nullptr) throw ModelError(label + ": expected a robot whose links may touch it, got none");
+  for (const LinkId link : links)
+    if (index(link) == 0 || index(link) >= robot->link_count())
+      throw ModelError(label + ": may touch link " + std::to_string(index(link)) + ", but robot '" + robot->name() +
+                       "' has links 1 to " + std::to_string(robot->link_count() - 1));
+  auto known = std::find_if(touched.allowed.begin(), touched.allowed.end(),
+                            [&](const Allowed& allowed) { return allowed.robot == robot; });
+  if (known == touched.allowed.end())
+    known = touched.allowed.insert(known, {robot, std::vector<bool>(robot->link_count(), false)});
+  for (const LinkId link : links) known->may_touch[index(link)] = true;
+}
+
+std::vector<bool> Environment::may_touch(const Body& body, const Robot& robot) {
+  std::vector<bool> links;
+  if (held_by(body, &robot)) links = body.attachment->may_touch;
+  for (const Allowed& allowed : body.allowed) {
+    if (allowed.robot.get() != &robot) continue;
+    links.resize(robot.link_count(), false);
+    for (std::size_t l = 0; l < links.size(); ++l) links[l] = links[l] || allowed.may_touch[l];
+  }
+  return links;
 }
 
 void Environment::remove(BodyId body) {

@@ -4,13 +4,17 @@
 #include "hinge/robotics/path_checker.hpp"
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <string>
 #include <utility>
 
+#include "find_inside.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 #include "hinge/motion/check_sampled.hpp"
+#include "hinge/query/collectors.hpp"
 #include "hinge/robotics/environment.hpp"
 #include "hinge/robotics/link_pairs.hpp"
 #include "hinge/robotics/robot_checker.hpp"
@@ -27,6 +31,29 @@ struct PathChecker::Scene {
 };
 
 namespace {
+
+/// A hierarchy whose yes/no query also sees what lies inside solids.
+struct WithInsides {
+  RobotHierarchy<Wide>& surfaces;
+  const SolidPairs& pairs;
+  const Robot& robot;
+  std::vector<std::array<double, 3>> scratch{};
+
+  std::size_t dof_count() const noexcept { return surfaces.dof_count(); }
+  void update(std::span<const double> q) { surfaces.update(q); }
+  template <class C>
+  void self_query(C& collector) {
+    surfaces.self_query(collector);
+    if (!collector.done()) add_insides(collector);
+  }
+  template <class C>
+  void add_insides(C& collector) {
+    pairs.find(surfaces, robot, scratch, [&](const Inside& inside) {
+      collector.add(inside.hit(surfaces.matrix().clearance(inside.outer, inside.inner)));
+      return collector.done();
+    });
+  }
+};
 
 std::vector<LinkOrBody> own_links(const Robot& robot) {
   std::vector<LinkOrBody> owners;
@@ -46,9 +73,7 @@ std::string new_name(const Robot& robot, std::size_t number) {
 
 PathChecker::Scene PathChecker::with_bodies(const RobotChecker& checker, const Environment& environment) {
   const Robot& alone = checker.robot();
-  const auto held_by_this = [&](const Environment::Body& body) {
-    return body.attachment && body.attachment->robot == checker.shared_robot();
-  };
+  const auto held_by_this = [&](const Environment::Body& body) { return Environment::held_by(body, &alone); };
   const std::vector<BodyId> bodies = environment.bodies();
   std::vector<LinkOrBody> owners = own_links(alone);
   RobotDescription description = alone.description();
@@ -80,8 +105,9 @@ PathChecker::Scene PathChecker::with_bodies(const RobotChecker& checker, const E
   const auto link_of = [&](std::size_t k) { return id<LinkId>(alone.link_count() + k); };
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     const Environment::Body& body = environment.at(bodies[k]);
+    const std::vector<bool> may_touch = Environment::may_touch(body, alone);
     for (std::size_t l = 1; l < alone.link_count(); ++l)
-      if (alone.triangle_count(id<LinkId>(l)) > 0 && !(held_by_this(body) && body.attachment->may_touch[l]))
+      if (alone.triangle_count(id<LinkId>(l)) > 0 && (may_touch.empty() || !may_touch[l]))
         test(id<LinkId>(l), link_of(k), std::max(own, environment.clearance()));
     for (std::size_t other = 0; other < k; ++other)
       if (held_by_this(body) || held_by_this(environment.at(bodies[other])))
@@ -114,6 +140,7 @@ PathChecker::PathChecker(Scene scene)
       owners_(std::move(scene.owners)),
       always_(scene.always),
       hierarchy_(robot_->model(), LinkPairFilter(*robot_, std::move(scene.tested)), std::move(scene.margins)),
+      solid_pairs_(std::make_shared<const SolidPairs>(hierarchy_, *robot_, hierarchy_.filter().tested())),
       certified_(hierarchy_) {}
 
 PathContact PathChecker::contact(const Hit& hit) const {
@@ -143,13 +170,24 @@ RobotPathAnswer PathChecker::answer(std::span<const double> from, std::span<cons
 
 RobotPathAnswer PathChecker::certify(std::span<const double> from, std::span<const double> to, double smallest_step) {
   return answer(from, to, [&](const std::vector<double>& a, const std::vector<double>& b) {
-    return certified_.check(a, b, smallest_step);
+    // While surfaces stay apart nothing gets into a solid or out of it: what is not inside at the start never is.
+    PathAnswer at_start;
+    hierarchy_.update(a);
+    AnyHit inside;
+    WithInsides{hierarchy_, *solid_pairs_, *robot_}.add_insides(inside);
+    if (!inside.done()) return certified_.check(a, b, smallest_step);
+    at_start.verdict = PathVerdict::colliding;
+    at_start.counts.configurations = 1;
+    at_start.configuration = a;
+    at_start.hit = inside.hit();
+    return at_start;
   });
 }
 
 RobotPathAnswer PathChecker::sample(std::span<const double> from, std::span<const double> to, double resolution) {
   return answer(from, to, [&](const std::vector<double>& a, const std::vector<double>& b) {
-    return check_sampled(hierarchy_, a, b, resolution);
+    WithInsides scene{hierarchy_, *solid_pairs_, *robot_};
+    return check_sampled(scene, a, b, resolution);
   });
 }
 

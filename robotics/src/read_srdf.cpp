@@ -180,21 +180,37 @@ Srdf read_srdf(const std::filesystem::path& path, const Robot& robot, UnknownLin
   return SrdfReader(path, robot, unknown).read();
 }
 
-void read_link_pairs(const std::filesystem::path& path, const Robot& robot, LinkPairs& pairs) {
+std::vector<NamedPair> read_named_pairs(const std::filesystem::path& path) {
+  std::vector<NamedPair> pairs;
   std::istringstream in(read_file(path));
   int number = 0;
   for (std::string line; std::getline(in, line);) {
-    const std::string where = path.string() + ":" + std::to_string(++number) + ": ";
-    std::istringstream words(line.substr(0, line.find('#')));
-    std::vector<LinkId> links;
-    for (std::string name; words >> name;) {
-      const auto link = robot.find_link(name);
-      if (!link) throw LoadError(where + "link '" + name + "' is none of robot '" + robot.name() + "'");
-      links.push_back(*link);
-    }
-    if (links.empty()) continue;
-    if (links.size() != 2) throw LoadError(where + std::to_string(links.size()) + " names, expected two links");
-    pairs.insert(links[0], links[1]);
+    ++number;
+    line.resize(std::min(line.find('#'), line.size()));
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream words(line);
+    std::vector<std::string> names;
+    for (std::string name; words >> name;) names.push_back(name);
+    if (names.empty()) continue;
+    if (names.size() != 2)
+      throw LoadError(path.string() + ":" + std::to_string(number) + ": " + std::to_string(names.size()) +
+                      " names, expected two");
+    pairs.push_back({names[0], names[1], number});
+  }
+  return pairs;
+}
+
+void read_link_pairs(const std::filesystem::path& path, const Robot& robot, LinkPairs& pairs) {
+  for (const NamedPair& pair : read_named_pairs(path)) {
+    const auto link = [&](const std::string& name) {
+      const auto found = robot.find_link(name);
+      if (!found)
+        throw LoadError(path.string() + ":" + std::to_string(pair.line) + ": link '" + name + "' is none of robot '" +
+                        robot.name() + "'");
+      return *found;
+    };
+    const LinkId first = link(pair.first);
+    pairs.insert(first, link(pair.second));
   }
 }
 

@@ -8,8 +8,11 @@
 #include <utility>
 
 #include "check_description.hpp"
+#include "hinge/bounds/aabb.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
+#include "hinge/robotics/containment.hpp"
+#include "solids.hpp"
 
 namespace hinge::robotics {
 
@@ -26,6 +29,24 @@ Joint core_joint(const JointDescription& joint) {
 }
 
 bool has_no_area(const Triangle& t) { return squared_norm(cross(Vec3(t.b - t.a), Vec3(t.c - t.a))) == 0.0; }
+
+/// Does the inside of the shape count? Not where triangles have a radius: those are solid by themselves.
+bool is_solid(const Shape& shape, const Surface& surface) {
+  const auto* mesh = std::get_if<MeshShape>(&shape);
+  return surface.radius == 0.0 && (mesh == nullptr || mesh->solid);
+}
+
+/// `first`: the surface's first triangle in the model.
+Solid solid_of(LinkId link, std::size_t first, const Surface& surface, const Pose& origin) {
+  Aabb box;
+  for (const Triangle& triangle : surface.triangles) box.extend(triangle.bounds());
+  Solid solid{link, first, surface.triangles.size(), origin};
+  const Vec3 middle(box.middle(0), box.middle(1), box.middle(2));
+  solid.frame.translation = origin * middle;
+  for (int k = 0; k < 3; ++k) solid.half[k] = std::max(box.upper[k] - middle[k], middle[k] - box.lower[k]);
+  solid.radius = norm(solid.half);
+  return solid;
+}
 
 /// Positions of the joints so that each stands behind the one that places its parent link; no order changed needlessly.
 std::vector<std::size_t> parents_first(const RobotDescription& robot, std::string_view root) {
@@ -70,6 +91,8 @@ void Robot::build() {
   constexpr std::size_t most_tessellated = 1'000'000;
   std::size_t tessellated = 0;
   ModelBuilder<Triangle> builder;
+  std::size_t triangle_count = 0;
+  std::vector<Solid> solids;
   link_names_ = {""};
   triangle_counts_ = {0};
   std::map<std::string_view, LinkId> ids;
@@ -85,6 +108,13 @@ void Robot::build() {
         throw ModelError("link '" + link.name + "': with it the shapes take more than " +
                          std::to_string(most_tessellated) +
                          " triangles; allow a larger error of tessellation, or give meshes");
+      if (is_solid(placed.shape, surface)) {
+        const bool is_mesh = std::holds_alternative<MeshShape>(placed.shape);
+        if (const auto open = is_mesh ? open_edge(surface.triangles) : std::nullopt)
+          throw ModelError("link '" + link.name + "': a mesh that is to be solid is not closed: " + open->text());
+        solids.push_back(solid_of(added, triangle_count, surface, placed.origin));
+      }
+      triangle_count += surface.triangles.size();
       for (const Triangle& triangle : surface.triangles) {
         degenerate_count_ += surface.radius == 0.0 && has_no_area(triangle) ? 1U : 0U;
         builder.add_primitive(added, placed.origin == Pose{} ? triangle : triangle.placed(placed.origin));
@@ -100,6 +130,7 @@ void Robot::build() {
     add(ids.at(joint.parent), core_joint(joint), *links.at(joint.child));
   }
   model_ = builder.finish();
+  solids_ = std::make_shared<const Solids>(*model_, std::move(solids));
   if (std::all_of(radii_.begin(), radii_.end(), [](double radius) { return radius == 0.0; })) radii_.clear();
 }
 

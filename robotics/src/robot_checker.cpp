@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The state of a robot, and queries about itself and another robot.
+// The state of a robot, and queries about itself.
 #include "hinge/robotics/robot_checker.hpp"
 
 #include <algorithm>
@@ -8,7 +8,12 @@
 
 #include "between.hpp"
 #include "closeness.hpp"
+#include "contacts.hpp"
+#include "find_inside.hpp"
 #include "hinge/core/error.hpp"
+#include "hinge/kinematics/dof_selection.hpp"
+#include "hinge/kinematics/joint.hpp"
+#include "hinge/kinematics/rigid_groups.hpp"
 #include "hinge/query/collectors.hpp"
 
 namespace hinge::robotics {
@@ -36,10 +41,6 @@ Model<Triangle> free_model(const Model<Triangle>& model) {
   return builder.finish();
 }
 
-ClosestLinks answer(LinkId link1, LinkId link2, const Hit& hit, const Closeness& found) {
-  return {link1, link2, hit.first, hit.second, found.distance, found.gap, found.point1, found.point2};
-}
-
 /// Of the triangles of every link, in the link's frame, radii included.
 std::vector<Aabb> local_boxes_of(const Robot& robot, const LinkMargins& margins) {
   std::vector<Aabb> boxes(robot.link_count());
@@ -63,7 +64,14 @@ RobotChecker::RobotChecker(std::shared_ptr<const Robot> robot, LinkPairs tested,
       full_(robot_->model().tree().dof_count()),
       link_hits_(robot_->model().links()),
       local_boxes_(std::make_shared<const std::vector<Aabb>>(local_boxes_of(*robot_, margins_))) {
+  find_solid_pairs();
   update(std::vector<double>(robot_->independent_joints().size(), 0.0));
+}
+
+void RobotChecker::find_solid_pairs() {
+  solid_pairs_ = std::visit(
+      [&](const auto& hierarchy) { return std::make_shared<const SolidPairs>(hierarchy, *robot_, filter_.tested()); },
+      *hierarchy_);
 }
 
 void RobotChecker::update(std::span<const double> independent) {
@@ -101,6 +109,7 @@ void RobotChecker::set_base(const Pose& base) {
     place(hierarchy, base, kinematics);
     hierarchy_ = std::move(hierarchy);
     kinematics_ = std::move(kinematics);
+    find_solid_pairs();
   } else {
     place(*hierarchy_, base, *kinematics_);
   }
@@ -131,11 +140,31 @@ void RobotChecker::learn_order() {
   std::visit([](auto& hierarchy) { hierarchy.learn_order(); }, *hierarchy_);
 }
 
+template <class Found>
+bool RobotChecker::find_insides(const Found& found) {
+  return std::visit([&](auto& hierarchy) { return solid_pairs_->find(hierarchy, *robot_, solid_centres_, found); },
+                    *hierarchy_);
+}
+
+bool RobotChecker::any_inside() {
+  return find_insides([](const Inside&) { return true; });
+}
+
 bool RobotChecker::collides() {
-  return std::visit([](auto& hierarchy) { return hierarchy.self_collides(); }, *hierarchy_);
+  return std::visit([](auto& hierarchy) { return hierarchy.self_collides(); }, *hierarchy_) || any_inside();
 }
 
 std::vector<LinkContact> RobotChecker::within(double margin) {
+  std::vector<LinkContact> contacts = surfaces_within(margin);
+  find_insides([&](const Inside& inside) {
+    const auto [a, b] = std::minmax(inside.outer, inside.inner);
+    put_contact(contacts, {a, b, inside.hit(margins_.clearance(a, b))});
+    return false;
+  });
+  return contacts;
+}
+
+std::vector<LinkContact> RobotChecker::surfaces_within(double margin) {
   check_margin(margin);
   const auto ask = [&](LinkPairHits& found) {
     std::visit([&](auto& hierarchy) { hierarchy.self_query(found); }, *hierarchy_);
@@ -156,7 +185,7 @@ std::vector<Hit> RobotChecker::triangle_pairs() {
   return std::visit([](auto& hierarchy) { return hierarchy.self_collisions(); }, *hierarchy_);
 }
 
-std::optional<ClosestLinks> RobotChecker::closest() {
+std::optional<ClosestLinks> RobotChecker::closest_surfaces(AnyHierarchy& any) {
   const std::span<const LinkId> links = robot_->model().links();
   return std::visit(
       [&](auto& hierarchy) -> std::optional<ClosestLinks> {
@@ -165,16 +194,68 @@ std::optional<ClosestLinks> RobotChecker::closest() {
         Closeness found = measure(hierarchy, hierarchy, *hit, margins_.sum(hit->first, hit->second));
         if (!found.collides) {
           // By rounding another pair that is a hit may stand a hair behind.
-          AnyHit any;
-          hierarchy.self_query(any);
-          if (any.done()) {
-            hit = any.hit();
+          AnyHit meeting;
+          hierarchy.self_query(meeting);
+          if (meeting.done()) {
+            hit = meeting.hit();
             found = measure(hierarchy, hierarchy, *hit, margins_.sum(hit->first, hit->second));
           }
         }
         return answer(links[index(hit->first)], links[index(hit->second)], *hit, found);
       },
-      *hierarchy_);
+      any);
+}
+
+/// The same asked in the frame of the first link's rigid group: none where the answer would be no better, or another.
+std::optional<ClosestLinks> RobotChecker::closest_nearby(const ClosestLinks& found) {
+  constexpr double far_away = 256.0;  // costs that many half ulps
+  double size = found.distance, place = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    place = std::max({place, std::abs(found.point1[k]), std::abs(found.point2[k])});
+    for (const LinkId link : {found.link1, found.link2}) {
+      const Aabb& box = (*local_boxes_)[index(link)];
+      size = std::max({size, std::abs(box.lower[k]), std::abs(box.upper[k])});
+    }
+  }
+  if (!(place > far_away * size)) return {};
+  const KinematicTree& tree = robot_->model().tree();
+  const RigidGroups groups(tree, DofSelection::all(tree));
+  const auto in_parent = [&](GroupId group) {
+    const RigidGroup& g = groups[group];
+    return g.joint.origin * motion(g.joint, full_[g.dof]);
+  };
+  // From the group up to the root, then down to all the others: what both have above them has no part in it.
+  const GroupId anchor = groups.group_of(found.link1);
+  std::vector<std::optional<Pose>> relative(groups.size());
+  relative[index(anchor)] = Pose{};
+  for (GroupId g = anchor; index(g) != 0; g = groups[g].parent)
+    relative[index(groups[g].parent)] = *relative[index(g)] * in_parent(g).inverse();
+  for (std::size_t g = 1; g < groups.size(); ++g)
+    if (!relative[g]) relative[g] = *relative[index(groups[id<GroupId>(g)].parent)] * in_parent(id<GroupId>(g));
+  std::vector<Pose> poses{Pose{}};
+  for (const std::optional<Pose>& pose : relative) poses.push_back(*pose);
+  if (!nearby_) nearby_ = make_hierarchy(engine_, free_model(robot_->model()), filter_, margins_);
+  std::visit([&](auto& hierarchy) { hierarchy.update_poses(poses); }, *nearby_);
+  std::optional<ClosestLinks> closer = closest_surfaces(*nearby_);
+  // Verdicts are those of the world's coordinates.
+  if (!closer || closer->collides() != found.collides() || (closer->distance > 0.0) != (found.distance > 0.0))
+    return {};
+  const Pose world_pose = link_pose(found.link1) * groups.link_in_group(found.link1).inverse();
+  closer->point1 = world_pose * closer->point1;
+  closer->point2 = world_pose * closer->point2;
+  return closer;
+}
+
+std::optional<ClosestLinks> RobotChecker::closest() {
+  std::optional<ClosestLinks> best = closest_surfaces(*hierarchy_);
+  if (best)
+    if (const auto nearby = closest_nearby(*best)) best = nearby;
+  find_insides([&](const Inside& inside) {
+    const auto [a, b] = std::minmax(inside.outer, inside.inner);
+    take_closer(best, {a, b, inside.hit(margins_.clearance(a, b))}, inside.point);
+    return false;
+  });
+  return best;
 }
 
 Verdict RobotChecker::check(std::span<const double> independent, const Mode& mode) {
@@ -188,6 +269,7 @@ Verdict RobotChecker::check(std::span<const double> independent, const Mode& mod
       break;
     case Mode::Kind::within:
       verdict.pairs = within(mode.margin);
+      verdict.distances = distances(mode.margin);
       // A margin may list pairs that do not collide; the verdict is the strict rule's.
       verdict.collides = collides();
       break;
@@ -197,31 +279,6 @@ Verdict RobotChecker::check(std::span<const double> independent, const Mode& mod
       break;
   }
   return verdict;
-}
-
-bool RobotChecker::collides(RobotChecker& other) {
-  const std::vector<double> more = filling(*hierarchy_, margins_.clearance(), other.margins_.clearance());
-  return with_same_engine(*hierarchy_, *other.hierarchy_, [&](auto& mine, auto& theirs) {
-    return mine.collides(theirs, AdmitAll{}, {false, more});
-  });
-}
-
-std::vector<LinkContact> RobotChecker::within(RobotChecker& other, double margin) {
-  check_margin(margin);
-  const std::vector<double> more = filling(*hierarchy_, margins_.clearance(), other.margins_.clearance());
-  return with_same_engine(*hierarchy_, *other.hierarchy_, [&](auto& mine, auto& theirs) {
-    return links_within(mine, theirs, margin, AdmitAll{}, {false, more});
-  });
-}
-
-std::optional<ClosestLinks> RobotChecker::closest(RobotChecker& other) {
-  const std::vector<double> more = filling(*hierarchy_, margins_.clearance(), other.margins_.clearance());
-  return with_same_engine(*hierarchy_, *other.hierarchy_, [&](auto& mine, auto& theirs) -> std::optional<ClosestLinks> {
-    const auto found = closest_between(mine, margins_, theirs, other.margins_, AdmitAll{}, {false, more});
-    if (!found) return {};
-    return answer(robot_->model().links()[index(found->first.first)],
-                  other.robot_->model().links()[index(found->first.second)], found->first, found->second);
-  });
 }
 
 }  // namespace hinge::robotics

@@ -43,7 +43,7 @@ std::span<const Triangle> RobotChecker::placed(LinkId link) {
 
 std::vector<LinkContainment> RobotChecker::contained() {
   std::set<std::pair<LinkId, LinkId>> colliding;
-  for (const LinkContact& contact : colliding_links()) colliding.emplace(contact.link1, contact.link2);
+  for (const LinkContact& contact : surfaces_within(0.0)) colliding.emplace(contact.link1, contact.link2);
   std::vector<LinkContainment> found;
   const auto look = [&](LinkId outer, LinkId inner) {
     if (topology().is_closed[index(outer)] == 0) return;
@@ -64,13 +64,14 @@ std::vector<LinkContainment> RobotChecker::contained() {
 
 std::vector<BodyContainment> RobotChecker::contained(Environment& environment) {
   std::set<std::tuple<std::optional<BodyId>, LinkId, BodyId>> colliding;
-  for (const BodyContact& contact : collisions(environment))
+  const std::vector<BodyPair> pairs = body_pairs(environment, 0.0);
+  for (const BodyContact& contact : surfaces_within(environment, pairs, 0.0))
     colliding.emplace(contact.held, contact.link, contact.body);
   const auto placed_body = [](Environment::Body& body) {
     return std::visit([](auto& hierarchy) { return hierarchy.placed(); }, body.hierarchy);
   };
   std::vector<BodyContainment> found;
-  for (const BodyPair& pair : body_pairs(environment, 0.0)) {
+  for (const BodyPair& pair : pairs) {
     const Environment::Topology& of_body = Environment::topology(*pair.body);
     /// `first`: of the link or the body held; `pair.body` is the other.
     const auto look = [&](BodyContainment which, std::span<const Triangle> first, std::span<const std::size_t> parts,
@@ -94,7 +95,7 @@ std::vector<BodyContainment> RobotChecker::contained(Environment& environment) {
     const std::span<const Aabb> boxes = link_boxes();
     for (std::size_t l = 1; l < robot_->link_count(); ++l) {
       const LinkId link = id<LinkId>(l);
-      const bool is_tested = robot_->triangle_count(link) > 0 && (pair.may_touch == nullptr || !(*pair.may_touch)[l]);
+      const bool is_tested = robot_->triangle_count(link) > 0 && pair.tests(l);
       if (is_tested && overlap(boxes[l], pair.body->box))
         look({link, {}, pair.body_id}, placed(link), topology().parts[l], topology().is_closed[l] != 0);
     }

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "body_insides.hpp"
 #include "body_pairs.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/robotics/environment.hpp"
@@ -35,14 +36,11 @@ std::vector<RobotChecker::BodyPair> RobotChecker::body_pairs(Environment& enviro
   if (environment.engine() != engine_)
     throw ModelError("the environment was made for engine '" + environment.engine() + "', the robot uses '" + engine_ +
                      "'");
-  const auto held_by_this = [&](const Environment::Body& body) {
-    return body.attachment && body.attachment->robot == robot_;
-  };
   std::vector<BodyPair> bodies;
   for (const BodyId name : environment.bodies()) {
     Environment::Body& body = environment.at(name);
-    bodies.push_back({nullptr, {}, &body, name, held_by_this(body) ? &body.attachment->may_touch : nullptr});
-    if (bodies.back().may_touch == nullptr) continue;
+    bodies.push_back({nullptr, {}, &body, name, Environment::may_touch(body, *robot_)});
+    if (!Environment::held_by(body, robot_.get())) continue;
     const Pose pose = link_pose(body.attachment->link) * body.attachment->in_link;
     if (!(pose == body.pose)) Environment::place(body, pose);
   }
@@ -53,20 +51,20 @@ std::vector<RobotChecker::BodyPair> RobotChecker::body_pairs(Environment& enviro
   for (BodyPair pair : bodies) {
     pair.lower = infinity;
     for (std::size_t l = 1; l < local_boxes_->size(); ++l)
-      if (!(*local_boxes_)[l].is_empty() && (pair.may_touch == nullptr || !(*pair.may_touch)[l]))
+      if (!(*local_boxes_)[l].is_empty() && pair.tests(l))
         pair.lower = std::min(pair.lower, separation(boxes[l], pair.body->box) - clearance);
     if (!(pair.lower > margin)) pairs.push_back(pair);
   }
   for (const BodyPair& held : bodies) {
-    if (held.may_touch == nullptr) continue;
+    if (!Environment::held_by(*held.body, robot_.get())) continue;
     for (BodyPair pair : bodies) {
       // Two bodies held are one pair; on one rigid group they never move apart.
-      if (pair.may_touch != nullptr &&
+      if (Environment::held_by(*pair.body, robot_.get()) &&
           (pair.body_id <= held.body_id || pair.body->attachment->group == held.body->attachment->group))
         continue;
       pair.held = held.body;
       pair.held_id = held.body_id;
-      pair.may_touch = nullptr;
+      pair.may_touch.clear();
       pair.lower = separation(held.body->box, pair.body->box) - environment.clearance();
       if (!(pair.lower > margin)) pairs.push_back(pair);
     }
@@ -83,13 +81,35 @@ void RobotChecker::learn_order(Environment& environment) {
 
 bool RobotChecker::collides(Environment& environment) {
   const std::vector<BodyPair> pairs = body_pairs(environment, 0.0);
-  return std::any_of(pairs.begin(), pairs.end(), [&](const BodyPair& pair) { return ask(pair, environment, any_hit); });
+  const auto meets = [&](const BodyPair& pair) { return ask(pair, environment, any_hit); };
+  const auto any = [](const BodyContact&, const Vec3&) { return true; };
+  return std::any_of(pairs.begin(), pairs.end(), meets) ||
+         std::any_of(pairs.begin(), pairs.end(), [&](const BodyPair& p) { return find_insides(p, environment, any); });
 }
 
 std::vector<BodyContact> RobotChecker::within(Environment& environment, double margin) {
   check_margin(margin);
+  const std::vector<BodyPair> pairs = body_pairs(environment, margin);
+  std::vector<BodyContact> contacts = surfaces_within(environment, pairs, margin);
+  const auto order = [](const BodyContact& c) { return std::tie(c.held, c.link, c.body); };
+  for (const BodyPair& pair : pairs)
+    find_insides(pair, environment, [&](const BodyContact& contact, const Vec3&) {
+      const auto at = std::lower_bound(contacts.begin(), contacts.end(), contact,
+                                       [&](const auto& x, const auto& y) { return order(x) < order(y); });
+      if (at != contacts.end() && order(*at) == order(contact)) {
+        *at = contact;
+      } else {
+        contacts.insert(at, contact);
+      }
+      return false;
+    });
+  return contacts;
+}
+
+std::vector<BodyContact> RobotChecker::surfaces_within(const Environment& environment,
+                                                       const std::vector<BodyPair>& pairs, double margin) {
   std::vector<BodyContact> contacts;
-  for (const BodyPair& pair : body_pairs(environment, margin)) {
+  for (const BodyPair& pair : pairs) {
     const std::vector<LinkContact> found =
         ask(pair, environment, [&](auto& mine, auto& theirs, const auto& filter, const QueryOptions& options) {
           return links_within(mine, theirs, margin, filter, options);
@@ -115,10 +135,9 @@ std::optional<ClosestBody> RobotChecker::closest(Environment& environment) {
     if (best && pair.lower > best->gap) break;
     // Yes or no first: is any pair closer than the best? Most often not, and that is soon said.
     if (best && !ask(pair, environment, any_hit, std::max(best->gap, 0.0))) continue;
-    const LinkMargins of_body(*pair.body->shape, environment.clearance());  // of every body: none is grown
     const auto found =
         ask(pair, environment, [&](auto& mine, auto& theirs, const auto& filter, const QueryOptions& options) {
-          return closest_between(mine, pair.held == nullptr ? margins_ : of_body, theirs, of_body, filter, options);
+          return closest_between(mine, mine.matrix(), theirs, theirs.matrix(), filter, options);
         });
     if (!found) continue;
     const auto& [hit, numbers] = *found;
@@ -134,6 +153,16 @@ std::optional<ClosestBody> RobotChecker::closest(Environment& environment) {
     best->gap = numbers.gap;
     best->point1 = numbers.point1;
     best->point2 = numbers.point2;
+  }
+  for (const BodyPair& pair : pairs) {
+    if (pair.lower > 0.0) break;  // what lies inside shares points
+    find_insides(pair, environment, [&](const BodyContact& contact, const Vec3& point) {
+      const double gap = -contact.hit.threshold;
+      if (!best || std::pair(gap, 0.0) < std::pair(best->gap, best->distance))
+        best = ClosestBody{contact.link, contact.held, contact.body, contact.hit.first, contact.hit.second, 0.0,
+                           gap,          point,        point};
+      return false;
+    });
   }
   return best;
 }

@@ -15,6 +15,7 @@
 #include "fit_capsule.hpp"
 #include "fit_spheres.hpp"
 #include "hinge/core/error.hpp"
+#include "hinge/robotics/containment.hpp"
 #include "hinge/robotics/tessellate.hpp"
 
 namespace hinge::robotics {
@@ -44,7 +45,9 @@ std::vector<PlacedShape> fitted(const std::vector<Triangle>& triangles, Tier tie
   if (tier == Tier::capsule) return {fit_capsule(corners)};
   auto mesh = std::make_shared<TriangleMesh>();
   mesh->triangles = convex_hull(corners);
-  return {{MeshShape{std::move(mesh)}}};
+  MeshShape hull{std::move(mesh)};
+  hull.solid = closed(hull.mesh->triangles);  // flat ones enclose nothing
+  return {{hull}};
 }
 
 void check(const RobotDescription& robot, const Tiers& tiers) {

@@ -392,7 +392,9 @@ PlacedShape cube(double size, const Vec3& at = Vec3::Zero()) {
 
 TEST(Containment, OfLinksIsReportedWhereNothingTouches) {
   RobotDescription description = slider();
-  description.links[0].geometry = {cube(4.0)};
+  auto hollow = std::make_shared<TriangleMesh>();
+  hollow->triangles = tessellate(BoxShape{Vec3::Constant(4.0)}).triangles;
+  description.links[0].geometry = {{MeshShape{hollow}}};
   description.links[2].geometry = {cube(1.0), cube(1.0, {0, 0, 3})};
   for (const std::string engine : {"wide", "lazy", "brute"}) {
     RobotChecker checker = slider_checker(description, 0.0, engine);

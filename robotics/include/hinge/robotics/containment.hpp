@@ -28,7 +28,9 @@ struct OpenEdge {
 std::optional<OpenEdge> open_edge(std::span<const Triangle> mesh);
 inline bool closed(std::span<const Triangle> mesh) { return !open_edge(mesh).has_value(); }
 
-/// One triangle of each part that hangs together by vertices, sorted.
+/// For each triangle the first triangle of its part; triangles that share a vertex are of one part.
+std::vector<std::size_t> part_numbers(std::span<const Triangle> mesh);
+/// The first triangle of each part, sorted.
 std::vector<std::size_t> parts(std::span<const Triangle> mesh);
 
 enum class Place : unsigned char { outside, on_surface, inside };

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Environment: bodies around a robot, each with a mesh of its own, that come and go, move, or hang on a robot's link.
+// Environment: bodies around a robot, each with a shape of its own, that come and go, move, or hang on a robot's link.
 #pragma once
 
 #include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hinge/bounds/aabb.hpp"
@@ -16,6 +17,7 @@
 #include "hinge/robotics/containment.hpp"
 #include "hinge/robotics/robot.hpp"
 #include "hinge/robotics/shape.hpp"
+#include "hinge/robotics/tessellate.hpp"
 
 namespace hinge::robotics {
 
@@ -27,9 +29,16 @@ class Environment {
   /// that will ask, "wide", "lazy" or "brute". Else ModelError.
   explicit Environment(double clearance = 0.0, std::string engine = "wide");
 
-  /// The mesh is in the body's own frame. ModelError, naming the body: no triangles, a vertex that is not finite, a
-  /// pose that is not rigid. The name is for messages and reports, may be empty, and need not be unique.
-  BodyId add(std::shared_ptr<const TriangleMesh> mesh, const Pose& pose = {}, std::string name = {});
+  /// The shape is in the body's own frame. Boxes, spheres, cylinders, capsules and solid meshes are solid, as those of
+  /// links are. ModelError, naming the body: what tessellate() refuses, a solid mesh that is open, a pose that is not
+  /// rigid. The name is for messages and reports, may be empty, and need not be unique.
+  BodyId add(const Shape& shape, const Pose& pose = {}, std::string name = {}, const Tessellation& tessellation = {});
+  BodyId add(std::shared_ptr<const TriangleMesh> mesh, const Pose& pose = {}, std::string name = {}) {
+    return add(Shape(MeshShape{std::move(mesh)}), pose, std::move(name));
+  }
+  /// These links of the robot may touch the body from now on: the base that stands on it, say. ModelError: a link the
+  /// robot does not have.
+  void allow(BodyId body, const std::shared_ptr<const Robot>& robot, const std::vector<LinkId>& links);
   void remove(BodyId body);
 
   /// ConfigurationError, naming the body: not a rigid placement, or the body hangs on a link. The old pose is kept.
@@ -67,6 +76,10 @@ class Environment {
     std::vector<bool> may_touch;  // by link
     GroupId group{};              // of the link
   };
+  struct Allowed {
+    std::shared_ptr<const Robot> robot;
+    std::vector<bool> may_touch;  // by link
+  };
   struct Topology {
     std::optional<OpenEdge> open;
     std::vector<std::size_t> parts;
@@ -76,13 +89,22 @@ class Environment {
     std::shared_ptr<const Robot> shape;  // a root without geometry, and one link that is free against it
     AnyHierarchy hierarchy;
     Pose pose{};
-    Aabb local{};  // around the mesh, in the body's frame
-    Aabb box{};    // around the placed mesh
+    Aabb local{};  // around the shape, in the body's frame
+    Aabb box{};    // around the placed shape
     std::optional<Attachment> attachment{};
+    std::vector<Allowed> allowed{};                      // by robot
     mutable std::shared_ptr<const Topology> topology{};  // found when first asked for
   };
   Body& at(BodyId body);
   const Body& at(BodyId body) const;
+  /// The link of a body's shape that has the triangles.
+  static constexpr LinkId body_link{2};
+  /// Does the body hang on this robot?
+  static bool held_by(const Body& body, const Robot* robot) noexcept {
+    return body.attachment && body.attachment->robot.get() == robot;
+  }
+  /// By link of the robot: may it touch the body? Empty: none may.
+  static std::vector<bool> may_touch(const Body& body, const Robot& robot);
   static void place(Body& body, const Pose& pose);
   static const Topology& topology(const Body& body);
 

@@ -23,13 +23,14 @@ namespace hinge::robotics {
 
 class Environment;
 class RobotChecker;
+class SolidPairs;
 
 /// Either of two that come too close: a link of the robot or a body.
 using LinkOrBody = std::variant<LinkId, BodyId>;
 
 struct PathContact {
   LinkOrBody first, second;
-  double distance = 0.0;   ///< of one pair of triangles, radii not taken off, m
+  double distance = 0.0;   ///< of one pair of triangles, radii not taken off, m; 0 where one lies inside the other
   double threshold = 0.0;  ///< radii and clearance, m
 };
 
@@ -48,8 +49,9 @@ struct RobotPathAnswer {
 /// Paths join values of the independent joints, rad or m; followers follow all the way, limits are not looked at. The
 /// checker's pairs and margins decide, and with an environment its clearance; bodies stand where they are when this is
 /// made, those held follow their link, and the robot stays on its base (a base that is not the identity moves the
-/// bodies instead, which rounds). Bodies that touch what never moves against them make every path collide. One per
-/// thread; copies share everything constant.
+/// bodies instead, which rounds). What is solid for RobotChecker is solid here: with no surfaces that meet on the way,
+/// what is outside a solid at the start stays outside. Bodies that touch what never moves against them make every path
+/// collide. One per thread; copies share everything constant.
 class PathChecker {
  public:
   explicit PathChecker(const RobotChecker& checker);
@@ -74,6 +76,7 @@ class PathChecker {
   std::vector<LinkOrBody> owners_;      // by link
   std::optional<PathContact> always_;   // a contact that no joint can change
   RobotHierarchy<Wide> hierarchy_;
+  std::shared_ptr<const SolidPairs> solid_pairs_;
   CertifiedPath<Triangle, LinkPairFilter, LinkMargins, Wide> certified_;
 };
 

@@ -48,8 +48,15 @@ enum class UnknownLinks : std::uint8_t { refused, noted };
 /// value that is not a finite number.
 Srdf read_srdf(const std::filesystem::path& path, const Robot& robot, UnknownLinks unknown = UnknownLinks::refused);
 
-/// Adds the pairs of a text file, two link names a line; `#` starts a comment. LoadError: a line with other than two
-/// names, an unknown link.
+struct NamedPair {
+  std::string first, second;
+  int line = 0;  ///< in the file
+};
+
+/// The pairs of a text file, two names a line, separated by blanks or a comma; `#` starts a comment. LoadError: a line
+/// with other than two names.
+std::vector<NamedPair> read_named_pairs(const std::filesystem::path& path);
+/// Adds them, as names of links. LoadError: also an unknown link.
 void read_link_pairs(const std::filesystem::path& path, const Robot& robot, LinkPairs& pairs);
 
 }  // namespace hinge::robotics

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +17,8 @@
 #include "hinge/robotics/tessellate.hpp"
 
 namespace hinge::robotics {
+
+class Solids;
 
 /// Every movable joint, followers included, is a DOF of the model; the root link is fixed in the world. Metres,
 /// radians. "Joint k" is position k in description().joints.
@@ -39,6 +42,8 @@ class Robot {
   std::size_t triangle_count(LinkId link) const noexcept { return triangle_counts_[index(link)]; }
   /// Radius per triangle, m: spheres and capsules are points and segments grown by it. Empty: all 0.
   std::span<const double> radii() const noexcept { return radii_; }
+  /// Which triangles enclose a solid: for the library's own use.
+  const Solids& solids() const noexcept { return *solids_; }
   /// Triangles of zero area and radius 0, kept as the segments or points they span.
   std::size_t degenerate_count() const noexcept { return degenerate_count_; }
 
@@ -86,6 +91,7 @@ class Robot {
   std::vector<double> lower_, upper_;
   std::vector<Drive> drives_;  // by DOF
   std::optional<Model<Triangle>> model_;
+  std::shared_ptr<const Solids> solids_;
 };
 
 }  // namespace hinge::robotics

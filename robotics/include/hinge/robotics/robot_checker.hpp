@@ -2,6 +2,7 @@
 // RobotChecker: a robot, the pairs of links to test and their margins put together, the engine chosen at run time.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -29,6 +30,8 @@
 namespace hinge::robotics {
 
 class Environment;
+class SolidPairs;
+struct Inside;
 
 using hinge::Mode;
 
@@ -41,6 +44,7 @@ struct CheckOptions {
 struct Verdict {
   bool collides = false;
   std::vector<LinkContact> pairs;
+  std::vector<ClosestLinks> distances;  ///< within: the closest points of each of the pairs, in the same order
   std::optional<ClosestLinks> closest;
 };
 
@@ -66,8 +70,10 @@ struct OpenLink {
   OpenEdge edge;  ///< in the link's frame, m; triangles counted from the link's first
 };
 
-/// Robot queries at one configuration. One per thread; copies share everything constant. Links are the original ones,
-/// those on fixed joints included. Lengths in m, angles in rad. Starts with every independent joint at 0.
+/// Robot queries at one configuration. Meshes are surfaces; boxes, spheres, cylinders, capsules and solid meshes (see
+/// MeshShape) are solid: a link that lies wholly inside one collides, at distance 0. One per thread; copies share
+/// everything constant. Links are the original ones, those on fixed joints included. Lengths in m, angles in rad.
+/// Starts with every independent joint at 0.
 class RobotChecker {
  public:
   /// ModelError: no robot, unknown engine, pairs or margins made for another robot.
@@ -101,9 +107,12 @@ class RobotChecker {
   std::vector<LinkContact> colliding_links() { return within(0.0); }
   /// Pairs of links with d - M < margin, sorted. ConfigurationError: margin not finite or below 0.
   std::vector<LinkContact> within(double margin);
-  /// Every pair of triangles that collides, sorted.
+  /// Every pair of triangles that collides, sorted. What lies inside a solid has none.
   std::vector<Hit> triangle_pairs();
-  /// The pair with the smallest d - M; none when no pair is tested.
+  /// The same pairs of links, each with its smallest d - M.
+  std::vector<ClosestLinks> distances(double margin);
+  /// The pair with the smallest d - M; none when no pair is tested. Far from the world's origin (behind a long slide,
+  /// say) distances are computed in the frame of one of the two links, so that they keep their digits.
   std::optional<ClosestLinks> closest();
 
   /// update() and the queries of a mode.
@@ -118,6 +127,7 @@ class RobotChecker {
   /// Pairs of link and body (first links, then held bodies; each sorted).
   std::vector<BodyContact> collisions(Environment& environment) { return within(environment, 0.0); }
   std::vector<BodyContact> within(Environment& environment, double margin);
+  std::vector<ClosestBody> distances(Environment& environment, double margin);
   std::optional<ClosestBody> closest(Environment& environment);
 
   // --- against another robot, each at its base; link1 of this one, link2 of the other. The clearance is the larger of
@@ -128,10 +138,10 @@ class RobotChecker {
   std::vector<LinkContact> within(RobotChecker& other, double margin);
   std::optional<ClosestLinks> closest(RobotChecker& other);
 
-  // --- meshes are surfaces: what lies wholly inside another touches nothing, and no query above reports it ---
+  // --- what lies wholly inside a closed mesh that is not solid touches nothing, and no query above reports it ---
 
-  /// Among tested pairs that do not collide: links inside others, sorted by (outer, inner). Open meshes are never an
-  /// outer one: see not_closed(). Costs time proportional to the number of triangles.
+  /// Among tested pairs whose surfaces are not too close: links inside others, solid or not, sorted by (outer, inner).
+  /// Open meshes are never an outer one: see not_closed(). Costs time proportional to the number of triangles.
   std::vector<LinkContainment> contained();
   /// The same between links (and held bodies) and bodies. Open bodies: Environment::open_edge().
   std::vector<BodyContainment> contained(Environment& environment);
@@ -147,9 +157,23 @@ class RobotChecker {
     std::vector<std::vector<std::size_t>> parts;
   };
   void place(AnyHierarchy& hierarchy, const Pose& base, PoseSource& kinematics);
+  void find_solid_pairs();
+  std::optional<ClosestLinks> closest_surfaces(AnyHierarchy& hierarchy);
+  std::optional<ClosestLinks> closest_nearby(const ClosestLinks& found);
+  // What lies inside solids; `found` is told until it says true.
+  template <class Found>
+  bool find_insides(const Found& found);
+  template <class Found>
+  bool find_insides(RobotChecker& other, const Found& found);
+  bool any_inside();
+  std::vector<LinkContact> surfaces_within(double margin);
   std::span<const Aabb> link_boxes();
   struct BodyPair;
   std::vector<BodyPair> body_pairs(Environment& environment, double margin);
+  template <class Found>
+  bool find_insides(const BodyPair& pair, const Environment& environment, const Found& found);
+  std::vector<BodyContact> surfaces_within(const Environment& environment, const std::vector<BodyPair>& pairs,
+                                           double margin);
   template <class Ask>
   auto ask(const BodyPair& pair, const Environment& environment, const Ask& f, double extra = 0.0);
   const Topology& topology();
@@ -166,6 +190,9 @@ class RobotChecker {
   Pose base_{};
   std::optional<PoseSource> kinematics_;                  // when the base is free: poses relative to the base
   LinkPairHits link_hits_;                                // scratch
+  std::shared_ptr<const SolidPairs> solid_pairs_;         // for hierarchy_
+  std::vector<std::array<double, 3>> solid_centres_;      // scratch
+  std::optional<AnyHierarchy> nearby_;                    // free in the world, placed in the frame of one of its groups
   std::shared_ptr<const std::vector<Aabb>> local_boxes_;  // by link, in its frame, radii included; empty: no geometry
   std::vector<Aabb> link_boxes_;                          // by link, in the world
   bool link_boxes_stand_ = false;                         // link_boxes_ are those of the present state

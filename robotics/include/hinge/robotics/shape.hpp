@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shapes of links as URDF knows them, in metres, centred on their own frame; cylinders and capsules stand along z.
+// Boxes, spheres, cylinders and capsules are solid: what lies inside them collides.
 #pragma once
 
 #include <cstddef>
@@ -41,6 +42,8 @@ struct MeshShape {
   std::shared_ptr<const TriangleMesh> mesh;  ///< shared by the links that use the same file
   Vec3 scale = Vec3::Ones();                 ///< factor per axis, negative ones mirror; none is 0
   std::filesystem::path file{};              ///< where it was read from; empty when made in code
+  /// What lies inside collides, as in a box. The mesh has to be closed, see open_edge() in containment.hpp.
+  bool solid = false;
 };
 
 using Shape = std::variant<BoxShape, SphereShape, CylinderShape, CapsuleShape, MeshShape>;
