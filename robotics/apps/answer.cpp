@@ -2,10 +2,18 @@
 // The robot first, then the bodies around it.
 #include "answer.hpp"
 
-#include <memory>
+#include <map>
+#include <string>
+#include <variant>
 
+#include "bodies.hpp"
+#include "hinge/core/error.hpp"
+#include "hinge/core/id.hpp"
+#include "hinge/kinematics/dof_selection.hpp"
+#include "hinge/kinematics/rigid_groups.hpp"
+#include "hinge/robotics/containment.hpp"
 #include "hinge/robotics/link_margins.hpp"
-#include "hinge/robotics/read_mesh.hpp"
+#include "hinge/robotics/tessellate.hpp"
 
 namespace robocd {
 
@@ -16,8 +24,19 @@ Worker make_worker(const Options& options, const Job& job) {
   Worker worker{RobotChecker(job.robot, job.tested, margins, CheckOptions{options.engine}), {}};
   if (options.environment.empty()) return worker;
   worker.environment.emplace(options.clearance, options.engine);
-  for (const std::string& file : options.environment)
-    worker.environment->add(std::make_shared<const TriangleMesh>(read_mesh(file)), {}, file);
+  std::map<std::string, std::vector<BodyId>> named;
+  for (const Body& body : job.bodies) {
+    Shape shape = shape_of(body);
+    auto* mesh = std::get_if<MeshShape>(&shape);
+    if (options.contained && mesh != nullptr) mesh->solid = closed(tessellate(*mesh).triangles);
+    try {
+      named[body.name].push_back(worker.environment->add(shape, body.pose, body.name, job.robot->tessellation()));
+    } catch (const hinge::ModelError& error) {
+      throw hinge::ModelError("--env: " + std::string(error.what()));
+    }
+  }
+  for (const auto& [link, body] : job.allowed)
+    for (const BodyId id : named.at(body)) worker.environment->allow(id, job.robot, {*job.robot->find_link(link)});
   return worker;
 }
 
@@ -31,7 +50,10 @@ Answer ask(Worker& worker, std::span<const double> q, const Mode& mode, bool con
     switch (mode.kind) {
       case Mode::Kind::any: answer.collides = answer.collides || checker.collides(environment); break;
       case Mode::Kind::all: answer.body_pairs = checker.collisions(environment); break;
-      case Mode::Kind::within: answer.body_pairs = checker.within(environment, mode.margin); break;
+      case Mode::Kind::within:
+        answer.body_pairs = checker.within(environment, mode.margin);
+        answer.body_distances = checker.distances(environment, mode.margin);
+        break;
       case Mode::Kind::closest: answer.closest_body = checker.closest(environment); break;
     }
     // What is within a margin need not collide.
@@ -41,24 +63,31 @@ Answer ask(Worker& worker, std::span<const double> q, const Mode& mode, bool con
     if (answer.closest_body)
       answer.collides = answer.collides || answer.closest_body->gap < 0.0 || answer.closest_body->distance == 0.0;
   }
-  if (contained) {
+  // Closed meshes are solid then: nothing is inside another one without a collision.
+  if (contained && answer.collides) {
     answer.contained = checker.contained();
     if (worker.environment) answer.contained_bodies = checker.contained(*worker.environment);
-    answer.collides = answer.collides || !answer.contained.empty() || !answer.contained_bodies.empty();
   }
   return answer;
 }
 
-std::vector<std::string> open_meshes(Worker& worker) {
+std::vector<std::string> notes_on_bodies(const Options& options, Worker& worker) {
   std::vector<std::string> notes;
-  const auto note = [&](const std::string& who, const OpenEdge& edge) {
-    notes.push_back(who + " has an open mesh, nothing is looked for inside it: " + edge.text());
-  };
-  for (const OpenLink& open : worker.checker.not_closed())
-    note("link '" + worker.checker.robot().link_name(open.link) + "'", open.edge);
   if (!worker.environment) return notes;
-  for (const BodyId body : worker.environment->bodies())
-    if (const auto edge = worker.environment->open_edge(body)) note(worker.environment->name(body), *edge);
+  Environment& environment = *worker.environment;
+  if (options.contained)
+    for (const BodyId body : environment.bodies())
+      if (const auto edge = environment.open_edge(body); edge && environment.triangle_count(body) > 1)
+        notes.push_back(environment.name(body) + " has an open mesh, nothing is looked for inside it: " + edge->text());
+  const Robot& robot = worker.checker.robot();
+  const hinge::KinematicTree& tree = robot.model().tree();
+  const hinge::RigidGroups groups(tree, hinge::DofSelection::all(tree));
+  for (const BodyContact& contact : worker.checker.collisions(environment)) {
+    if (groups.group_of(contact.link) != hinge::GroupId{0}) continue;
+    const std::string &link = robot.link_name(contact.link), &body = environment.name(contact.body);
+    notes.push_back("link '" + link + "' never moves and collides with body '" + body +
+                    "' in every configuration; --allow '" + link + "' '" + body + "' leaves the two out");
+  }
   return notes;
 }
 

@@ -18,6 +18,7 @@ struct Answer {
   bool collides = false;
   hinge::robotics::Verdict self;
   std::vector<hinge::robotics::BodyContact> body_pairs;
+  std::vector<hinge::robotics::ClosestBody> body_distances;  // mode within: of the same pairs
   std::optional<hinge::robotics::ClosestBody> closest_body;
   // Only with --contained.
   std::vector<hinge::robotics::LinkContainment> contained;
@@ -33,10 +34,11 @@ struct Worker {
 /// ModelError: engine or clearance. LoadError: a mesh of the environment.
 Worker make_worker(const Options& options, const Job& job);
 
-/// q: one value (rad or m) per independent joint. contained: look for meshes inside others, too.
+/// q: one value (rad or m) per independent joint. contained: name what is inside closed meshes, too.
 Answer ask(Worker& worker, std::span<const double> q, const hinge::robotics::Mode& mode, bool contained);
 
-/// Sentences on meshes that are open, in which --contained can find nothing.
-std::vector<std::string> open_meshes(Worker& worker);
+/// Sentences on bodies: open meshes, in which --contained can find nothing, and links that no joint moves and that
+/// touch a body therefore in every configuration.
+std::vector<std::string> notes_on_bodies(const Options& options, Worker& worker);
 
 }  // namespace robocd

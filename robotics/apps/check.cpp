@@ -49,8 +49,10 @@ void print_json_start(const Options& options, const Job& job, const Mode& mode) 
   Json head{{"tool", "robocd"}, {"command", "check"}, {"robot", robot_json(options, job)}, {"mode", mode.text()}};
   head["clearance"] = options.clearance;
   head["seed"] = options.count > 0 ? Json(options.seed) : Json();
-  head["environment"] = options.environment;
-  head["notes"] = job.srdf.notes;
+  head["environment"] = body_names(job);
+  head["allowed"] = allowed_json(job);
+  head["notes"] = job.notes;
+  head["joints"] = joint_names(*job.robot);
   std::string text = hinge::tool::json_text(head, 1);
   text.resize(text.rfind('\n'));  // the closing brace comes with the summary
   fmt::print("{},\n\"configurations\": [", text);
@@ -93,17 +95,15 @@ void write_row(std::ostream& out, const std::vector<double>& q) {
 
 Exit run_check(const Options& options) {
   const Mode mode = Mode::parse(options.mode, "metres");
-  const Job job = load(options);
+  Job job = load(options);
   const Configurations configurations = find_configurations(options, job);
   Worker worker = make_worker(options, job);
   const bool sampled = options.count > 0;
+  if (!sampled)
+    for (const std::string& note : notes_on_limits(configurations, *job.robot)) job.notes.push_back(note);
+  for (const std::string& note : configurations.notes) job.notes.push_back(note);
+  for (const std::string& note : notes_on_bodies(options, worker)) job.notes.push_back(note);
   print_notes(job);
-  const std::size_t outside = sampled ? 0 : count_outside_limits(configurations, *job.robot);
-  if (outside > 0)
-    std::fprintf(stderr, "note: %zu of %zu configurations are outside the joint limits\n", outside,
-                 configurations.count);
-  if (options.contained)
-    for (const std::string& note : open_meshes(worker)) std::fprintf(stderr, "note: %s\n", note.c_str());
 
   hinge::tool::CompleteFile file(options.out);
   if (file.wanted()) write_header(file.stream(), *job.robot);
@@ -123,7 +123,8 @@ Exit run_check(const Options& options) {
     summary.colliding += answer.collides ? 1 : 0;
     for (NamedPair& pair : named_pairs(worker, answer)) ++summary.pairs[std::move(pair)];
     if (options.output == Output::json)
-      fmt::print("{}\n{}", k == 0 ? "" : ",", hinge::tool::json_text(answer_json(worker, k, answer, columns)));
+      fmt::print("{}\n{}", k == 0 ? "" : ",",
+                 hinge::tool::json_text(answer_json(worker, k, configurations.at(k), answer, columns)));
     if (options.output == Output::csv) fmt::print("{}", csv_rows(worker, k, answer));
     if (options.output == Output::table && !sampled)
       fmt::print("configuration {}: {}\n{}", k, answer.collides ? "collides" : "free", pair_lines(worker, answer));

@@ -2,6 +2,8 @@
 // Random, from a CSV file, named by the SRDF, or all zero.
 #include "configurations.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -55,25 +57,33 @@ Configurations find_configurations(const Options& options, const Job& job) {
   if (options.count > 0)
     return {options.count, [robot = job.robot, seed = options.seed](std::size_t k) { return sample(*robot, seed, k); }};
   if (!options.csv_in.empty()) {
-    auto rows =
-        std::make_shared<const std::vector<std::vector<double>>>(read_configurations(options.csv_in, *job.robot));
-    return {rows->size(), [rows](std::size_t k) { return (*rows)[k]; }};
+    std::vector<std::string> notes;
+    auto rows = std::make_shared<const std::vector<std::vector<double>>>(
+        read_configurations(options.csv_in, *job.robot, notes));
+    return {rows->size(), [rows](std::size_t k) { return (*rows)[k]; }, std::move(notes)};
   }
   return {1, [q = join_states("--state", options.states, options, job)](std::size_t) { return q; }};
 }
 
-std::size_t count_outside_limits(const Configurations& configurations, const Robot& robot) {
+std::vector<std::string> notes_on_limits(const Configurations& configurations, const Robot& robot) {
   std::size_t outside = 0;
+  std::string first;
   for (std::size_t k = 0; k < configurations.count; ++k) {
     const std::vector<double> q = configurations.at(k);
     bool inside = true;
     for (std::size_t j = 0; j < q.size(); ++j) {
       const bool continuous = robot.description().joints[robot.independent_joints()[j]].type == JointType::continuous;
-      inside = inside && (continuous || (q[j] >= robot.lower()[j] && q[j] <= robot.upper()[j]));
+      if (continuous || (q[j] >= robot.lower()[j] && q[j] <= robot.upper()[j])) continue;
+      inside = false;
+      if (first.empty())
+        first = fmt::format("configuration {} has {} for joint '{}', limits {} and {}", k, q[j],
+                            robot.independent_name(j), robot.lower()[j], robot.upper()[j]);
     }
     outside += inside ? 0 : 1;
   }
-  return outside;
+  if (outside == 0) return {};
+  return {fmt::format("{} of {} configurations are outside the joint limits: {}", outside, configurations.count,
+                      outside > 1 ? "first, " + first : first)};
 }
 
 }  // namespace robocd

@@ -15,6 +15,7 @@ namespace robocd {
 struct Configurations {
   std::size_t count = 0;
   std::function<std::vector<double>(std::size_t k)> at;
+  std::vector<std::string> notes{};  // on the file they come from
 };
 
 /// LoadError: a CSV file or SRDF that does not fit the robot. ModelError: a state that the SRDF does not have.
@@ -25,7 +26,8 @@ Configurations find_configurations(const Options& options, const Job& job);
 std::vector<double> join_states(const char* option, const std::vector<std::string>& states, const Options& options,
                                 const Job& job);
 
-/// How many have a joint outside its limits. They are checked all the same.
-std::size_t count_outside_limits(const Configurations& configurations, const hinge::robotics::Robot& robot);
+/// A sentence when joints are outside their limits, with the first of them; nothing when none is. They are checked all
+/// the same.
+std::vector<std::string> notes_on_limits(const Configurations& configurations, const hinge::robotics::Robot& robot);
 
 }  // namespace robocd

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From options to a robot and its pair rule.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "hinge/core/error.hpp"
+#include "hinge/robotics/containment.hpp"
 #include "hinge/robotics/read_urdf.hpp"
+#include "hinge/robotics/tessellate.hpp"
 #include "hinge/robotics/tested_pairs.hpp"
 #include "hinge/tool/check_output.hpp"
 #include "options.hpp"
@@ -17,13 +22,81 @@ namespace robocd {
 using namespace hinge::robotics;
 
 void check_outputs(const Options& options) {
-  std::vector<std::filesystem::path> inputs{options.urdf, options.srdf, options.csv_in};
-  for (const auto* list : {&options.skip_pairs, &options.environment})
-    inputs.insert(inputs.end(), list->begin(), list->end());
+  std::vector<std::filesystem::path> inputs{options.urdf, options.srdf, options.csv_in, options.waypoints};
+  inputs.insert(inputs.end(), options.skip_pairs.begin(), options.skip_pairs.end());
+  for (const std::string& body : options.environment) inputs.push_back(parse_body(body).file);
   hinge::tool::check_output("--out", options.out, inputs);
 }
 
-std::shared_ptr<const Robot> load_robot(const Options& options) {
+namespace {
+
+/// Closed meshes become solid; `notes` names the open ones.
+void fill_meshes(RobotDescription& robot, std::vector<std::string>& notes) {
+  for (LinkDescription& link : robot.links)
+    for (PlacedShape& placed : link.geometry) {
+      auto* mesh = std::get_if<MeshShape>(&placed.shape);
+      if (mesh == nullptr) continue;
+      const auto open = open_edge(tessellate(*mesh).triangles);
+      mesh->solid = !open;
+      if (open)
+        notes.push_back("link '" + link.name + "' has an open mesh, nothing is looked for inside it: " + open->text());
+    }
+}
+
+std::vector<Body> read_bodies(const Options& options, const Robot& robot) {
+  std::vector<Body> bodies;
+  for (const std::string& text : options.environment) {
+    Body body = parse_body(text);
+    const auto same = [&](const Body& other) { return other.name == body.name && (other.is_named || body.is_named); };
+    if (std::any_of(bodies.begin(), bodies.end(), same))
+      throw hinge::ModelError("--env '" + text + "': there is a body '" + body.name + "' already");
+    if (body.is_named && robot.find_link(body.name))
+      throw hinge::ModelError("--env '" + text + "': '" + body.name + "' is the name of a link");
+    bodies.push_back(std::move(body));
+  }
+  return bodies;
+}
+
+/// A link and a body in either order, or nothing.
+std::optional<std::pair<std::string, std::string>> link_and_body(const Job& job, const std::string& a,
+                                                                 const std::string& b) {
+  const auto is_body = [&](const std::string& name) {
+    return std::any_of(job.bodies.begin(), job.bodies.end(), [&](const Body& body) { return body.name == name; });
+  };
+  if (job.robot->find_link(a) && is_body(b)) return std::pair(a, b);
+  if (job.robot->find_link(b) && is_body(a)) return std::pair(b, a);
+  return {};
+}
+
+void read_allowed(const Options& options, Job& job) {
+  for (const std::string& file : options.skip_pairs)
+    for (const hinge::robotics::NamedPair& pair : read_named_pairs(file)) {
+      const auto first = job.robot->find_link(pair.first), second = job.robot->find_link(pair.second);
+      if (first && second) {
+        job.disabled.insert(*first, *second);
+        continue;
+      }
+      const auto allowed = link_and_body(job, pair.first, pair.second);
+      if (!allowed)
+        throw hinge::LoadError(file + ":" + std::to_string(pair.line) + ": '" + (first ? pair.second : pair.first) +
+                               "' is neither a link of robot '" + job.robot->name() + "' nor a body of --env");
+      job.allowed.push_back(*allowed);
+    }
+  for (const auto& [link, body] : options.allowed) {
+    const auto allowed = link_and_body(job, link, body);
+    if (!allowed) {
+      const bool has_link = job.robot->find_link(link).has_value();
+      throw hinge::ModelError("--allow " + link + " " + body + ": " +
+                              (has_link ? "'" + body + "' is no body of --env"
+                                        : "robot '" + job.robot->name() + "' has no link '" + link + "'"));
+    }
+    job.allowed.push_back(*allowed);
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const Robot> load_robot(const Options& options, std::vector<std::string>& notes) {
   const std::filesystem::path path = options.urdf;
   if (path.extension() == ".xacro")
     throw hinge::LoadError(options.urdf + ": is a xacro file: run `xacro FILE > FILE.urdf` first and read its output");
@@ -38,6 +111,7 @@ std::shared_ptr<const Robot> load_robot(const Options& options) {
     for (const PlacedShape& placed : link.geometry)
       if (const auto* mesh = std::get_if<MeshShape>(&placed.shape)) meshes.emplace_back(mesh->file);
   hinge::tool::check_output("--out", options.out, meshes);
+  if (options.contained) fill_meshes(description, notes);
   try {
     return std::make_shared<const Robot>(std::move(description), tessellation);
   } catch (const hinge::ModelError& error) {  // the file is at fault, not the command line
@@ -47,17 +121,19 @@ std::shared_ptr<const Robot> load_robot(const Options& options) {
 
 Job load(const Options& options) {
   Job job;
-  job.robot = load_robot(options);
+  job.robot = load_robot(options, job.notes);
+  job.bodies = read_bodies(options, *job.robot);
   const UnknownLinks unknown = options.note_unknown_links ? UnknownLinks::noted : UnknownLinks::refused;
   if (!options.srdf.empty()) job.srdf = read_srdf(options.srdf, *job.robot, unknown);
   job.disabled = options.srdf.empty() ? LinkPairs(job.robot->link_count()) : job.srdf.disabled;
-  for (const std::string& file : options.skip_pairs) read_link_pairs(file, *job.robot, job.disabled);
+  job.notes.insert(job.notes.begin(), job.srdf.notes.begin(), job.srdf.notes.end());
+  read_allowed(options, job);
   job.tested = tested_pairs(*job.robot, job.disabled);
   return job;
 }
 
 void print_notes(const Job& job) {
-  for (const std::string& note : job.srdf.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+  for (const std::string& note : job.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
 }
 
 }  // namespace robocd

@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "hinge/robotics/write_srdf.hpp"
 #include "hinge/tool/complete_file.hpp"
@@ -46,7 +47,9 @@ CollisionMatrix find(const Robot& robot, const MatrixOptions& options) {
 }  // namespace
 
 Exit run_matrix(const Options& options) {
-  const auto robot = load_robot(options);
+  std::vector<std::string> notes;
+  const auto robot = load_robot(options, notes);
+  for (const std::string& note : notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   hinge::tool::CompleteFile file(options.out);
   MatrixOptions wanted = options.matrix;
   wanted.clearance = options.clearance;

@@ -6,8 +6,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "bodies.hpp"
 #include "hinge/motion/path_answer.hpp"
 #include "hinge/robotics/collision_matrix.hpp"
 #include "hinge/robotics/link_pairs.hpp"
@@ -24,7 +26,7 @@ enum class Output : std::uint8_t { table, json, csv };
 struct Options {
   std::string urdf;
   std::string srdf;                          // empty: none
-  std::vector<std::string> skip_pairs;       // files of pairs of links that are not tested
+  std::vector<std::string> skip_pairs;       // files of pairs of links, or of a link and a body, that are not tested
   bool note_unknown_links = false;           // in the SRDF, instead of refusing them
   bool reference_primitives = false;         // tessellated as the published reference data is
   std::vector<std::string> package_folders;  // for package://
@@ -37,13 +39,15 @@ struct Options {
   bool zero = false;
   // check: what is asked of each
   std::string mode = "all";
-  double clearance = 0.0;                // m
-  std::vector<std::string> environment;  // mesh files
+  double clearance = 0.0;                                    // m
+  std::vector<std::string> environment;                      // bodies, see bodies.hpp
+  std::vector<std::pair<std::string, std::string>> allowed;  // a link and a body that may touch
   std::string engine = "wide";
-  bool contained = false;  // look for meshes inside others, too
+  bool contained = false;  // closed meshes are solid
   unsigned threads = 1;
   // path
   std::string from, to;           // see path_end.hpp
+  std::string waypoints;          // CSV file of configurations instead of the two
   std::optional<double> sampled;  // rad or m, look at states this far apart; none: certify
   double min_step = hinge::smallest_path_step;
   // matrix
@@ -56,8 +60,11 @@ struct Options {
 /// A robot read, and the pairs of its links that are tested.
 struct Job {
   std::shared_ptr<const hinge::robotics::Robot> robot;
-  hinge::robotics::Srdf srdf;           // without a file: nothing disabled
-  hinge::robotics::LinkPairs disabled;  // by the SRDF and by files of pairs
+  hinge::robotics::Srdf srdf;                                // without a file: nothing disabled
+  std::vector<Body> bodies;                                  // of the environment
+  std::vector<std::pair<std::string, std::string>> allowed;  // a link and a body, by name, that are not tested
+  std::vector<std::string> notes;                            // what the user should know, a sentence each
+  hinge::robotics::LinkPairs disabled;                       // by the SRDF and by files of pairs
   hinge::robotics::LinkPairs tested;
 };
 
@@ -65,11 +72,13 @@ struct Job {
 /// are known once the robot is: load_robot looks at them.
 void check_outputs(const Options& options);
 
-/// LoadError: one line naming file and element.
-std::shared_ptr<const hinge::robotics::Robot> load_robot(const Options& options);
+/// With --contained closed meshes are made solid; `notes` names the links whose meshes are open. LoadError: one line
+/// naming file and element.
+std::shared_ptr<const hinge::robotics::Robot> load_robot(const Options& options, std::vector<std::string>& notes);
+/// ModelError: options that do not fit the robot or each other.
 Job load(const Options& options);
 
-/// What the SRDF reader left out, on standard error.
+/// job.notes, on standard error.
 void print_notes(const Job& job);
 
 Exit run_info(const Options& options);

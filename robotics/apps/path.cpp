@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "hinge/tool/json_text.hpp"
 #include "options.hpp"
 #include "path_end.hpp"
+#include "read_configurations.hpp"
 #include "report.hpp"
 
 namespace robocd {
@@ -26,9 +28,11 @@ using hinge::PathVerdict;
 namespace {
 
 struct Asked {
-  std::vector<double> from, to;
-  RobotPathAnswer path;
-  Answer state;  // of the configuration that collides
+  std::vector<std::vector<double>> waypoints;  // two or more
+  std::size_t segment = 0;                     // the first that collides, else the first undecided, else the last
+  RobotPathAnswer path;                        // of that segment
+  Answer state;                                // of the configuration that collides
+  std::size_t states_looked_at = 0;            // on all segments
 };
 
 const std::string& name(const Worker& worker, const LinkOrBody& part) {
@@ -36,17 +40,33 @@ const std::string& name(const Worker& worker, const LinkOrBody& part) {
   return worker.environment->name(std::get<BodyId>(part));
 }
 
+/// The two ends, or the rows of a file. ModelError: fewer than two rows.
+std::vector<std::vector<double>> read_waypoints(const Options& options, Job& job) {
+  if (options.waypoints.empty())
+    return {read_path_end("--from", options.from, options, job), read_path_end("--to", options.to, options, job)};
+  auto rows = read_configurations(options.waypoints, *job.robot, job.notes);
+  if (rows.size() < 2)
+    throw hinge::ModelError("--waypoints " + options.waypoints + ": holds one configuration, expected two or more");
+  return rows;
+}
+
 Json path_json(const Options& options, const Job& job, const Worker& worker, const Asked& asked) {
   const RobotPathAnswer& path = asked.path;
   Json json{{"tool", "robocd"}, {"command", "path"}, {"robot", robot_json(options, job)}};
   json["clearance"] = options.clearance;
-  json["environment"] = options.environment;
-  json["notes"] = job.srdf.notes;
-  json["joints"] = Json::array();
-  for (std::size_t k = 0; k < job.robot->independent_joints().size(); ++k)
-    json["joints"].push_back(job.robot->independent_name(k));
-  json["from"] = Json{{"given", options.from}, {"values", asked.from}};
-  json["to"] = Json{{"given", options.to}, {"values", asked.to}};
+  json["environment"] = body_names(job);
+  json["allowed"] = allowed_json(job);
+  json["notes"] = job.notes;
+  json["joints"] = joint_names(*job.robot);
+  const auto end = [&](const std::string& given, std::size_t row) {
+    return Json{{"given", options.waypoints.empty() ? given : fmt::format("@{}:{}", options.waypoints, row)},
+                {"values", asked.waypoints[row]}};
+  };
+  const bool is_free = path.is_free();
+  json["from"] = end(options.from, is_free ? 0 : asked.segment);
+  json["to"] = end(options.to, is_free ? asked.waypoints.size() - 1 : asked.segment + 1);
+  json["segments"] = asked.waypoints.size() - 1;
+  json["segment"] = is_free ? Json() : Json(asked.segment);
   json["method"] = options.sampled ? "sampled" : "certified";
   json["resolution"] = options.sampled ? Json(*options.sampled) : Json();
   json["min_step"] = options.sampled ? Json() : Json(options.min_step);
@@ -55,7 +75,8 @@ Json path_json(const Options& options, const Job& job, const Worker& worker, con
   json["parameter"] = path.is_free() ? Json() : Json(path.parameter);
   json["half_width"] = path.verdict == PathVerdict::undecided ? Json(path.half_width) : Json();
   json["values"] = path.is_free() ? Json() : Json(path.configuration);
-  const Json state = answer_json(worker, 0, asked.state, {Mode{}, !options.environment.empty(), false});
+  const Json state =
+      answer_json(worker, 0, path.configuration, asked.state, {Mode{}, !options.environment.empty(), false});
   for (const char* list : {"pairs", "environment_pairs"}) json[list] = state.value(list, Json::array());
   json["contact"] = Json();
   if (path.contact)
@@ -63,7 +84,7 @@ Json path_json(const Options& options, const Job& job, const Worker& worker, con
                            {"second", name(worker, path.contact->second)},
                            {"distance", path.contact->distance},
                            {"threshold", path.contact->threshold}};
-  json["states_looked_at"] = path.counts.configurations;
+  json["states_looked_at"] = asked.states_looked_at;
   return json;
 }
 
@@ -73,23 +94,28 @@ void print_table(const Options& options, const Job& job, const Worker& worker, c
   const auto contact = [&] {
     if (path.contact) fmt::print("  {} - {}\n", name(worker, path.contact->first), name(worker, path.contact->second));
   };
+  const std::size_t segments = asked.waypoints.size() - 1;
+  const std::string where =
+      segments == 1 ? ""
+                    : fmt::format(" of segment {} (rows {} to {})", asked.segment, asked.segment, asked.segment + 1);
+  if (segments > 1) fmt::print("{} segments\n", segments);
   switch (path.verdict) {
     case PathVerdict::free:
       if (options.sampled)
         fmt::print("free at {} states at most {} rad or m apart; what lies between them was not looked at\n",
-                   path.counts.configurations, *options.sampled);
+                   asked.states_looked_at, *options.sampled);
       else
-        fmt::print("free: proved for every state, from {} of them\n", path.counts.configurations);
+        fmt::print("free: proved for every state, from {} of them\n", asked.states_looked_at);
       break;
     case PathVerdict::colliding: {
-      fmt::print("collides at t = {}\n", path.parameter);
+      fmt::print("collides at t = {}{}\n", path.parameter, where);
       const std::string lines = pair_lines(worker, asked.state);
       if (lines.empty()) contact();  // found with followers as the path has them, rounded otherwise
       fmt::print("{}", lines);
       break;
     }
     case PathVerdict::undecided:
-      fmt::print("undecided: nothing is proved within {:.3g} of t = {}\n", path.half_width, path.parameter);
+      fmt::print("undecided: nothing is proved within {:.3g} of t = {}{}\n", path.half_width, path.parameter, where);
       contact();
       break;
   }
@@ -98,19 +124,29 @@ void print_table(const Options& options, const Job& job, const Worker& worker, c
 }  // namespace
 
 Exit run_path(const Options& options) {
-  const Job job = load(options);
-  Asked asked{
-      read_path_end("--from", options.from, options, job), read_path_end("--to", options.to, options, job), {}, {}};
+  Job job = load(options);
+  Asked asked;
+  asked.waypoints = read_waypoints(options, job);
   Worker worker = make_worker(options, job);
+  const Configurations all{asked.waypoints.size(), [&](std::size_t k) { return asked.waypoints[k]; }};
+  for (const std::string& note : notes_on_limits(all, *job.robot)) job.notes.push_back(note);
+  for (const std::string& note : notes_on_bodies(options, worker)) job.notes.push_back(note);
   print_notes(job);
-  const Configurations ends{2, [&](std::size_t k) { return k == 0 ? asked.from : asked.to; }};
-  if (const std::size_t outside = count_outside_limits(ends, *job.robot); outside > 0)
-    std::fprintf(stderr, "note: %zu of 2 ends are outside the joint limits\n", outside);
 
   PathChecker paths =
       worker.environment ? PathChecker(worker.checker, *worker.environment) : PathChecker(worker.checker);
-  asked.path = options.sampled ? paths.sample(asked.from, asked.to, *options.sampled)
-                               : paths.certify(asked.from, asked.to, options.min_step);
+  for (std::size_t k = 0; k + 1 < asked.waypoints.size(); ++k) {
+    const std::vector<double>&from = asked.waypoints[k], &to = asked.waypoints[k + 1];
+    RobotPathAnswer found =
+        options.sampled ? paths.sample(from, to, *options.sampled) : paths.certify(from, to, options.min_step);
+    asked.states_looked_at += found.counts.configurations;
+    const bool collides = found.verdict == PathVerdict::colliding;
+    if (collides || asked.path.is_free() || k == 0) {
+      asked.segment = k;
+      asked.path = std::move(found);
+    }
+    if (collides) break;
+  }
   if (asked.path.verdict == PathVerdict::colliding)
     asked.state = ask(worker, asked.path.configuration, Mode{Mode::Kind::all}, false);
 

@@ -15,7 +15,7 @@ namespace robocd {
 
 namespace {
 
-std::vector<double> read_row(const std::string& what, std::string file, const Job& job) {
+std::vector<double> read_row(const std::string& what, std::string file, Job& job) {
   std::size_t row = 0;
   bool named = false;
   const std::size_t colon = file.rfind(':');
@@ -25,7 +25,7 @@ std::vector<double> read_row(const std::string& what, std::string file, const Jo
     named = error == std::errc{} && end == last;
     if (named) file.resize(colon);
   }
-  const auto rows = read_configurations(file, *job.robot);
+  const auto rows = read_configurations(file, *job.robot, job.notes);
   if (named ? row >= rows.size() : rows.size() > 1)
     throw hinge::ModelError(what + ": " + file + " has " + std::to_string(rows.size()) + " rows, expected one of @" +
                             file + ":0 to @" + file + ":" + std::to_string(rows.size() - 1));
@@ -44,7 +44,7 @@ std::vector<std::string> split(std::string text) {
 
 }  // namespace
 
-std::vector<double> read_path_end(const char* option, const std::string& text, const Options& options, const Job& job) {
+std::vector<double> read_path_end(const char* option, const std::string& text, const Options& options, Job& job) {
   constexpr std::size_t prefix = 6;  // of "state:"
   const std::string what = std::string(option) + " '" + text + "'";
   if (text == "zero") return std::vector<double>(job.robot->independent_joints().size(), 0.0);

@@ -25,14 +25,19 @@ namespace {
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // spreadsheets begin UTF-8 with it
 
+/// Quotes around a field are taken off.
 std::vector<std::string_view> split(std::string_view line) {
   constexpr std::string_view blanks = " \t\r";
   std::vector<std::string_view> fields;
   while (true) {
-    const std::size_t comma = line.find(',');
+    const std::size_t start = std::min(line.find_first_not_of(blanks), line.size());
+    const bool is_quoted = start < line.size() && line[start] == '"';
+    const std::size_t quote = is_quoted ? line.find('"', start + 1) : std::string_view::npos;
+    const std::size_t comma = line.find(',', quote == std::string_view::npos ? 0 : quote);
     std::string_view field = line.substr(0, comma);
     field.remove_prefix(std::min(field.find_first_not_of(blanks), field.size()));
     field = field.substr(0, field.find_last_not_of(blanks) + 1);
+    if (field.size() > 1 && field.front() == '"' && field.back() == '"') field = field.substr(1, field.size() - 2);
     fields.push_back(field);
     if (comma == std::string_view::npos) return fields;
     line.remove_prefix(comma + 1);
@@ -50,7 +55,8 @@ std::optional<double> parse(std::string_view text) {
 
 class ConfigurationReader {
  public:
-  ConfigurationReader(const std::filesystem::path& path, const Robot& robot) : path_(path.string()), robot_(robot) {}
+  ConfigurationReader(const std::filesystem::path& path, const Robot& robot, std::vector<std::string>& notes)
+      : path_(path.string()), robot_(robot), notes_(notes) {}
 
   std::vector<std::vector<double>> read() {
     std::istringstream in(hinge::tool::read_whole(path_));
@@ -80,9 +86,7 @@ class ConfigurationReader {
 
   /// Why a name of the header is no independent joint.
   std::string fault_of(const std::string& name) const {
-    const auto found = robot_.find_joint(name);
-    if (!found) return "joint '" + name + "' is none of robot '" + robot_.name() + "'";
-    const JointDescription& joint = robot_.description().joints[*found];
+    const JointDescription& joint = robot_.description().joints[*robot_.find_joint(name)];
     if (joint.type == JointType::fixed) return "joint '" + name + "' is fixed and takes no value";
     return "joint '" + name + "' follows joint '" + joint.mimic->joint + "' and takes no value of its own";
   }
@@ -90,25 +94,35 @@ class ConfigurationReader {
   void read_header(std::string_view line) {
     const std::size_t count = robot_.independent_joints().size();
     std::vector<bool> seen(count, false);
+    std::string left_out;
     for (const std::string_view field : split(line)) {
       const std::string name(field), column = "column " + std::to_string(place_.size() + 1) + ": ";
       std::size_t k = 0;
       while (k < count && robot_.independent_name(k) != name) ++k;
-      if (k == count) refuse(1, column + (name.empty() ? "has no joint name" : fault_of(name)));
+      if (k == count && robot_.find_joint(name)) refuse(1, column + fault_of(name));
+      if (k == count) {
+        left_out += (left_out.empty() ? "'" : ", '") + name + "'";
+        place_.push_back(count);
+        continue;
+      }
       if (seen[k]) refuse(1, column + "joint '" + name + "' is there twice");
       seen[k] = true;
       place_.push_back(k);
     }
     for (std::size_t k = 0; k < count; ++k)
-      if (!seen[k]) refuse(1, "has no column for joint '" + robot_.independent_name(k) + "'");
+      if (!seen[k])
+        refuse(1, "has no column for joint '" + robot_.independent_name(k) + "'" +
+                      (left_out.empty() ? "" : "; columns that name no joint: " + left_out));
+    if (!left_out.empty()) notes_.push_back(path_ + ": columns that name no joint are left out: " + left_out);
   }
 
   std::vector<double> read_row(std::string_view line) const {
     const std::vector<std::string_view> fields = split(line);
     if (fields.size() != place_.size())
       refuse(number_, std::to_string(fields.size()) + " columns, expected " + std::to_string(place_.size()));
-    std::vector<double> q(place_.size());
+    std::vector<double> q(robot_.independent_joints().size());
     for (std::size_t column = 0; column < fields.size(); ++column) {
+      if (place_[column] == q.size()) continue;
       const auto value = parse(fields[column]);
       if (!value)
         refuse(number_, "column " + std::to_string(column + 1) + ": joint '" + robot_.independent_name(place_[column]) +
@@ -120,14 +134,16 @@ class ConfigurationReader {
 
   std::string path_;
   const Robot& robot_;
-  std::vector<std::size_t> place_;  // by column: position among the independent joints
+  std::vector<std::string>& notes_;
+  std::vector<std::size_t> place_;  // by column: position among the independent joints; their number: left out
   std::size_t number_ = 1;          // of the line being read
 };
 
 }  // namespace
 
-std::vector<std::vector<double>> read_configurations(const std::filesystem::path& path, const Robot& robot) {
-  return ConfigurationReader(path, robot).read();
+std::vector<std::vector<double>> read_configurations(const std::filesystem::path& path, const Robot& robot,
+                                                     std::vector<std::string>& notes) {
+  return ConfigurationReader(path, robot, notes).read();
 }
 
 std::vector<double> read_configuration(const std::string& what, std::string_view list, const Robot& robot) {

@@ -12,10 +12,12 @@
 namespace robocd {
 
 /// One value (rad or m) per independent joint, in the robot's order, a configuration a row. The first line names the
-/// independent joints, each once, in any order. LoadError naming line and column: an unknown, missing or repeated
-/// joint, a row of another length, a value that is not a finite number, no rows.
+/// independent joints, each once, in any order; fields may be in double quotes. Columns with other names (a time, an
+/// index) are left out, and `notes` says which. LoadError naming line and column: a missing or repeated joint, one that
+/// takes no value, a row of another length, a value that is not a finite number, no rows.
 std::vector<std::vector<double>> read_configurations(const std::filesystem::path& path,
-                                                     const hinge::robotics::Robot& robot);
+                                                     const hinge::robotics::Robot& robot,
+                                                     std::vector<std::string>& notes);
 
 /// One configuration as a list: values separated by commas, in the robot's order. ModelError: another number of them,
 /// or one that is not a finite number; `what` begins the message.

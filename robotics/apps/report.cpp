@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
+
 #include "hinge/core/id.hpp"
 #include "hinge/core/vec3.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
@@ -46,11 +49,18 @@ template <class Visit>
 void for_each_finding(const Worker& worker, const Answer& answer, const Visit& visit) {
   const auto link = [&](hinge::LinkId l) -> const std::string& { return worker.checker.robot().link_name(l); };
   const auto body = [&](BodyId b) -> const std::string& { return worker.environment->name(b); };
-  for (const LinkContact& pair : answer.self.pairs) visit(Finding{"pair", link(pair.link1), link(pair.link2)});
+  const auto& near = answer.self.distances;  // mode within: of the same pairs
+  for (const ClosestLinks& c : near)
+    visit(Finding{"pair", link(c.link1), link(c.link2), &c.distance, &c.point1, &c.point2});
+  if (near.empty())
+    for (const LinkContact& pair : answer.self.pairs) visit(Finding{"pair", link(pair.link1), link(pair.link2)});
   if (const auto& c = answer.self.closest)
     visit(Finding{"closest", link(c->link1), link(c->link2), &c->distance, &c->point1, &c->point2});
-  for (const BodyContact& pair : answer.body_pairs)
-    visit(Finding{"environment_pair", link(pair.link), body(pair.body)});
+  for (const ClosestBody& c : answer.body_distances)
+    visit(Finding{"environment_pair", link(c.link), body(c.body), &c.distance, &c.point1, &c.point2});
+  if (answer.body_distances.empty())
+    for (const BodyContact& pair : answer.body_pairs)
+      visit(Finding{"environment_pair", link(pair.link), body(pair.body)});
   if (const auto& c = answer.closest_body)
     visit(Finding{"environment_closest", link(c->link), body(c->body), &c->distance, &c->point1, &c->point2});
   for (const LinkContainment& c : answer.contained) visit(Finding{"contained", link(c.outer), link(c.inner)});
@@ -88,10 +98,29 @@ Json robot_json(const Options& options, const Job& job) {
               {"primitives", options.reference_primitives ? "reference" : "exact"}};
 }
 
-Json answer_json(const Worker& worker, std::size_t index, const Answer& answer, const Columns& columns) {
+Json joint_names(const Robot& robot) {
+  Json names = Json::array();
+  for (std::size_t k = 0; k < robot.independent_joints().size(); ++k) names.push_back(robot.independent_name(k));
+  return names;
+}
+
+Json body_names(const Job& job) {
+  Json names = Json::array();
+  for (const Body& body : job.bodies) names.push_back(body.name);
+  return names;
+}
+
+Json allowed_json(const Job& job) {
+  Json pairs = Json::array();
+  for (const auto& [link, body] : job.allowed) pairs.push_back({{"link", link}, {"body", body}});
+  return pairs;
+}
+
+Json answer_json(const Worker& worker, std::size_t index, const std::vector<double>& q, const Answer& answer,
+                 const Columns& columns) {
   const bool lists = columns.mode.kind == Mode::Kind::all || columns.mode.kind == Mode::Kind::within;
   const bool ranks = columns.mode.kind == Mode::Kind::closest;
-  Json json{{"index", index}, {"collides", answer.collides}};
+  Json json{{"index", index}, {"collides", answer.collides}, {"values", q}};
   const Json nothing, empty = Json::array();
   if (lists) json["pairs"] = empty;
   if (ranks) json["closest"] = nothing;
@@ -133,7 +162,8 @@ std::string pair_lines(const Worker& worker, const Answer& answer) {
   for_each_finding(worker, answer, [&](const Finding& f) {
     const std::string kind = f.kind;
     lines += fmt::format("  {} {} {}", f.first, kind.ends_with("contained") ? "contains" : "-", f.second);
-    if (f.distance != nullptr) lines += fmt::format("  {:.6g} m  (closest)", *f.distance);
+    if (f.distance != nullptr)
+      lines += fmt::format("  {:.6g} m{}", *f.distance, kind.ends_with("closest") ? "  (closest)" : "");
     lines += "\n";
   });
   return lines;
@@ -141,7 +171,10 @@ std::string pair_lines(const Worker& worker, const Answer& answer) {
 
 std::vector<std::pair<std::string, std::string>> named_pairs(const Worker& worker, const Answer& answer) {
   std::vector<std::pair<std::string, std::string>> pairs;
-  for_each_finding(worker, answer, [&](const Finding& f) { pairs.emplace_back(f.first, f.second); });
+  std::set<std::pair<std::string, std::string>> known;  // what is inside another one is a pair, too
+  for_each_finding(worker, answer, [&](const Finding& f) {
+    if (known.insert(std::minmax(f.first, f.second)).second) pairs.emplace_back(f.first, f.second);
+  });
   return pairs;
 }
 

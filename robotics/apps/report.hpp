@@ -25,7 +25,16 @@ struct Columns {
   bool contained = false;
 };
 
-Json answer_json(const Worker& worker, std::size_t index, const Answer& answer, const Columns& columns);
+/// Names of the independent joints.
+Json joint_names(const hinge::robotics::Robot& robot);
+/// Names of the bodies around it, in the order given.
+Json body_names(const Job& job);
+/// Links and bodies that are not tested against each other.
+Json allowed_json(const Job& job);
+
+/// q: the configuration.
+Json answer_json(const Worker& worker, std::size_t index, const std::vector<double>& q, const Answer& answer,
+                 const Columns& columns);
 
 /// A row per pair, closest pair and containment, or one without a pair.
 std::string csv_header();

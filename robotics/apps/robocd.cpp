@@ -46,9 +46,15 @@ void add_robot_options(CLI::App& command, Options& o) {
 
 void add_pair_options(CLI::App& command, Options& o) {
   command.add_option("--srdf", o.srdf, "disabled pairs of links and named states");
-  command.add_option("--skip-pairs", o.skip_pairs, "text file of more disabled pairs, two links a line; repeatable");
+  command.add_option("--skip-pairs", o.skip_pairs,
+                     "text file of more disabled pairs, two links or a link and a body of --env a line; repeatable");
   command.add_flag("--note-unknown-links", o.note_unknown_links,
                    "pairs of the SRDF with links the robot lacks are noted, not refused");
+}
+
+void add_contained_option(CLI::App& command, Options& o) {
+  command.add_flag("--contained", o.contained,
+                   "closed meshes are solid, as boxes, cylinders, spheres and capsules are");
 }
 
 void add_json_option(CLI::App& command, Options& o) {
@@ -62,7 +68,11 @@ void add_clearance_option(CLI::App& command, Options& o) {
 }
 
 void add_environment_option(CLI::App& command, Options& o) {
-  command.add_option("--env", o.environment, "mesh that stands in the world; repeatable");
+  command.add_option("--env", o.environment,
+                     "body in the world, [NAME=]SHAPE[,xyz=X Y Z][,rpy=R P Y][,scale=S], where SHAPE is a mesh file, "
+                     "'box:X Y Z', 'sphere:R', 'cylinder:R L' or 'capsule:R L'; repeatable");
+  command.add_option("--allow", o.allowed, "LINK BODY: the two may touch, such as a base and its table; repeatable")
+      ->type_name("LINK BODY");
 }
 
 void add_configuration_options(CLI::App& command, Options& o) {
@@ -97,7 +107,7 @@ void add_check_options(CLI::App& command, Options& o) {
           "any, all, within:D (m) or closest")
       ->default_str(o.mode);
   add_environment_option(command, o);
-  command.add_flag("--contained", o.contained, "a closed mesh with another one inside it collides too");
+  add_contained_option(command, o);
   command.add_option("--engine", o.engine, "wide, lazy (the paper's) or brute")->capture_default_str();
   add_number(command, "--threads", o.threads, NumberRange<unsigned>{1, 1024},
              "worker threads; the output does not depend on them");
@@ -111,6 +121,7 @@ void add_matrix_options(CLI::App& command, Options& o) {
   add_number(command, "--cells", o.matrix.cells, numbers,
              "boxes of joint values a proof may try, per pair; 0: no proofs");
   add_clearance_option(command, o);
+  add_contained_option(command, o);
   command.add_flag("--disable-unseen", o.disable_unseen,
                    "disable pairs that were never seen to meet too, although that is no proof");
   command.add_option("--out", o.out, "SRDF file to write (default: standard output)");
@@ -120,14 +131,22 @@ void add_path_options(CLI::App& command, Options& o) {
   constexpr const char* end =
       "zero, state:GROUP/NAME (several: commas), @FILE.csv or @FILE.csv:ROW (rows from 0), or a list of values, comma "
       "separated, one per independent joint";
-  command.add_option("--from", o.from, end)->required();
-  command.add_option("--to", o.to, end)->required();
+  CLI::Option_group* ends = command.add_option_group("path", "--from and --to, or --waypoints");
+  CLI::Option* from = ends->add_option("--from", o.from, end);
+  CLI::Option* to = ends->add_option("--to", o.to, end);
+  from->needs(to);
+  to->needs(from);
+  ends->add_option("--waypoints", o.waypoints, "CSV file of configurations, as of check --csv-in; each to the next")
+      ->excludes(from)
+      ->excludes(to);
+  ends->require_option(1, 2);
   CLI::Option* sampled = add_number(command, "--sampled", o.sampled, Reals{0.0, hinge::tool::largest_length, true},
                                     "look at states at most so far apart, rad or m (default: certify every state)");
   add_number(command, "--min-step", o.min_step, Reals{0.0, 1.0, true},
              "stretches no longer than this share of the path are not cut any more")
       ->excludes(sampled);
   add_environment_option(command, o);
+  add_contained_option(command, o);
   add_clearance_option(command, o);
   add_json_option(command, o);
 }

@@ -114,6 +114,34 @@ TEST(RobocdPath, TakesEndsFromFilesAndStates) {
   EXPECT_EQ(refused(arm, "--from zero --to '@" + (arm.path() / "no.csv").string() + "'").substr(0, 2), "3:");
 }
 
+TEST(RobocdPath, GoesThroughWaypoints) {
+  const ArmFolder arm;
+  arm.write("q.csv", "time,elbow,shoulder\n0,0,0\n1,0.5,0.5\n2,-1.5,0.5\n3,0,0\n");
+  arm.write("free.csv", "elbow,shoulder\n0,0\n0.5,0.5\n0.25,1\n");
+  arm.write("one.csv", "elbow,shoulder\n0,0\n");
+  const auto answer = [&](const std::string& file, int status) {
+    const auto said = run_robocd("path" + arm.urdf() + " --json --waypoints" + arm.file(file) + " 2>/dev/null");
+    EXPECT_EQ(said.status, status);
+    return Json::parse(said.out);
+  };
+  const Json json = answer("q.csv", 1);
+  EXPECT_EQ(json["verdict"], "colliding");
+  EXPECT_EQ(json["segments"], 3);
+  EXPECT_EQ(json["segment"], 1);
+  EXPECT_EQ(json["from"]["values"], Json({0.5, 0.5}));
+  EXPECT_EQ(json["to"]["values"], Json({0.5, -1.5}));
+  EXPECT_GT(json["parameter"], 0.5);
+  EXPECT_EQ(json["notes"].size(), 1U);
+  const Json free = answer("free.csv", 0);
+  EXPECT_EQ(free["verdict"], "free");
+  EXPECT_TRUE(free["segment"].is_null());
+  EXPECT_EQ(free["to"]["values"], Json({1.0, 0.25}));
+  EXPECT_EQ(run_robocd("path" + arm.urdf() + " --waypoints" + arm.file("one.csv") + " 2>&1").status, 2);
+  EXPECT_EQ(run_robocd("path" + arm.urdf() + " --from zero --to zero --waypoints" + arm.file("q.csv") + " 2>&1").status,
+            2);
+  EXPECT_EQ(run_robocd("path" + arm.urdf() + " 2>&1").status, 2);
+}
+
 TEST(RobocdPath, RefusesEndsThatDoNotFit) {
   const ArmFolder arm;
   EXPECT_EQ(refused(arm, "--from zero --to 1"),
@@ -127,7 +155,10 @@ TEST(RobocdPath, RefusesEndsThatDoNotFit) {
                               "--from zero --to zero --clearance -1", "--from zero --to zero --mode any"})
     EXPECT_EQ(refused(arm, options).substr(0, 2), "2:") << options;
   EXPECT_EQ(refused(arm, "--from zero --to zero --env /nonexistent.stl").substr(0, 2), "3:");
-  EXPECT_EQ(refused(arm, "--from 0,9 --to zero"), "0: note: 1 of 2 ends are outside the joint limits\n");
+  EXPECT_EQ(
+      refused(arm, "--from 0,9 --to zero"),
+      "0: note: 1 of 2 configurations are outside the joint limits: configuration 0 has 9 for joint 'elbow', limits "
+      "-1.5 and 1\n");
 }
 
 /// A quarter of the robots each, so that none takes long; with HINGE_TEST_ALL 12 000 paths in all.

@@ -39,12 +39,12 @@ TEST(RobocdCsv, IsRefusedWithLineAndColumn) {
   EXPECT_EQ(csv_refusal(""), "q.csv: is empty, expected a header of joint names");
   EXPECT_EQ(csv_refusal("shoulder,elbow\n"), "q.csv: holds no configurations, only a header");
   EXPECT_EQ(csv_refusal("shoulder\n0\n"), "q.csv:1: has no column for joint 'elbow'");
-  EXPECT_EQ(csv_refusal("shoulder,elbow,wrist\n0,0,0\n"), "q.csv:1: column 3: joint 'wrist' is none of robot 'arm'");
+  EXPECT_EQ(csv_refusal("shoulder,elbwo,time\n0,0,0\n"),
+            "q.csv:1: has no column for joint 'elbow'; columns that name no joint: 'elbwo', 'time'");
   EXPECT_EQ(csv_refusal("mount,elbow\n0,0\n"), "q.csv:1: column 1: joint 'mount' is fixed and takes no value");
   EXPECT_EQ(csv_refusal("shoulder,elbow,follower\n0,0,0\n"),
             "q.csv:1: column 3: joint 'follower' follows joint 'elbow' and takes no value of its own");
   EXPECT_EQ(csv_refusal("elbow,elbow\n0,0\n"), "q.csv:1: column 2: joint 'elbow' is there twice");
-  EXPECT_EQ(csv_refusal("shoulder,elbow,\n0,0,0\n"), "q.csv:1: column 3: has no joint name");
   EXPECT_EQ(csv_refusal("elbow,shoulder\n0,0\n1,2,3\n"), "q.csv:3: 3 columns, expected 2");
   EXPECT_EQ(csv_refusal("elbow,shoulder\n0\n"), "q.csv:2: 1 columns, expected 2");
   EXPECT_EQ(csv_refusal("elbow,shoulder\n0,0\n\n0,0\n"), "q.csv:3: is blank, but lines follow it");
@@ -69,7 +69,20 @@ TEST(RobocdCsv, MayLeaveTheLimitsWithANote) {
   arm.write("q.csv", "elbow,shoulder\n2,0\n0,9\n");
   const Said said = run_robocd("check" + arm.urdf() + " --csv-in" + arm.file("q.csv") + " 2>&1 >/dev/null");
   EXPECT_EQ(said.status, 0);
-  EXPECT_EQ(said.out, "note: 1 of 2 configurations are outside the joint limits\n");
+  EXPECT_EQ(
+      said.out,
+      "note: 1 of 2 configurations are outside the joint limits: configuration 0 has 2 for joint 'elbow', limits -1.5 "
+      "and 1\n");
+}
+
+TEST(RobocdCsv, MayHaveQuotesAndOtherColumns) {
+  const ArmFolder arm;
+  arm.write("plain.csv", "shoulder,elbow\n0.5,-1.4\n0.25,0\n");
+  arm.write("q.csv", ",time,\"elbow\", \"shoulder\"\n0,\"now, or then\",-1.4,\"0.5\"\n1,,0,0.25\n");
+  const std::string command = "check" + arm.urdf() + " --csv --csv-in";
+  EXPECT_EQ(run_robocd(command + arm.file("q.csv")).out, run_robocd(command + arm.file("plain.csv")).out);
+  const std::string note = run_robocd(command + arm.file("q.csv") + " 2>&1 >/dev/null").out;
+  EXPECT_TRUE(note.ends_with("q.csv: columns that name no joint are left out: '', 'time'\n")) << note;
 }
 
 /// The arm with one part of its text replaced.

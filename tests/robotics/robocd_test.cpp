@@ -116,7 +116,7 @@ TEST(Robocd, KnowsTheClosestPoints) {
   const ArmFolder arm;
   const Json json = check(arm.urdf() + " --zero --mode closest", 0);
   const Json& c = json.at("configurations").at(0);
-  EXPECT_EQ(keys(c), (std::set<std::string>{"index", "collides", "closest"}));
+  EXPECT_EQ(keys(c), (std::set<std::string>{"index", "collides", "values", "closest"}));
   const Json& closest = c["closest"];
   EXPECT_EQ(keys(closest), (std::set<std::string>{"link1", "link2", "distance", "point1", "point2"}));
   EXPECT_EQ(closest["link1"], "base");
@@ -142,17 +142,19 @@ TEST(Robocd, KeepsTheJsonContractOfCheck) {
   const std::string env = " --env" + arm.file("env.stl");
   using Keys = std::set<std::string>;
   const auto row = [](const Json& json) { return json.at("configurations").at(0); };
-  EXPECT_EQ(keys(row(check(in + "any", 1))), (Keys{"index", "collides"}));
-  EXPECT_EQ(keys(row(check(in + "any" + env, 1))), (Keys{"index", "collides"}));
-  EXPECT_EQ(keys(row(check(in + "all", 1))), (Keys{"index", "collides", "pairs"}));
-  EXPECT_EQ(keys(row(check(in + "within:0.1 --contained", 1))), (Keys{"index", "collides", "pairs", "contained"}));
+  EXPECT_EQ(keys(row(check(in + "any", 1))), (Keys{"index", "collides", "values"}));
+  EXPECT_EQ(keys(row(check(in + "any" + env, 1))), (Keys{"index", "collides", "values"}));
+  EXPECT_EQ(keys(row(check(in + "all", 1))), (Keys{"index", "collides", "values", "pairs"}));
+  EXPECT_EQ(keys(row(check(in + "within:0.1 --contained", 1))),
+            (Keys{"index", "collides", "values", "pairs", "contained"}));
   EXPECT_EQ(keys(row(check(in + "all --contained" + env, 1))),
-            (Keys{"index", "collides", "pairs", "environment_pairs", "contained", "environment_contained"}));
-  EXPECT_EQ(keys(row(check(in + "closest" + env, 1))), (Keys{"index", "collides", "closest", "environment_closest"}));
+            (Keys{"index", "collides", "values", "pairs", "environment_pairs", "contained", "environment_contained"}));
+  EXPECT_EQ(keys(row(check(in + "closest" + env, 1))),
+            (Keys{"index", "collides", "values", "closest", "environment_closest"}));
 
   const Json json = check(in + "all" + env, 1);
-  EXPECT_EQ(keys(json), (Keys{"tool", "command", "robot", "mode", "clearance", "seed", "environment", "notes",
-                              "configurations", "summary"}));
+  EXPECT_EQ(keys(json), (Keys{"tool", "command", "robot", "mode", "clearance", "seed", "environment", "allowed",
+                              "notes", "joints", "configurations", "summary"}));
   EXPECT_EQ(keys(json["summary"]), (Keys{"checked", "colliding", "most_frequent"}));
   EXPECT_EQ(pairs(row(json)["pairs"]), "base fore;camera mast;");
   EXPECT_EQ(keys(row(json)["pairs"][0]), (Keys{"link1", "link2"}));
@@ -199,12 +201,111 @@ TEST(Robocd, AsksTheEnvironmentToo) {
   EXPECT_EQ(within[0]["collides"], false);
   EXPECT_EQ(pairs(within[0]["environment_pairs"], "link", "body"), "base " + name + ";");
 
+  EXPECT_EQ(within[0]["environment_pairs"][0]["distance"], 1.375);
+  EXPECT_EQ(within[0]["environment_pairs"][0]["point2"][1], 1.5);
+
   // A surface around the robot touches nothing.
   EXPECT_EQ(check(rows + room + " --mode all", 0)["configurations"][0]["collides"], false);
   const Json inside = check(rows + room + " --mode all --contained", 1)["configurations"][0];
   EXPECT_EQ(inside["collides"], true);
   EXPECT_EQ(inside["environment_contained"].size(), 5U);
   EXPECT_EQ(inside["environment_contained"][0]["inner"], "base");
+}
+
+TEST(Robocd, GivesDistancesWithinAMargin) {
+  const ArmFolder arm;
+  const Json row = check(arm.urdf() + " --zero --mode within:1.32", 0)["configurations"][0];
+  EXPECT_EQ(row["values"], Json({0.0, 0.0}));
+  EXPECT_EQ(row["pairs"][0]["distance"], 1.3125);
+  EXPECT_EQ(row["pairs"][0]["point1"][0], 0.125);
+  EXPECT_EQ(row["pairs"][0]["point2"][0], 1.4375);
+}
+
+TEST(Robocd, TakesPrimitivesPlacesAndNamesForBodies) {
+  const ArmFolder arm;
+  arm.write("unit.stl", test::cube_stl({0, 0, 0}, 1));
+  const std::string zero = arm.urdf() + " --zero --mode ";
+  const auto closest = [&](const std::string& body, int status = 0) {
+    return check(zero + "closest --env '" + body + "'", status)["configurations"][0]["environment_closest"];
+  };
+  const std::string mesh = (arm.path() / "unit.stl").string();
+  // Each ends at y = 1.5; the base, which is nearest, at 0.125.
+  for (const std::string& body :
+       {std::string("it=box:0.25 0.25 0.25,xyz=0 1.625 0"), std::string("it=sphere:0.125,xyz=0 1.625 0"),
+        std::string("it=cylinder:0.5 0.25,xyz=0 1.625 0,rpy=1.5707963267948966 0 0"),
+        std::string("it=capsule:0.125 0.25,xyz=0 1.75 0,rpy=1.5707963267948966 0 0"),
+        "it=" + mesh + ",scale=0.125,xyz=0 1.625 0", "it=" + mesh + ",xyz=0 1.625 0,scale=1 0.125 0.5"}) {
+    const Json found = closest(body);
+    EXPECT_EQ(found["body"], "it") << body;
+    EXPECT_EQ(found["link"], "base") << body;
+    EXPECT_NEAR(found["distance"].get<double>(), 1.375, 1e-12) << body;
+  }
+  EXPECT_EQ(closest("sphere:0.125,xyz=0 1.625 0")["body"], "sphere:0.125,xyz=0 1.625 0");
+  for (const char* wrong : {"box:1 1", "box:1 1 x", "sphere:1,xyz=0 0", "sphere:1,scale=2", "sphere:1,xy=0 0 0",
+                            "=sphere:1", "a=", "sphere:-1", "base=sphere:1", "sphere:1,xyz=0 0 nan"})
+    EXPECT_EQ(run_robocd("check" + zero + "all --env '" + wrong + "' 2>&1").status, 2) << wrong;
+  EXPECT_EQ(run_robocd("check" + zero + "all --env a=sphere:1 --env a=sphere:2 2>&1").status, 2);
+  EXPECT_EQ(run_robocd("check" + zero + "all --env a=/nonexistent.stl 2>&1").status, 3);
+}
+
+/// A base stands on its table in every configuration.
+TEST(Robocd, LeavesOutAllowedPairsOfLinkAndBody) {
+  const ArmFolder arm;
+  const std::string zero = "check" + arm.urdf() + " --zero --json";
+  const std::string table = " --env 'table=box:0.5 0.5 0.25,xyz=0 0 -0.25'";
+  const Said standing = run_robocd(zero + table + " 2>&1 >/dev/null");
+  EXPECT_EQ(standing.status, 1);
+  EXPECT_EQ(standing.out,
+            "note: link 'base' never moves and collides with body 'table' in every configuration; --allow 'base' "
+            "'table' leaves the two out\n");
+  const Said noted = run_robocd(zero + table + " 2>/dev/null");
+  EXPECT_EQ(Json::parse(noted.out)["notes"].size(), 1U);
+  EXPECT_EQ(Json::parse(noted.out)["environment"], Json({"table"}));
+  arm.write("skip.txt", "table, base # it stands there\n");
+  arm.write("wrong.txt", "fore base\ntable,legs\n");
+  const std::string path = "path" + arm.urdf() + " --from zero --to 0.5,0.25";
+  for (const std::string& allowed :
+       {std::string(" --allow base table"), std::string(" --skip-pairs") + arm.file("skip.txt")}) {
+    const Said said = run_robocd(zero + table + allowed + " 2>&1");
+    EXPECT_EQ(said.status, 0) << said.out;
+    EXPECT_EQ(Json::parse(said.out)["allowed"], Json::parse(R"([{"link": "base", "body": "table"}])"));
+    EXPECT_EQ(run_robocd(path + table + allowed + " 2>&1").status, 0);
+  }
+  EXPECT_EQ(run_robocd(path + table + " 2>&1").status, 1);
+  EXPECT_EQ(run_robocd(zero + table + " --allow base shelf 2>&1").status, 2);
+  EXPECT_EQ(run_robocd(zero + table + " --allow legs table 2>&1").status, 2);
+  EXPECT_EQ(run_robocd(zero + table + " --skip-pairs" + arm.file("wrong.txt") + " 2>&1").status, 3);
+  // The other links still meet it.
+  EXPECT_EQ(run_robocd(zero + " --env 'table=box:4 4 0.25,xyz=0 0 -0.125' --allow base table 2>/dev/null").status, 1);
+}
+
+/// A ball in a box collides, in a closed mesh only with --contained: in check, path and matrix.
+TEST(Robocd, TakesPrimitivesForSolids) {
+  const test::TemporaryFolder folder;
+  folder.write("room.stl", test::cube_stl({0, 0, 0}, 2));
+  const auto urdf = [&](const std::string& name, const std::string& outer) {
+    folder.write(name, R"(<robot name="in"><link name="outer"><collision><geometry>)" + outer +
+                           R"(</geometry></collision></link><link name="between"/>
+  <link name="inner"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
+  <joint name="turn" type="continuous"><parent link="outer"/><child link="between"/><axis xyz="0 0 1"/></joint>
+  <joint name="slide" type="prismatic"><parent link="between"/><child link="inner"/><axis xyz="1 0 0"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>)");
+    return " '" + (folder.path() / name).string() + "'";
+  };
+  const std::string box = urdf("box.urdf", R"(<box size="4 4 4"/>)");
+  const std::string cylinder = urdf("cylinder.urdf", R"(<cylinder radius="2" length="4"/>)");
+  const std::string mesh = urdf("mesh.urdf", R"(<mesh filename="room.stl"/>)");
+  for (const std::string& robot : {box, cylinder, mesh + " --contained"}) {
+    for (const char* mode : {"any", "all", "within:0.1", "closest"})
+      EXPECT_EQ(check(robot + " --zero --mode " + mode, 1)["configurations"][0]["collides"], true) << robot << mode;
+    EXPECT_EQ(check(robot + " --zero --mode closest", 1)["configurations"][0]["closest"]["distance"], 0.0);
+    EXPECT_EQ(check(robot + " --zero --mode within:0.1", 1)["configurations"][0]["pairs"][0]["distance"], 0.0);
+    EXPECT_EQ(run_robocd("path" + robot + " --from zero --to 0.5,0.5").status, 1);
+    EXPECT_NE(run_robocd("matrix" + robot + " --samples 20 2>/dev/null").out.find("Always"), std::string::npos);
+  }
+  EXPECT_EQ(check(mesh + " --zero", 0)["configurations"][0]["collides"], false);
+  EXPECT_EQ(run_robocd("path" + mesh + " --from zero --to 0.5,0.5").status, 0);
+  EXPECT_NE(run_robocd("matrix" + mesh + " --samples 20 2>/dev/null").out.find("Never"), std::string::npos);
 }
 
 TEST(Robocd, SamplesWithinTheLimitsAndByIndexAlone) {
