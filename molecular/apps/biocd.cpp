@@ -158,6 +158,14 @@ void add_check_options(CLI::App& command, Options& o) {
              "worker threads; the output does not depend on them");
 }
 
+void add_closures_option(CLI::App& command, Options& o) {
+  command
+      .add_option_function<std::string>(
+          "--closures", [&o](const std::string& text) { o.keep_closures = text == "keep"; },
+          "cycles through disulphides and other bonds: keep (default) or open; loops are always kept")
+      ->check(CLI::IsMember({"open", "keep"}));
+}
+
 void add_path_options(CLI::App& command, Options& o) {
   add_json_option(command, o);
   constexpr const char* end =
@@ -202,14 +210,15 @@ Exit run(int argc, char** argv) {
   add_number(*sample, "--seed", o.seed, seeds, "seed; conformation k is a function of (seed, k) alone");
   add_number(*sample, "--sigma", o.sigma_degrees, lengths_above_0,
              "Gaussian about the reference, degrees (default: full range)");
-  sample
-      ->add_option_function<std::string>(
-          "--closures", [&o](const std::string& text) { o.keep_closures = text == "keep"; },
-          "cycles through disulphides and other bonds: open (default) or keep; loops are always kept")
-      ->check(CLI::IsMember({"open", "keep"}));
-  sample->add_flag("--collision-free", o.collision_free, "of closed conformations only those that do not collide");
-  add_number(*sample, "--tries", o.most_tries, counts, "starts for each closed conformation at most");
-  sample->callback([&] { command = biocd::run_sample; });
+  add_closures_option(*sample, o);
+  sample->add_flag("--collision-free", o.collision_free, "only conformations that do not collide");
+  add_number(*sample, "--tries", o.most_tries, counts,
+             "starts for each conformation at most, where cycles are closed or --collision-free");
+  sample->callback([&] {
+    o.keep_closures = o.keep_closures.value_or(true);
+    o.draws = true;
+    command = biocd::run_sample;
+  });
 
   CLI::App* walk = app.add_subcommand("walk", "Monte Carlo walk of collision-free moves from the file's conformation");
   add_model_options(*walk, o);
@@ -221,7 +230,11 @@ Exit run(int argc, char** argv) {
   add_number(*walk, "--seed", o.seed, seeds, "seed; a walk is a function of it, the file and the options alone");
   walk->add_option("--out", o.out, "write conformations as a multi-model PDB file");
   add_number(*walk, "--every", o.every, counts, "steps from one conformation written to the next");
-  walk->callback([&] { command = biocd::run_walk; });
+  add_closures_option(*walk, o);
+  walk->callback([&] {
+    o.keep_closures = o.keep_closures.value_or(true);
+    command = biocd::run_walk;
+  });
 
   CLI::App* merge = app.add_subcommand("merge", "joins the outputs of all shards of one run");
   merge->add_option("FILES", o.shards, "what --shard 1/n ... n/n printed")->required();

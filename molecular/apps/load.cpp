@@ -2,7 +2,6 @@
 // From options to a molecule that can be asked, and the explanation of one pair.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <memory>
 #include <optional>
@@ -13,7 +12,6 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
-#include "hinge/molecular/closed_sampler.hpp"
 #include "hinge/molecular/loop.hpp"
 #include "hinge/molecular/selection.hpp"
 #include "hinge/primitive/grid_point.hpp"
@@ -27,10 +25,6 @@ namespace biocd {
 using namespace hinge::molecular;
 
 Job load(const Options& options) {
-  if (!options.place.empty() && (!options.loop.empty() || options.keep_closures))
-    throw hinge::ModelError(
-        "--place with --loop or --closures keep: expected one of them, what closes cycles does not "
-        "move parts");
   Structure structure = read_files(options);
   MoleculeOptions made;
   std::vector<PlacementRange> ranges;
@@ -55,13 +49,20 @@ Job load(const Options& options) {
     made.held = held_placements(*molecule, *ensemble);
     if (!made.held.empty()) molecule = std::make_shared<const Molecule>(molecule->structure(), made);
   }
-  // A loop of six turns is held as well, but has other conformations to jump to.
-  std::vector<std::size_t> held;
-  if (options.keep_closures && !loops) held = find_held_torsions(*molecule, torsions);
-  std::erase_if(torsions, [&](std::size_t k) { return std::binary_search(held.begin(), held.end(), k); });
+  KeptClosures kept;
+  if (options.keep_closures) {
+    const Closures which = *options.keep_closures ? Closures::all : Closures::of_loops;
+    kept = find_kept_closures(*molecule, torsions, which);
+    if (options.draws && !kept.closures.empty()) {
+      const auto open = find_unclosable(*molecule, molecule->select_placed(kept.torsions), sampling_of(options), ranges,
+                                        kept.closures);
+      if (!open.empty()) kept = find_kept_closures(*molecule, torsions, which, open);
+    }
+    torsions = kept.torsions;
+  }
   Checker checker(molecule, molecule->select_placed(torsions), rules);
   return {std::move(molecule), std::move(checker), std::move(selected),
-          std::move(held),     std::move(ranges),  std::move(ensemble)};
+          std::move(kept),     std::move(ranges),  std::move(ensemble)};
 }
 
 namespace {

@@ -12,6 +12,7 @@
 
 #include "hinge/molecular/checker.hpp"
 #include "hinge/molecular/ensemble_groups.hpp"
+#include "hinge/molecular/kept_closures.hpp"
 #include "hinge/molecular/molecule.hpp"
 #include "hinge/molecular/read_structure.hpp"
 #include "hinge/molecular/sampler.hpp"
@@ -48,7 +49,8 @@ struct Options {
   bool keep_hydrogen_bonds = false;
   std::vector<std::string> rigid_from;  // conformations whose rigid groups stay rigid; empty: none
   double rigid_tolerance = 0.5;         // angstrom
-  bool keep_closures = false;           // sample: closed conformations only; loops are always closed
+  std::optional<bool> keep_closures;    // sample, walk: of all cycles, or of loops alone; none: nothing is closed
+  bool draws = false;                   // sample: conformations are drawn at random
   bool collision_free = false;          // sample: only those that do not collide
   std::uint64_t most_tries = 100;       // sample: starts for each closed conformation
   std::string mode = "all";
@@ -73,12 +75,18 @@ struct Options {
   double min_step = hinge::smallest_path_step;
 };
 
+inline hinge::molecular::Sampling sampling_of(const Options& options) {
+  hinge::molecular::Sampling sampling{options.seed, {}};
+  if (options.sigma_degrees) sampling.sigma = *options.sigma_degrees * degree;
+  return sampling;
+}
+
 /// A file read, with its selection and rules, ready to be asked.
 struct Job {
   std::shared_ptr<const hinge::molecular::Molecule> molecule;
   hinge::molecular::Checker checker;
-  hinge::molecular::SelectedTorsions selected;  // by --free
-  std::vector<std::size_t> held;  // torsions selected that closed cycles hold at the reference, and so not free
+  hinge::molecular::SelectedTorsions selected;                 // by --free
+  hinge::molecular::KeptClosures kept;                         // closed cycles, and torsions selected that they hold
   std::vector<hinge::molecular::PlacementRange> ranges;        // per placed part
   std::optional<hinge::molecular::EnsembleGroups> ensemble{};  // of --rigid-from
 };

@@ -110,6 +110,25 @@ void print_table(const Options& options, const Job& job, const Asked& asked) {
   }
 }
 
+/// One line about the closure that opens most at the ends and at fifteen states between them.
+void note_open_closures(const Job& job, const Asked& asked) {
+  constexpr std::size_t steps = 16;
+  Checker checker = job.checker;
+  std::vector<double> worst(closure_names(job).size(), 0.0), q(asked.from.turns.size());
+  for (std::size_t step = 0; step <= steps && !worst.empty(); ++step) {
+    const double t = static_cast<double>(step) / static_cast<double>(steps);
+    for (std::size_t k = 0; k < q.size(); ++k) q[k] = (1.0 - t) * asked.from.turns[k] + t * asked.to.turns[k];
+    const auto residuals = checker.check(q, Mode{Mode::Kind::any}).closure_residuals;
+    for (std::size_t c = 0; c < worst.size(); ++c) worst[c] = std::max(worst[c], residuals[c]);
+  }
+  const auto most = std::ranges::max_element(worst);
+  if (most == worst.end() || *most <= 1e-6) return;
+  std::fprintf(stderr,
+               "note: a straight path closes no cycles: %td of %zu closures open on it, most %s, by %.3f angstrom\n",
+               std::ranges::count_if(worst, [](double residual) { return residual > 1e-6; }), worst.size(),
+               closure_names(job)[static_cast<std::size_t>(most - worst.begin())].c_str(), *most);
+}
+
 }  // namespace
 
 Exit run_path(const Options& options) {
@@ -143,6 +162,7 @@ Exit run_path(const Options& options) {
   for (const PathEnd* end : {&asked.from, &asked.to})
     asked.closure_residual =
         std::max(asked.closure_residual, checker.check(end->turns, Mode{Mode::Kind::any}).closure_residual);
+  note_open_closures(job, asked);
   if (asked.answer.verdict == PathVerdict::colliding)
     asked.pairs = checker.check(asked.answer.configuration, Mode{Mode::Kind::all}).pairs;
 

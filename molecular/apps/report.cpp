@@ -92,7 +92,8 @@ Json model_json(const Options& options, const Job& job) {
               {"loops", options.loop},
               {"rigid_from", options.rigid_from},
               {"rigid_tolerance", options.rigid_from.empty() ? Json() : Json(options.rigid_tolerance)},
-              {"held_torsions", job.held.size()},
+              {"closures_kept", job.kept.closures.size()},
+              {"held_torsions", job.kept.held.size()},
               {"excluded_pairs", checker.exclusions().excluded_pairs()},
               {"exempt_reference", options.check.exempt_reference},
               {"exempt_interfaces", options.check.exempt_interfaces},
@@ -272,11 +273,14 @@ void print_notes(const Job& job) {
   for (const std::string& note : job.selected.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   if (job.checker.thresholds().rules->name == "molprobity" && !has_hydrogens(job.molecule->structure()))
     std::fprintf(stderr, "note: rules molprobity: the structure has no hydrogens, MolProbity would add them first\n");
-  for (const std::size_t k : job.held) {
-    const auto& torsion = job.molecule->torsions()[k];
-    std::fprintf(stderr, "note: torsion %s of %s: held by closed cycles, stays at its reference\n",
-                 torsion.name.c_str(), label(job.molecule->structure(), torsion.atoms[1]).c_str());
-  }
+  for (const std::string& note : job.kept.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+  if (job.kept.held.empty()) return;
+  constexpr std::size_t most = 8;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(most, job.kept.held.size()); ++k)
+    text += " " + torsion_label(job.molecule->structure(), job.molecule->torsions()[job.kept.held[k]]);
+  std::fprintf(stderr, "note: %zu torsions are held by closed cycles and stay at their reference:%s%s\n",
+               job.kept.held.size(), text.c_str(), job.kept.held.size() > most ? " ..." : "");
 }
 
 }  // namespace biocd

@@ -56,7 +56,10 @@ Sample draw(Worker& worker, const Job& job, const Sampling& sampling, std::uint6
   };
   const ClosedSample closed = worker.closed->sample(k, accept);
   Sample sample{{}, {}, closed.found(), closed.unclosed, closed.refused};
-  if (closed.found()) sample.verdict = worker.checker.check(closed.q, mode);
+  if (closed.found()) {
+    sample.verdict = worker.checker.check(closed.q, mode);
+    sample.placements = placements_of(job, closed.q);
+  }
   return sample;
 }
 
@@ -92,11 +95,8 @@ Exit run_sample(const Options& options) {
     explain(options, job);
     return Exit::free;
   }
-  Sampling sampling{options.seed, {}};
-  if (options.sigma_degrees) sampling.sigma = *options.sigma_degrees * degree;
-  const bool closed = options.keep_closures || !options.loop.empty();
-  if (options.collision_free && !closed)
-    throw hinge::ModelError("--collision-free: expected --loop or --closures keep beside it");
+  const Sampling sampling = sampling_of(options);
+  const bool closed = !job.kept.closures.empty() || options.collision_free;
   const Structure& s = job.molecule->structure();
   const auto [begin, end] = shard_range(options.shard.value_or(Shard{}), options.count);
   ConformationFile file(options, s, s.atoms.size(), false);
@@ -113,7 +113,9 @@ Exit run_sample(const Options& options) {
   hinge::tool::ProgressBar bar(end - begin);
   const auto start = std::chrono::steady_clock::now();
   Worker worker{job.checker, {}};
-  if (closed) worker.closed.emplace(*job.molecule, job.checker.selection(), sampling, options.most_tries);
+  if (closed)
+    worker.closed.emplace(*job.molecule, job.checker.selection(), sampling, options.most_tries, job.kept.closures,
+                          job.ranges);
   const auto judge = [&, begin = begin](Worker& mine, std::size_t n) {
     Sample sample = draw(mine, job, sampling, begin + n, mode, options.collision_free);
     if (sample.found && file.takes(sample.verdict.collides)) sample.positions = mine.checker.positions();

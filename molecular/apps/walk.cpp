@@ -11,6 +11,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/write_structure.hpp"
 #include "hinge/moves/move_checker.hpp"
+#include "hinge/moves/move_closer.hpp"
 #include "hinge/moves/random_move.hpp"
 #include "hinge/tool/complete_file.hpp"
 #include "hinge/tool/json_text.hpp"
@@ -29,10 +30,10 @@ void check_options(const Options& options, const Job& job) {
   if (options.check.engine != "wide")
     throw hinge::ModelError("walk: engine '" + options.check.engine + "': moves are answered by wide alone");
   if (!options.place.empty()) throw hinge::ModelError("--place: a walk turns torsions, expected no placed parts");
-  if (!options.loop.empty() || options.keep_closures)
-    throw hinge::ModelError("--loop and --closures keep: a walk's moves close no cycles; sample does");
   const std::size_t dof = job.checker.dof_count();
-  if (dof == 0) throw hinge::ModelError("--free " + options.free + ": no torsion is free, so nothing can walk");
+  if (dof == 0)
+    throw hinge::ModelError("--free " + options.free + ": no torsion is free, so nothing can walk" +
+                            (job.kept.held.empty() ? "" : " (closed cycles hold them; --closures open lets them go)"));
   if (options.changes > dof)
     throw hinge::ModelError(fmt::format("--changes {}: only {} torsions are free", options.changes, dof));
 }
@@ -74,12 +75,15 @@ Exit run_walk(const Options& options) {
   hinge::tool::ProgressBar bar(options.steps);
   const double sigma = options.step_degrees * degree;
   std::vector<hinge::DofChange> changes;
-  std::uint64_t accepted = 0;
+  hinge::MoveCloser closer(job.molecule->model().tree(), job.checker.selection(), job.kept.closures);
+  std::uint64_t accepted = 0, unclosed = 0;
   int frames = 0;
   const auto start = std::chrono::steady_clock::now();
   for (std::uint64_t step = 0; step < options.steps; ++step) {
     hinge::random_move(options.seed, step, moves.configuration(), options.changes, sigma, changes);
-    if (moves.try_move(changes)) {
+    if (!closer.close(moves.configuration(), changes)) {
+      ++unclosed;
+    } else if (moves.try_move(changes)) {
       moves.accept();
       ++accepted;
     } else {
@@ -104,18 +108,24 @@ Exit run_walk(const Options& options) {
     json["step_degrees"] = options.step_degrees;
     json["changes"] = options.changes;
     json["constant_contacts"] = constant_contacts_json(job);
-    json["summary"] = {{"steps", options.steps}, {"accepted", accepted},
-                       {"rejected", rejected},   {"full_queries", moves.counts().full_queries},
-                       {"frames", frames},       {"closure_residual", end.closure_residual}};
+    json["summary"] = {{"steps", options.steps},
+                       {"accepted", accepted},
+                       {"rejected", rejected},
+                       {"unclosed", unclosed},
+                       {"frames", frames},
+                       {"full_queries", moves.counts().full_queries},
+                       {"closure_residual", end.closure_residual}};
     fmt::print("{}\n", hinge::tool::json_text(json, 1));
   } else {
     fmt::print("{} of {} steps accepted ({:.2f} %), {} rejected, {:.0f} steps per second\n", accepted, options.steps,
                100.0 * static_cast<double>(accepted) / static_cast<double>(options.steps), rejected,
                static_cast<double>(options.steps) / walking.count());
     if (frames > 0) fmt::print("{} conformations written to {}\n", frames, options.out);
+    if (!job.kept.closures.empty())
+      fmt::print("closures kept: {}; moves that did not close, and were rejected: {}\n", job.kept.closures.size(),
+                 unclosed);
     if (end.closure_residual > 0.0)
-      fmt::print("closures: moved freely, so cycles open; the residual at the end is {:.3f} angstrom\n",
-                 end.closure_residual);
+      fmt::print("closures: the worst residual at the end is {:.3g} angstrom\n", end.closure_residual);
   }
   return Exit::free;
 }

@@ -104,6 +104,15 @@ TEST(BiocdLoop, GivesCollisionFreeOnesOnRequest) {
   EXPECT_GT(json.at("summary").at("closed_refused").get<int>(), 0);
 }
 
+TEST(BiocdLoop, IsNotNeededForCollisionFreeSamples) {
+  const auto said = run_biocd("sample " + file() + " --free A:72-76 --collision-free -n 5 --exempt-reference --json" +
+                              " 2>/dev/null");
+  EXPECT_EQ(said.status, 0);
+  const Json json = Json::parse(said.out);
+  EXPECT_EQ(json.at("conformations").size(), 5U);
+  EXPECT_EQ(json.at("summary").at("colliding"), 0);
+}
+
 TEST(BiocdLoop, RefusesWhatIsNoLoop) {
   const auto refused = [](const std::string& arguments) {
     const auto said = run_biocd("sample " + file() + " " + arguments + " 2>&1");
@@ -117,7 +126,6 @@ TEST(BiocdLoop, RefusesWhatIsNoLoop) {
   EXPECT_NE(refused("--loop A:10-20 --free backbone").find("only side chains"), std::string::npos);
   EXPECT_NE(refused("--loop A:10").find("turns"), std::string::npos);
   EXPECT_NE(refused("--loop nonsense").find("CHAIN:RESIDUES"), std::string::npos);
-  EXPECT_NE(refused("--collision-free").find("expected --loop or --closures keep"), std::string::npos);
   refused("--closures maybe");
   refused("--loop A:10-20 --tries 0");
 }
@@ -138,13 +146,13 @@ TEST(BiocdLoop, GivesTheSameBytesEverywhere) {
   }
 }
 
-TEST(BiocdClosures, AreKeptOnRequest) {
+TEST(BiocdLoop, KeepsDisulphidesAndHydrogenBonds) {
   const auto pti = test::shared_molecules() / "5pti.pdb";
   if (!std::filesystem::exists(pti)) GTEST_SKIP() << "shared data not found";
   const auto run = [&](const std::string& more) {
     return Json::parse(run_biocd("sample " + pti.string() + " -n 10 --sigma 5 --json " + more + " 2>/dev/null").out);
   };
-  const Json open = run(""), kept = run("--closures keep"), bonded = run("--closures keep --keep-hbonds");
+  const Json open = run("--closures open"), kept = run(""), bonded = run("--keep-hbonds");
   EXPECT_GT(open.at("summary").at("worst_closure_residual").get<double>(), 0.1);
   EXPECT_FALSE(open.at("summary").contains("missing"));
   EXPECT_LE(kept.at("summary").at("worst_closure_residual").get<double>(), 1e-6);

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,13 +23,23 @@
 
 namespace hinge {
 
+/// Positions of all closures of a tree.
+inline std::vector<std::size_t> all_closures(const KinematicTree& tree) {
+  std::vector<std::size_t> closures(tree.closures().size());
+  std::iota(closures.begin(), closures.end(), std::size_t{0});
+  return closures;
+}
+
 /// A closure gives six rows (two points, first link's minus second's) or, with lengths, three. A column is a selected
 /// DOF on the cycle of some closure: one between its links and where their ways to the world meet. Forward kinematics
 /// in the order of operations of Pose; only groups some closure needs are placed.
 class ClosureEquations {
  public:
   /// Those of all closures of the tree. ModelError: a selection made for another tree.
-  ClosureEquations(const KinematicTree& tree, const DofSelection& selection);
+  ClosureEquations(const KinematicTree& tree, const DofSelection& selection)
+      : ClosureEquations(tree, selection, all_closures(tree)) {}
+  /// Those of some closures, positions in tree.closures(); they are numbered as given here.
+  ClosureEquations(const KinematicTree& tree, const DofSelection& selection, std::span<const std::size_t> closures);
 
   /// Places everything at q, one value per selected DOF. ConfigurationError: wrong length, a value that is not finite.
   void set(std::span<const double> q);
@@ -103,14 +114,18 @@ class ClosureEquations {
   double cost_ = 0.0, worst_ = 0.0;
 };
 
-inline ClosureEquations::ClosureEquations(const KinematicTree& tree, const DofSelection& selection)
+inline ClosureEquations::ClosureEquations(const KinematicTree& tree, const DofSelection& selection,
+                                          std::span<const std::size_t> closures)
     : groups_(tree, selection), dof_count_(selection.size()), poses_(groups_.size()), axes_(groups_.size()) {
   constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   std::vector<bool> needed(groups_.size(), false);
   std::vector<std::size_t> column_of(groups_.size(), none);
   const auto parent = [&](std::size_t g) { return index(groups_[id<GroupId>(g)].parent); };
   std::size_t row = 0;
-  for (const Closure& closure : tree.closures()) {
+  for (const std::size_t c : closures) {
+    if (c >= tree.closures().size())
+      throw ModelError("closure " + std::to_string(c) + ": the tree has " + std::to_string(tree.closures().size()));
+    const Closure& closure = tree.closures()[c];
     Cycle cycle{closure, index(groups_.group_of(closure.first)), index(groups_.group_of(closure.second)), row};
     row += closure.lengths ? 3 : 6;
     for (std::size_t k = 0; k < 2; ++k) {

@@ -34,7 +34,11 @@ class ClosureSolver {
  public:
   /// ModelError: a selection made for another tree; numbers out of range.
   ClosureSolver(const KinematicTree& tree, const DofSelection& selection, const ClosureOptions& options = {})
-      : equations_(tree, selection), options_(options) {
+      : ClosureSolver(tree, selection, all_closures(tree), options) {}
+  /// Closes some closures of the tree, positions in tree.closures(), and leaves the others as they come.
+  ClosureSolver(const KinematicTree& tree, const DofSelection& selection, const std::vector<std::size_t>& closures,
+                const ClosureOptions& options = {})
+      : equations_(tree, selection, closures), options_(options) {
     if (!(options.tolerance > 0.0) || !is_length(options.tolerance))
       throw ModelError("closure tolerance " + std::to_string(options.tolerance) + ": expected a length above 0");
     if (options.most_steps < 0)
@@ -49,6 +53,8 @@ class ClosureSolver {
   /// The worst residual of the last close(), model length unit.
   double residual() const noexcept { return equations_.worst(); }
   int steps() const noexcept { return steps_; }
+  /// The equations it solves, at the last q.
+  const ClosureEquations& equations() const noexcept { return equations_; }
 
  private:
   void solve(double damping) noexcept;

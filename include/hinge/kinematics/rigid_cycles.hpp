@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "hinge/kinematics/cholesky.hpp"
@@ -65,10 +66,10 @@ inline bool has_full_rank(const ClosureEquations& equations, const std::vector<s
 /// by more than the error's Frobenius norm). Looked at are each closure alone and all that share DOF, again and again
 /// as DOF are found held: never a DOF too many, for a mechanism that moves does not have full rank; some may be missed.
 /// Other assemblies of the same ring are not reached by moving and stay unknown. Empty when the reference itself is not
-/// closed within 8 times error.point. Sorted.
+/// closed within 8 times error.point. Sorted. `kept`: the closures that hold, positions in tree.closures().
 inline std::vector<DofId> rigid_cycle_dofs(const KinematicTree& tree, const DofSelection& selection,
-                                           const GeometryError& error = {}) {
-  ClosureEquations equations(tree, selection);
+                                           const GeometryError& error, std::span<const std::size_t> kept) {
+  ClosureEquations equations(tree, selection, kept);
   if (!(equations.worst() <= 8.0 * error.point + 0x1p-30)) return {};
   equations.compute_jacobian();
   std::vector<bool> held(equations.columns(), false);
@@ -117,6 +118,12 @@ inline std::vector<DofId> rigid_cycle_dofs(const KinematicTree& tree, const DofS
     if (held[k]) dofs.push_back(selection.dofs()[equations.position(k)]);
   std::sort(dofs.begin(), dofs.end());
   return dofs;
+}
+
+/// The same with all closures of the tree.
+inline std::vector<DofId> rigid_cycle_dofs(const KinematicTree& tree, const DofSelection& selection,
+                                           const GeometryError& error = {}) {
+  return rigid_cycle_dofs(tree, selection, error, all_closures(tree));
 }
 
 }  // namespace hinge
