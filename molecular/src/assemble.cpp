@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "conformer.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
 #include "hinge/molecular/residue_table.hpp"
@@ -37,6 +38,7 @@ class Assembler {
     for (const RawResidue& residue : chosen.front()->residues)
       for (const RawAtom& atom : residue.atoms)
         s_.atom_records = std::max(s_.atom_records, std::size_t{atom.record} + 1);
+    conformers_.emplace(*chosen.front(), options_);
     for (std::size_t m = 0; m < chosen.size(); ++m) add_model(*chosen[m], m == 0);
     if (s_.atoms.empty())
       throw LoadError(path_ + ": no atoms left (" + std::to_string(s_.waters_dropped) + " waters and " +
@@ -62,7 +64,7 @@ class Assembler {
         ++end;
       std::size_t best = begin;
       for (std::size_t r = begin + 1; r < end; ++r)
-        if (preference(residues[r]) > preference(residues[best])) best = r;
+        if (conformers_->preference(residues[r]) > conformers_->preference(residues[best])) best = r;
       if (first && end > begin + 1)
         s_.notes.push_back(name_of(residues[begin]) + ": " + std::to_string(end - begin) +
                            " residue types share the position, " + residues[best].name + " is used");
@@ -84,37 +86,6 @@ class Assembler {
     return (residue.chain.empty() ? "_" : residue.chain) + ":" + residue.name + std::to_string(residue.number) +
            (residue.insertion_code != '\0' ? std::string(1, residue.insertion_code) : "");
   }
-  double preference(const RawResidue& residue) const {
-    double best = 0.0;
-    for (const RawAtom& atom : residue.atoms) {
-      if (options_.altloc && atom.altloc == *options_.altloc) return 2.0;
-      best = std::max(best, atom.occupancy);
-    }
-    return best;
-  }
-
-  /// The alternative location to use in a residue; '\0' when there is none.
-  char altloc_of(const RawResidue& residue) const {
-    std::vector<std::pair<char, double>> sums;  // in order of appearance
-    for (const RawAtom& atom : residue.atoms) {
-      if (atom.altloc == '\0') continue;
-      auto found =
-          std::find_if(sums.begin(), sums.end(), [&](const auto& entry) { return entry.first == atom.altloc; });
-      if (found == sums.end()) found = sums.insert(sums.end(), {atom.altloc, 0.0});
-      found->second = std::max(found->second, atom.occupancy);
-    }
-    char best = '\0';
-    double occupancy = -1.0;
-    for (const auto& [altloc, value] : sums) {
-      if (options_.altloc && altloc == *options_.altloc) return altloc;
-      if (value > occupancy) {
-        best = altloc;
-        occupancy = value;
-      }
-    }
-    return best;
-  }
-
   void add_residue(const RawResidue& raw, ResidueKind kind, bool first, std::vector<Vec3>& positions) {
     if (kind == ResidueKind::water) {
       if (first) ++s_.waters_dropped;
@@ -129,12 +100,13 @@ class Assembler {
       if (first) s_.hetero_dropped += raw.atoms.size();
       return;
     }
-    const char altloc = altloc_of(raw);
+    const char altloc = conformers_->altloc_of(raw);
+    if (first) conformers_->count(altloc, name_of(raw));
     Residue residue{raw.name, raw.number, raw.insertion_code, 0, static_cast<std::uint32_t>(s_.atoms.size()), 0, kind};
     std::map<std::string, int> seen;
     for (const RawAtom& atom : raw.atoms) {
       if (atom.altloc != '\0' && atom.altloc != altloc) {
-        if (first && ++altlocs_dropped_ == 1) first_altloc_ = name_of(raw) + ":" + atom.name + " at " + atom.altloc;
+        if (first) conformers_->count_dropped(name_of(raw) + ":" + atom.name + " at " + atom.altloc);
         continue;
       }
       const std::string where = path_ + ": " + name_of(raw) + ":" + atom.name;
@@ -181,9 +153,7 @@ class Assembler {
   }
 
   void say_repairs() {
-    if (altlocs_dropped_ > 0)
-      s_.notes.push_back("alternative locations: " + std::to_string(altlocs_dropped_) +
-                         " atoms left out (first: " + first_altloc_ + ")");
+    if (std::string note = conformers_->note(); !note.empty()) s_.notes.push_back(std::move(note));
     if (repaired_ > 0)
       s_.notes.push_back("elements of " + std::to_string(repaired_) +
                          " atoms taken from their names (first: " + first_repair_ + ")");
@@ -251,8 +221,7 @@ class Assembler {
   const ReadOptions& options_;
   Structure s_;
   std::string difference_;  ///< first atom of the model being added that the first model does not have there
-  std::size_t altlocs_dropped_ = 0;
-  std::string first_altloc_;
+  std::optional<ConformerChoice> conformers_;
   std::size_t repaired_ = 0;
   std::string first_repair_;
 };

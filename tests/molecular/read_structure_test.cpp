@@ -230,19 +230,53 @@ TEST(ReadStructure, RefusesModelsThatDiffer) {
   EXPECT_NE(refusal("MODEL        1\n" + alanine() + "ENDMDL\nMODEL        1\n" + alanine() + "ENDMDL\n"), "");
 }
 
-TEST(ReadStructure, TakesTheMostOccupiedLocationThenTheFirst) {
-  const std::string text = alanine() + atom(6, "CG", "LEU", 2, 5, 5, 5, 'A', 0.3) +
-                           atom(7, "CG", "LEU", 2, 6, 5, 5, 'B', 0.7) + atom(8, "CG", "LEU", 3, 15, 5, 5, 'A', 0.5) +
-                           atom(9, "CG", "LEU", 3, 16, 5, 5, 'B', 0.5);
+/// CG of LEU `number` at A, B ... with these occupancies, x = 10 * number + 0, 1 ...
+std::string alternatives(int number, const std::vector<std::pair<char, double>>& occupancies) {
+  std::string text;
+  for (std::size_t k = 0; k < occupancies.size(); ++k)
+    text += atom(10 * number + static_cast<int>(k), "CG", "LEU", number, 10.0 * number + static_cast<double>(k), 5, 5,
+                 occupancies[k].first, occupancies[k].second);
+  return text;
+}
+
+TEST(ReadStructure, ReadsOneConformerOfTheHighestSummedOccupancy) {
+  // A 0.3 + 0.9 + 0.4, B 0.7 + 0.1 + 0.5; residue 5 has neither.
+  const TemporaryFile file(alanine() + alternatives(2, {{'A', 0.3}, {'B', 0.7}}) +
+                           alternatives(3, {{'A', 0.9}, {'B', 0.1}}) + alternatives(4, {{'A', 0.4}, {'B', 0.5}}) +
+                           alternatives(5, {{'D', 0.5}, {'C', 0.5}}));
+  Structure s = read_structure(file.path());
+  ASSERT_EQ(s.atoms.size(), 9U);
+  for (std::size_t k = 5; k < 8; ++k) EXPECT_EQ(s.atoms[k].altloc, 'A');
+  EXPECT_EQ(s.atoms[8].altloc, 'C');
+  EXPECT_EQ(s.models.front()[8][0], 51.0);
+  EXPECT_TRUE(
+      has_note(s,
+               "alternative locations: A, of the highest summed occupancy, is read in 3 residues; 1 lack it and "
+               "are read at their own best (first: A:LEU5 at C); 4 atoms are left out (first: A:LEU2:CG at B)"));
+  ReadOptions options;
+  options.altloc = 'B';
+  s = read_structure(file.path(), options);
+  for (std::size_t k = 5; k < 8; ++k) EXPECT_EQ(s.atoms[k].altloc, 'B');
+  EXPECT_EQ(s.atoms[8].altloc, 'C');
+  EXPECT_TRUE(has_note(s, "alternative locations: B, as asked for, is read in 3 residues"));
+}
+
+TEST(ReadStructure, TakesTheFirstLetterOfEquallyOccupiedConformers) {
+  const TemporaryFile file(alanine() + alternatives(2, {{'B', 0.5}, {'A', 0.5}}));
+  EXPECT_EQ(read_structure(file.path()).models.front()[5][0], 21.0);
+}
+
+TEST(ReadStructure, ReadsTheResidueTypeOfTheConformerWhereTwoShareAPosition) {
+  // Serine is the more frequent at 3, but A is the conformer of the structure.
+  const std::string text = alanine() + alternatives(2, {{'A', 0.9}, {'B', 0.1}}) +
+                           atom(40, "CG", "PRO", 3, 30, 5, 5, 'A', 0.4) +
+                           atom(41, "OG", "SER", 3, 31, 5, 5, 'B', 0.6, "O");
   const TemporaryFile file(text);
   Structure s = read_structure(file.path());
-  ASSERT_EQ(s.atoms.size(), 7U);
-  EXPECT_EQ(s.models.front()[5][0], 6.0);
-  EXPECT_EQ(s.models.front()[6][0], 15.0);
+  EXPECT_EQ(s.residues.back().name, "PRO");
   ReadOptions options;
-  options.altloc = 'A';
-  s = read_structure(file.path(), options);
-  EXPECT_EQ(s.models.front()[5][0], 5.0);
+  options.altloc = 'B';
+  EXPECT_EQ(read_structure(file.path(), options).residues.back().name, "SER");
 }
 
 TEST(ReadStructure, LeavesOutWatersAndHeteroAtomsAndCountsThem) {
