@@ -27,14 +27,20 @@ bool is_contact(std::string_view ion, std::string_view other) {
   return (other == "C" || other == "P") && std::find(ions.begin(), last, ion) != last;
 }
 
+std::uint64_t pair_key(std::uint32_t first, std::uint32_t second) { return (std::uint64_t{first} << 32) | second; }
+
 }  // namespace
 
 bool BondList::add(std::uint32_t i, std::uint32_t j, BondOrigin origin, BondOrder order) {
   const auto [a, b] = std::minmax(i, j);
-  if (!seen_.insert((std::uint64_t{a} << 32) | b).second) return false;
+  if (!seen_.insert(pair_key(a, b)).second) return false;
   if (is_metal(s_.atoms[a].element) || is_metal(s_.atoms[b].element)) order = BondOrder::coordination;
   s_.bonds.push_back({a, b, origin, order});
   return true;
+}
+
+bool BondList::has(std::uint32_t i, std::uint32_t j) const {
+  return seen_.contains(pair_key(std::min(i, j), std::max(i, j)));
 }
 
 bool BondList::within_radii(std::uint32_t i, std::uint32_t j) const {

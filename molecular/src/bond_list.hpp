@@ -21,6 +21,8 @@ class BondList {
   /// False when the bond is known already; its first origin and order count. Bonds of metals are coordination bonds.
   bool add(std::uint32_t i, std::uint32_t j, BondOrigin origin, BondOrder order = BondOrder::unknown);
 
+  bool has(std::uint32_t i, std::uint32_t j) const;
+
   bool hydrogen(std::uint32_t i) const { return s_.atoms[i].element == "H"; }
   double distance(std::uint32_t i, std::uint32_t j) const { return std::sqrt(squared_norm(Vec3(x_[i] - x_[j]))); }
   /// Closer than covalent radii + tolerance, no two copies of one atom, no contact over a ligand's oxygen.

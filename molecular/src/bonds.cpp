@@ -9,8 +9,10 @@
 #include <cstdio>
 #include <optional>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
+#include "bond_judge.hpp"
 #include "bond_list.hpp"
 #include "cell_grid.hpp"
 #include "hinge/molecular/residue_table.hpp"
@@ -29,17 +31,17 @@ constexpr double recorded_coordination_max = 3.2;
 
 class Perception {
  public:
-  explicit Perception(Structure& structure) : s_(structure), x_(structure.models.front()), bonds_(structure) {}
+  Perception(Structure& structure, BondSearch between)
+      : s_(structure), x_(structure.models.front()), between_(between), bonds_(structure) {}
 
   void run(ComponentLibrary& components) {
     ResidueBonds inside(s_, bonds_, components);
     for (std::uint32_t r = 0; r < s_.residues.size(); ++r) inside.add(r);
     for (const Chain& chain : s_.chains) bond_chain(chain);
     bond_recorded();
-    bond_disulphides();
-    bond_unknown();
+    if (between_ == BondSearch::geometry) bond_by_distance();
     inside.say();
-    finish();
+    std::sort(s_.bonds.begin(), s_.bonds.end(), before);
   }
 
  private:
@@ -59,7 +61,7 @@ class Perception {
       last = r;
     }
     // A cyclic backbone: its ends meet. Two residues cannot close a ring of their own.
-    if (first && last && *last > *first + 1) bond_next(*last, *first);
+    if (first && last && *last > *first + 1) ends_.emplace_back(*last, *first);
   }
 
   bool bond_next(std::uint32_t r, std::uint32_t t) {
@@ -111,55 +113,114 @@ class Perception {
                          " (first: " + first_ignored + " angstrom)");
   }
 
-  void bond_disulphides() {
+  /// Bonds between residues that nothing but their distance tells of: disulphides, closed backbones, and what residues
+  /// without a template are bonded to (glycans, ligands, cofactors, metals).
+  void bond_by_distance() {
+    const std::size_t told = s_.bonds.size();
+    BondJudge judge(s_);
+    std::vector<Candidate> found = disulphides();
+    for (const auto& [last, first] : ends_)
+      for (const auto& [a, b, origin] :
+           {std::tuple("C", "N", BondOrigin::peptide), std::tuple("O3'", "P", BondOrigin::phosphodiester)}) {
+        const auto i = bonds_.find(last, a), j = bonds_.find(first, b);
+        if (i && j && bonds_.within_radii(*i, *j)) found.push_back(candidate(*i, *j, origin));
+      }
+    const std::vector<Candidate> others = of_unknown_residues();
+    found.insert(found.end(), others.begin(), others.end());
+    // Those come first whose length is nearest to a bond's.
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.misfit < b.misfit; });
+    std::size_t refused = 0;
+    std::string first_refused;
+    for (const Candidate& bond : found) {
+      if (bonds_.has(bond.first, bond.second)) continue;
+      std::string reason = judge.refusal(bond.first, bond.second);
+      if (!reason.empty()) {
+        if (++refused == 1) first_refused = named(bond) + ": " + reason;
+        continue;
+      }
+      bonds_.add(bond.first, bond.second, bond.origin);
+      judge.join(bond.first, bond.second);
+    }
+    std::vector<Bond> added(s_.bonds.begin() + static_cast<std::ptrdiff_t>(told), s_.bonds.end());
+    std::sort(added.begin(), added.end(), before);
+    for (const Bond& bond : added)
+      s_.notes.push_back("bond by distance, which no record tells of: " +
+                         named({bond.first, bond.second, bond.origin, 0.0}));
+    if (refused > 0)
+      s_.notes.push_back("as close as bonds, but not taken for bonds: " + std::to_string(refused) +
+                         " pairs (first: " + first_refused + ")");
+  }
+
+  struct Candidate {
+    std::uint32_t first, second;
+    BondOrigin origin;
+    double misfit;  ///< by how much its length differs from the sum of covalent radii, angstrom
+  };
+  Candidate candidate(std::uint32_t i, std::uint32_t j, BondOrigin origin) const {
+    const double radii = covalent_radius(s_.atoms[i].element) + covalent_radius(s_.atoms[j].element);
+    return {std::min(i, j), std::max(i, j), origin, std::abs(bonds_.distance(i, j) - radii)};
+  }
+  std::string named(const Candidate& bond) const {
+    std::array<char, 32> length{};
+    std::snprintf(length.data(), length.size(), "%.3f", bonds_.distance(bond.first, bond.second));
+    return label(s_, bond.first) + " - " + label(s_, bond.second) + ", " + length.data() + " angstrom";
+  }
+
+  std::vector<Candidate> disulphides() const {
     std::vector<std::uint32_t> sulphurs;
     for (std::uint32_t i = 0; i < s_.atoms.size(); ++i)
       if (s_.atoms[i].name == "SG" && s_.atoms[i].element == "S") sulphurs.push_back(i);
     CellGrid grid(x_, sulphurs, disulphide_max);
+    std::vector<Candidate> found;
     for (const std::uint32_t i : sulphurs)
       grid.for_each_near(x_[i], [&](std::uint32_t j) {
         const double d = bonds_.distance(i, j);
-        if (i < j && d >= disulphide_min && d <= disulphide_max) bonds_.add(i, j, BondOrigin::disulphide);
+        if (i < j && d >= disulphide_min && d <= disulphide_max)
+          found.push_back(candidate(i, j, BondOrigin::disulphide));
       });
+    return found;
   }
 
-  /// Residues without a template may be bonded to anything: glycans, ligands, cofactors, metals.
-  void bond_unknown() {
+  /// Residues without a template may be bonded to anything.
+  std::vector<Candidate> of_unknown_residues() const {
     std::vector<std::uint32_t> heavy;
     bool any = false;
     for (std::uint32_t i = 0; i < s_.atoms.size(); ++i) {
       if (!bonds_.hydrogen(i)) heavy.push_back(i);
       any = any || unknown(i);
     }
-    if (any) {
-      constexpr double longest = 2 * 2.4 + BondList::tolerance;  // two of the largest covalent radii
-      CellGrid grid(x_, heavy, longest);
-      for (const std::uint32_t i : heavy)
-        if (unknown(i))
-          grid.for_each_near(x_[i], [&](std::uint32_t j) {
-            if (s_.atoms[i].residue != s_.atoms[j].residue && bonds_.within_radii(i, j))
-              bonds_.add(i, j, BondOrigin::covalent_radii);
-          });
-    }
+    std::vector<Candidate> found;
+    if (!any) return found;
+    constexpr double longest = 2 * 2.4 + BondList::tolerance;  // two of the largest covalent radii
+    CellGrid grid(x_, heavy, longest);
+    for (const std::uint32_t i : heavy)
+      if (unknown(i))
+        grid.for_each_near(x_[i], [&](std::uint32_t j) {
+          if (s_.atoms[i].residue != s_.atoms[j].residue && (i < j || !unknown(j)) && bonds_.within_radii(i, j))
+            found.push_back(candidate(i, j, BondOrigin::covalent_radii));
+        });
+    return found;
   }
   bool unknown(std::uint32_t i) const { return s_.residues[s_.atoms[i].residue].kind == ResidueKind::other; }
 
-  void finish() {
-    std::sort(s_.bonds.begin(), s_.bonds.end(),
-              [](const Bond& a, const Bond& b) { return std::pair(a.first, a.second) < std::pair(b.first, b.second); });
+  static bool before(const Bond& a, const Bond& b) {
+    return std::pair(a.first, a.second) < std::pair(b.first, b.second);
   }
 
   Structure& s_;
   const std::vector<Vec3>& x_;
+  BondSearch between_;
   BondList bonds_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends_;  // last and first residue of each polymer
 };
 
 }  // namespace
 
-void perceive_bonds(Structure& structure, ComponentLibrary components) {
+void perceive_bonds(Structure& structure, ComponentLibrary components, BondSearch between) {
   structure.bonds.clear();
   structure.bond_sources.clear();
-  Perception(structure).run(components);
+  Perception(structure, between).run(components);
 }
 
 }  // namespace hinge::molecular

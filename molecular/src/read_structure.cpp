@@ -117,7 +117,7 @@ Structure read_structure(const std::filesystem::path& path, const ReadOptions& o
   if (raw.name.empty() || raw.name == path.string()) raw.name = stem(path);
   Structure structure = assemble(std::move(raw), path.string(), options);
   structure.more_models = cut_short;
-  perceive_bonds(structure, std::move(components));
+  perceive_bonds(structure, std::move(components), options.bonds);
   return structure;
 }
 

@@ -3,8 +3,10 @@
 #include "residue_bonds.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
+#include "bond_judge.hpp"
 #include "hinge/molecular/bonds.hpp"
 #include "hinge/molecular/nucleotide_table.hpp"
 #include "hinge/molecular/residue_table.hpp"
@@ -115,12 +117,30 @@ bool ResidueBonds::add_conect(const Residue& residue) {
   return true;
 }
 
+/// Atoms within covalent radii, but for contacts of a residue that is folded onto itself: bonds that close a ring which
+/// cannot be one.
 void ResidueBonds::add_by_radii(const Residue& residue, const std::set<std::uint32_t>& known) {
+  std::vector<std::pair<double, std::pair<std::uint32_t, std::uint32_t>>> found;  // by how far it is from the radii
+  BondJudge judge(s_, residue.first_atom, residue.last_atom);
+  for (auto bond = s_.bonds.rbegin(); bond != s_.bonds.rend() && bond->first >= residue.first_atom; ++bond)
+    judge.join(bond->first, bond->second, bond->order);
   for (std::uint32_t i = residue.first_atom; i < residue.last_atom; ++i)
     for (std::uint32_t j = residue.first_atom; j < i; ++j)
       if (!bonds_.hydrogen(i) && !bonds_.hydrogen(j) && !(known.contains(i) && known.contains(j)) &&
-          bonds_.within_radii(i, j) && bonds_.add(j, i, BondOrigin::covalent_radii) && !known.empty())
-        extended_.insert(residue.name);
+          bonds_.within_radii(i, j)) {
+        const double radii = covalent_radius(s_.atoms[i].element) + covalent_radius(s_.atoms[j].element);
+        found.push_back({-std::abs(bonds_.distance(i, j) - radii), {j, i}});
+        judge.join(j, i);
+      }
+  std::sort(found.begin(), found.end());
+  for (const auto& [unused, pair] : found) {
+    const auto [i, j] = pair;
+    const int around = judge.bonds_around(i, j);
+    if (around > 0 && !judge.may_close_ring(i, j, around))
+      judge.part(i, j);
+    else if (bonds_.add(i, j, BondOrigin::covalent_radii) && !known.empty())
+      extended_.insert(residue.name);
+  }
 }
 
 /// Adds the residue's heavy-atom bonds, and those of hydrogens that a component names; says where they come from.

@@ -6,15 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 namespace hinge::molecular {
 
 namespace {
-
-/// Single bonds of unknown order are at least this long (angstrom), the middle of the shortest of them and the longest
-/// that do not turn: C-C 1.46 (dienes) and 1.40 (aromatic), C-N 1.45 and 1.37 (amides, amidines, most anilines),
-/// N-N 1.40 and 1.25 (Allen et al., J. Chem. Soc. Perkin Trans. 2 1987, S1).
-constexpr double single_carbon_carbon = 1.43, single_carbon_nitrogen = 1.41, single_nitrogen_nitrogen = 1.32;
 
 bool is_polymer_bond(const Bond& bond) {
   return bond.origin == BondOrigin::peptide || bond.origin == BondOrigin::phosphodiester ||
@@ -114,13 +110,8 @@ class BondRule {
 
   bool is_single(const Bond& bond) const {
     if (bond.order != BondOrder::unknown) return bond.order == BondOrder::single;
-    const std::string_view a = std::min(element(bond.first), element(bond.second));
-    const std::string_view b = std::max(element(bond.first), element(bond.second));
     const double d = (s_.models.front()[bond.first] - s_.models.front()[bond.second]).norm();
-    if (a == "C" && b == "C") return d >= single_carbon_carbon;
-    if (a == "C" && b == "N") return d >= single_carbon_nitrogen;
-    if (a == "N" && b == "N") return d >= single_nitrogen_nitrogen;
-    return a != "C" || b != "O" || d >= single_carbon_oxygen;
+    return d >= single_bond_from(element(bond.first), element(bond.second));
   }
 
   /// Nitrogen beside a carbon that has a double bond to O, S or N outside of rings.
@@ -140,6 +131,14 @@ class BondRule {
 };
 
 }  // namespace
+
+double single_bond_from(std::string_view a, std::string_view b) noexcept {
+  if (b < a) std::swap(a, b);
+  if (a == "C" && b == "C") return 1.43;
+  if (a == "C" && b == "N") return 1.41;
+  if (a == "N" && b == "N") return 1.32;
+  return a == "C" && b == "O" ? single_carbon_oxygen : 0.0;
+}
 
 std::vector<Bond> rotatable_bonds(const Structure& structure, const AtomPairs& named) {
   return BondRule(structure).run(named);

@@ -12,9 +12,10 @@ namespace hinge::molecular {
 
 struct ReadOptions {
   std::optional<int> model;    ///< the model's number in the file; none: all models
-  std::optional<char> altloc;  ///< none: per residue the one of highest occupancy, then the first
+  std::optional<char> altloc;  ///< none: the one of highest summed occupancy, then the first by letter
   bool hetero = false;         ///< keep ligands, ions and sugars; waters are always left out and counted
   bool keep_hydrogens = true;
+  BondSearch bonds = BondSearch::geometry;             ///< between residues
   std::vector<std::filesystem::path> components = {};  ///< CIF files; before the structure's own and the dictionary
   std::filesystem::path dictionary = {};               ///< of monomers (ComponentLibrary); empty: none
   bool first_model = false;                            ///< stop a PDB file behind its first model, unless one is named

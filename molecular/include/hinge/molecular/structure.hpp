@@ -56,6 +56,11 @@ enum class BondOrigin : std::uint8_t {
 /// coordination.
 enum class BondOrder : std::uint8_t { unknown, single, multiple, coordination };
 
+/// Bonds between residues that neither a record nor the order of a polymer tells of. recorded: there are none.
+/// geometry: disulphides, closed backbones, and those of residues outside of polymers, where distance, valences and
+/// angles allow them.
+enum class BondSearch : std::uint8_t { recorded, geometry };
+
 /// first < second, positions in Structure::atoms.
 struct Bond {
   std::uint32_t first = 0;
