@@ -28,6 +28,7 @@ using Reals = NumberRange<double>;
 constexpr NumberRange<std::uint64_t> counts{1, std::uint64_t{1} << 53};
 constexpr NumberRange<std::uint64_t> seeds{0, UINT64_MAX};
 constexpr Reals lengths_above_0{0.0, hinge::tool::largest_length, true};  // angstrom, or degrees
+using hinge::molecular::BondSearch;
 
 constexpr const char* footer =
     "Exit status: 0 free, 1 collision found, 2 usage, 3 bad input, 4 undecided (path).\n"
@@ -70,13 +71,14 @@ void add_model_options(CLI::App& command, Options& o) {
   command.add_option("--inside", o.inside, "PART: only pairs inside it count, and those of --between (repeatable)")
       ->allow_extra_args(false);
   command.add_flag("--omega", o.omega, "free omega too");
-  CLI::Option* rules =
-      command.add_option("--rules", o.check.thresholds.rules,
-                         "what a clash is: biocd (the options below), molprobity, chimerax, posebusters");
-  rules->capture_default_str();
-  command.add_option("--radii", o.check.thresholds.radii, "radii set: bondi, probe, probe-united, amber")
+  command
+      .add_option("--rules", o.check.thresholds.rules,
+                  "what a clash is: biocd (the next five options), severe, molprobity, chimerax, posebusters; auto: "
+                  "severe for a structure with hydrogens unless one of these options is given, else biocd")
       ->capture_default_str();
-  add_number(command, "--rho", o.check.thresholds.rho, Reals{0.0, 1000.0, true}, "M = rho * (sum of radii)");
+  command.add_option("--radii", o.check.thresholds.radii, "radii set: bondi (default), probe, probe-united, amber");
+  add_number(command, "--rho", o.check.thresholds.rho, Reals{0.0, 1000.0, true},
+             "M = rho * (sum of radii) (default: 0.8)");
   add_number(command, "--min-bonds", o.check.min_bonds, NumberRange<int>{1, 1000},
              "pairs count from this bond distance on (default: the radii set's, 4 for bondi)");
   command
@@ -88,7 +90,7 @@ void add_model_options(CLI::App& command, Options& o) {
           "hydrogen-bond rule: auto (on with hydrogens), on, off")
       ->check(CLI::IsMember({"auto", "on", "off"}));
   add_number(command, "--hbond-allowance", o.check.thresholds.hydrogen_bond_allowance, Reals{0.0, 1000.0},
-             "taken from M(polar H, acceptor), angstrom");
+             "taken from M(polar H, acceptor), angstrom (default: 0.4)");
   command
       .add_option_function<std::string>(
           "--hydrogens", [&o](const std::string& text) { o.read.keep_hydrogens = text == "keep"; },
@@ -101,7 +103,9 @@ void add_model_options(CLI::App& command, Options& o) {
         if (text.size() != 1) throw CLI::ValidationError("--altloc", "one character expected");
         o.read.altloc = text.front();
       },
-      "alternative location to use (default: highest occupancy, then first)");
+      "alternative location to use (default: the one of the highest summed occupancy); residues without it take their "
+      "own "
+      "best");
   command.add_flag("--hetero", o.read.hetero, "keep ligands, ions and sugars");
   command
       .add_option("--components", o.read.components,
@@ -112,7 +116,15 @@ void add_model_options(CLI::App& command, Options& o) {
           "--dictionary", [&o](const std::string& text) { o.read.dictionary = text == "none" ? std::string() : text; },
           "folder of a monomer dictionary, or none (default: $CLIBD_MON, else Debian's refmac-dictionary)")
       ->default_str(o.read.dictionary.string());
-  for (const char* fixed : {"--radii", "--rho", "--min-bonds", "--hbond", "--hbond-allowance"}) rules->excludes(fixed);
+  command
+      .add_option_function<std::string>(
+          "--bonds",
+          [&o](const std::string& text) {
+            o.read.bonds = text == "recorded" ? BondSearch::recorded : BondSearch::geometry;
+          },
+          "bonds between residues that no polymer makes: geometry (default: recorded ones, and by distance where "
+          "valences and angles allow) or recorded")
+      ->check(CLI::IsMember({"recorded", "geometry"}));
   CLI::Option* exempt =
       command.add_flag("--exempt-reference", o.check.exempt_reference,
                        "pairs that collide in the file's (first) model do not count, but for those of "

@@ -92,11 +92,12 @@ Exit run_demo(const Options& options) {
   const unsigned threads = std::max(1U, std::thread::hardware_concurrency());
   CheckOptions rules = options.check;
   rules.exempt_reference = true;
+  rules.thresholds.rho = 0.8;
 
   fmt::print(
       "{}: {} atoms, {} residues; {} conformations per row, seed {}, {} threads, d < {} * (bondi radii), pairs\n"
       "that collide in the file itself do not count\n\n{:>8} {:>5} {:<8}",
-      s.name, s.atoms.size(), residues, options.count, options.seed, threads, rules.thresholds.rho, "residues", "dof",
+      s.name, s.atoms.size(), residues, options.count, options.seed, threads, *rules.thresholds.rho, "residues", "dof",
       "sampling");
   const char* modes[] = {"any", "all", "within:1", "closest"};
   for (const char* mode : modes) fmt::print(" {:>12}/s", mode);

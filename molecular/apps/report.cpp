@@ -33,7 +33,9 @@ Severity severity(const Job& job, const Contact& pair) {
   return severity_of(job.checker.thresholds(), pair.hit, pair.collides);
 }
 
-bool has_classes(std::string_view rules) { return rules != "biocd"; }
+bool has_classes(std::string_view rules) {
+  return rules == "molprobity" || rules == "chimerax" || rules == "posebusters";
+}
 bool has_relative_distance(std::string_view rules) { return rules == "posebusters"; }
 
 /// "d < 0.8 * (bondi v1 radii), pairs at least 4 bonds apart, hydrogen-bond rule on", or what the named rules are.
@@ -47,6 +49,14 @@ std::string rule_line(const Checker& checker) {
   if (bonds.hydrogen != bonds.heavy) text += fmt::format(" ({} with a hydrogen)", bonds.hydrogen);
   if (!t.rules->inside_residues) text += ", not inside residues";
   return text + fmt::format(", hydrogen-bond rule {}", t.hydrogen_bonds ? "on" : "off");
+}
+
+/// Of the loader, the builder and the selection.
+std::vector<std::string> all_notes(const Job& job) {
+  std::vector<std::string> notes = job.molecule->structure().notes;
+  notes.insert(notes.end(), job.molecule->notes().begin(), job.molecule->notes().end());
+  notes.insert(notes.end(), job.selected.notes.begin(), job.selected.notes.end());
+  return notes;
 }
 
 /// Of the reference collisions; every one is asked about, so that what is left out is exempt.
@@ -108,6 +118,7 @@ Json model_json(const Options& options, const Job& job) {
               {"hydrogen_bonds", thresholds.hydrogen_bonds},
               {"hydrogen_bond_allowance", thresholds.hydrogen_bond_allowance},
               {"reference_collisions", checker.reference_collisions().size()},
+              {"notes", all_notes(job)},
               {"with", options.with},
               {"placed", placed_json(job)},
               {"between", options.between},
@@ -268,9 +279,7 @@ void print_constant_contacts(const Job& job) {
 }
 
 void print_notes(const Job& job) {
-  for (const std::string& note : job.molecule->structure().notes) std::fprintf(stderr, "note: %s\n", note.c_str());
-  for (const std::string& note : job.molecule->notes()) std::fprintf(stderr, "note: %s\n", note.c_str());
-  for (const std::string& note : job.selected.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+  for (const std::string& note : all_notes(job)) std::fprintf(stderr, "note: %s\n", note.c_str());
   if (job.checker.thresholds().rules->name == "molprobity" && !has_hydrogens(job.molecule->structure()))
     std::fprintf(stderr, "note: rules molprobity: the structure has no hydrogens, MolProbity would add them first\n");
   for (const std::string& note : job.kept.notes) std::fprintf(stderr, "note: %s\n", note.c_str());

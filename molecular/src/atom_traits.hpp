@@ -33,6 +33,10 @@ std::vector<AtomTraits> molprobity_atoms(const Structure& structure);
 std::vector<AtomTraits> chimerax_atoms(const Structure& structure);
 std::vector<AtomTraits> posebusters_atoms(const Structure& structure);
 
+/// classify_atoms, with what Probe sees in residues by their names: aromatic bases and haems, and only atoms in
+/// residues that it does not know.
+std::vector<AtomClass> probe_classes(const Structure& structure);
+
 /// In hydrogen bonds of a structure whose hydrogens are there.
 bool is_polar_hydrogen(AtomClass c);
 bool is_acceptor(AtomClass c);

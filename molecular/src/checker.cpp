@@ -149,7 +149,9 @@ Verdict ask(H& hierarchy, const Rule& rule, const Mode& mode) {
 Checker::Checker(std::shared_ptr<const Molecule> molecule, DofSelection selection, const CheckOptions& options)
     : molecule_(std::move(molecule)) {
   if (molecule_ == nullptr) throw ModelError("checker: expected a molecule, got none");
-  thresholds_ = std::make_shared<const Thresholds>(make_thresholds(molecule_->structure(), options.thresholds));
+  ThresholdOptions chosen = options.thresholds;
+  if (chosen.rules == "auto" && options.min_bonds) chosen.rules = "biocd";  // whose option it is
+  thresholds_ = std::make_shared<const Thresholds>(make_thresholds(molecule_->structure(), chosen));
   if (options.min_bonds && thresholds_->rules->name != "biocd")
     throw ModelError("clash rules " + options.thresholds.rules +
                      ": fix the minimal bond distance, expected none beside");

@@ -23,6 +23,7 @@ namespace {
 constexpr double included = 1e-9;
 
 constexpr double molprobity_cutoff = 0.4;        // angstrom of overlap: a "bad overlap" of Probe, a clash of MolProbity
+constexpr double severe_cutoff = 0.9;            // angstrom of overlap: what no bond and no hydrogen bond explains
 constexpr double molprobity_regular_bond = 0.6;  // angstrom of overlap that Probe allows a hydrogen bond
 constexpr double molprobity_charged_bond = 0.8;  // the same between opposite charges
 constexpr double chimerax_cutoff = 0.6;          // angstrom of overlap, default of the command `clashes`
@@ -41,14 +42,16 @@ struct Entry {
   double threshold = 0.0;
 };
 
-Entry molprobity(const AtomTraits& a, const AtomTraits& b) {
+Entry probe_overlap(const AtomTraits& a, const AtomTraits& b, double cutoff) {
   double allowance = 0.0;
   // Two charges of one sign make no hydrogen bond.
   if (may_bond(a, b) && a.charge * b.charge <= 0)
     allowance = a.charge * b.charge < 0 ? molprobity_charged_bond : molprobity_regular_bond;
   const double contact = a.radius + b.radius - allowance;
-  return {contact, allowance, contact - molprobity_cutoff + included};
+  return {contact, allowance, contact - cutoff + included};
 }
+Entry molprobity(const AtomTraits& a, const AtomTraits& b) { return probe_overlap(a, b, molprobity_cutoff); }
+Entry severe(const AtomTraits& a, const AtomTraits& b) { return probe_overlap(a, b, severe_cutoff); }
 
 Entry chimerax(const AtomTraits& a, const AtomTraits& b) {
   const double allowance = may_bond(a, b) ? chimerax_bond : 0.0;
@@ -76,11 +79,19 @@ std::string full_name(const AtomTraits& atom) {
 const std::vector<ClashRules>& all_clash_rules() {
   static const std::vector<ClashRules> rules{
       {"biocd", "1", "Ruiz de Angulo, Cortes, Simeon, RSS 2005, eq. (1)", "", "", 4, true, 0.0},
-      {"molprobity",
+      {"severe",
        "1",
+       "overlap of 0.9 angstrom as Probe measures it: the default with hydrogens",
+       "probe",
+       "5",
+       {4, 5},
+       true,
+       molprobity_regular_bond},
+      {"molprobity",
+       "2",
        "Word et al., J. Mol. Biol. 285:1711 (1999); Probe's defaults, clashes as MolProbity counts them",
        "probe",
-       "4",
+       "5",
        {4, 5},
        true,
        molprobity_regular_bond},
@@ -103,6 +114,7 @@ const ClashRules& clash_rules(std::string_view name) {
 Thresholds make_named_thresholds(const Structure& structure, const ClashRules& rules) {
   const auto [atoms,
               entry] = [&]() -> std::pair<std::vector<AtomTraits>, Entry (*)(const AtomTraits&, const AtomTraits&)> {
+    if (rules.name == "severe") return {molprobity_atoms(structure), severe};
     if (rules.name == "molprobity") return {molprobity_atoms(structure), molprobity};
     if (rules.name == "chimerax") return {chimerax_atoms(structure), chimerax};
     return {posebusters_atoms(structure), posebusters};

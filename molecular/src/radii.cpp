@@ -153,7 +153,7 @@ std::string type_name(AtomClass c, const std::string& element) {
 const std::vector<RadiiSet>& radii_sets() {
   static const std::vector<RadiiSet> sets{
       {"bondi", "1", "Bondi, J. Phys. Chem. 68:441 (1964); Mantina et al. (2009)", 4, bondi},
-      {"probe", "4", "Probe, explicit hydrogens, electron-cloud positions", 4, probe_explicit},
+      {"probe", "5", "Probe, explicit hydrogens, electron-cloud positions", 4, probe_explicit},
       // United atoms and AMBER's Rmin overlap at four bonds in every native structure (O(i)...C(i+1) above all), so
       // there pairs count from five bonds on.
       {"probe-united", "2", "Probe, implicit hydrogens", 5, probe_united},
@@ -172,22 +172,23 @@ const RadiiSet& radii_set(std::string_view name) {
 }
 
 Thresholds make_thresholds(const Structure& structure, const ThresholdOptions& options) {
-  const ClashRules& rules = clash_rules(options.rules);
+  std::string named = options.rules;
+  if (named == "auto") named = has_hydrogens(structure) && !options.choose_biocd() ? "severe" : "biocd";
+  const ClashRules& rules = clash_rules(named);
   if (rules.name != "biocd") {
-    const ThresholdOptions chosen{};
-    if (options.radii != chosen.radii || options.rho != chosen.rho || options.hydrogen_bonds ||
-        options.hydrogen_bond_allowance != chosen.hydrogen_bond_allowance)
+    if (options.choose_biocd())
       throw ModelError("clash rules " + options.rules +
                        ": fix radii, rho and hydrogen bonds, expected none of them beside");
     return make_named_thresholds(structure, rules);
   }
-  const RadiiSet& set = radii_set(options.radii);
-  if (!is_finite(options.rho) || options.rho <= 0.0)
-    throw ModelError("rho " + std::to_string(options.rho) + ": expected a finite number above 0");
-  if (!is_finite(options.hydrogen_bond_allowance) || options.hydrogen_bond_allowance < 0.0)
-    throw ModelError("hydrogen-bond allowance " + std::to_string(options.hydrogen_bond_allowance) +
+  const RadiiSet& set = radii_set(options.radii.value_or("bondi"));
+  const double rho = options.rho.value_or(0.8), allowance = options.hydrogen_bond_allowance.value_or(0.4);
+  if (!is_finite(rho) || rho <= 0.0)
+    throw ModelError("rho " + std::to_string(rho) + ": expected a finite number above 0");
+  if (!is_finite(allowance) || allowance < 0.0)
+    throw ModelError("hydrogen-bond allowance " + std::to_string(allowance) +
                      ": expected a finite length >= 0 (angstrom)");
-  const std::vector<AtomClass> classes = classify_atoms(structure);
+  const std::vector<AtomClass> classes = set.name == "probe" ? probe_classes(structure) : classify_atoms(structure);
   const bool hydrogens = has_hydrogens(structure);
   const bool rule = options.hydrogen_bonds.value_or(hydrogens);
   // Hydrogens say which atoms bond; without them the heavy atoms are asked.
@@ -215,10 +216,10 @@ Thresholds make_thresholds(const Structure& structure, const ThresholdOptions& o
                               (role.acceptor ? ".acceptor" : ""));
     for (const auto& [d, other, role_of_other] : types) {
       const double sum = set.radius(c, element) + set.radius(d, other);
-      double m = options.rho * sum;
+      double m = rho * sum;
       const bool bonding = (is_polar_hydrogen(c) && is_acceptor(d)) || (is_polar_hydrogen(d) && is_acceptor(c)) ||
                            (role.donor && role_of_other.acceptor) || (role.acceptor && role_of_other.donor);
-      if (rule && bonding) m = std::max(0.0, m - options.hydrogen_bond_allowance);
+      if (rule && bonding) m = std::max(0.0, m - allowance);
       made.table.push_back(m);
       made.contact.push_back(sum);
       made.allowance.push_back(0.0);
@@ -228,9 +229,9 @@ Thresholds make_thresholds(const Structure& structure, const ThresholdOptions& o
   made.rules = &rules;
   made.radii = set.name;
   made.radii_version = set.version;
-  made.rho = options.rho;
+  made.rho = rho;
   made.hydrogen_bonds = rule;
-  made.hydrogen_bond_allowance = options.hydrogen_bond_allowance;
+  made.hydrogen_bond_allowance = allowance;
   made.min_bonds = set.default_min_bonds;
   return made;
 }

@@ -33,7 +33,7 @@ Severity severity_of(const Thresholds& thresholds, const Hit& hit, bool collides
   const double contact = thresholds.contact[pair], allowance = thresholds.allowance[pair];
   Severity severity{contact - hit.distance};
   const std::string_view rules = thresholds.rules->name;
-  if (rules == "biocd") return severity;
+  if (rules == "biocd" || rules == "severe") return severity;
   if (rules == "posebusters" && contact > 0.0) severity.relative_distance = hit.distance / contact;
   const double plain = severity.overlap + allowance;
   if (collides)

@@ -40,7 +40,7 @@ TEST(BiocdRules, AreNamedWithVersionAndRadii) {
   EXPECT_EQ(plain["min_bonds_hydrogen"], 4);
   const Json model = Json::parse(run_biocd("info " + file() + " --rules molprobity --json 2>/dev/null").out)["model"];
   EXPECT_EQ(model["rules"], "molprobity");
-  EXPECT_EQ(model["rules_version"], "1");
+  EXPECT_EQ(model["rules_version"], "2");
   EXPECT_EQ(model["radii"], "probe");
   EXPECT_TRUE(model["rho"].is_null());
   EXPECT_EQ(model["min_bonds"], 4);
@@ -57,11 +57,11 @@ TEST(BiocdRules, RefuseOptionsThatTheyFix) {
   for (const char* fixed : {"--radii bondi", "--rho 0.8", "--min-bonds 4", "--hbond on", "--hbond-allowance 0.4"}) {
     const auto said = run_biocd("check " + file() + " --rules molprobity " + fixed + " 2>&1");
     EXPECT_EQ(said.status, 2) << fixed;
-    EXPECT_NE(said.out.find("--rules excludes"), std::string::npos) << said.out;
+    EXPECT_NE(said.out.find("clash rules molprobity: fix"), std::string::npos) << said.out;
   }
   const auto unknown = run_biocd("check " + file() + " --rules whatcheck 2>&1");
   EXPECT_EQ(unknown.status, 2);
-  EXPECT_NE(unknown.out.find("expected one of biocd, molprobity, chimerax, posebusters"), std::string::npos);
+  EXPECT_NE(unknown.out.find("expected one of biocd, severe, molprobity, chimerax, posebusters"), std::string::npos);
 }
 
 TEST(BiocdRules, SayTheSameInJsonAndCsv) {
@@ -127,7 +127,7 @@ TEST(BiocdRules, ExplainPairsInsideResiduesAndWithHydrogens) {
   const auto inside = run_biocd("info " + file() + " --rules chimerax --explain 11,16 2>/dev/null");
   EXPECT_NE(inside.out.find("dropped      inside one residue"), std::string::npos) << inside.out;
   const auto names = run_biocd("info " + file() + " --rules molprobity --explain 0,300 2>/dev/null");
-  EXPECT_NE(names.out.find("(probe v4, rules molprobity v1, hydrogen-bond rule on)"), std::string::npos) << names.out;
+  EXPECT_NE(names.out.find("(probe v5, rules molprobity v2, hydrogen-bond rule on)"), std::string::npos) << names.out;
 }
 
 }  // namespace

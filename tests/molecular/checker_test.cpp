@@ -13,6 +13,7 @@
 #include <memory>
 #include <numbers>
 #include <ostream>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -22,6 +23,7 @@
 #include "hinge/molecular/ideal_protein.hpp"
 #include "hinge/molecular/sampler.hpp"
 #include "hinge/molecular/selection.hpp"
+#include "molecular/run_biocd.hpp"
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
@@ -141,11 +143,59 @@ TEST(NativeContacts, WithHydrogensNeedTheHydrogenBondRule) {
   const auto folder = test::shared_molecules();
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "shared data not found";
   CheckOptions rules;
+  rules.thresholds.rules = "biocd";
   EXPECT_EQ(native_contacts(folder / "1ejg.pdb", true, rules), 3U);
   EXPECT_EQ(native_contacts(folder / "1l2y.pdb", true, rules), 1U);
   rules.thresholds.hydrogen_bonds = false;
   EXPECT_EQ(native_contacts(folder / "1ejg.pdb", true, rules), 33U);
   EXPECT_EQ(native_contacts(folder / "1l2y.pdb", true, rules), 10U);
+}
+
+/// How many conformations of a file, or of a trajectory, are free under these rules.
+std::size_t free_conformations(const std::string& arguments, std::size_t expected_count) {
+  const auto said = test::run_biocd("check " + arguments + " --mode any --threads 2 2>/dev/null");
+  std::istringstream lines(said.out);
+  std::size_t free = 0, all = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_free = line.find(": free") != std::string::npos;
+    free += is_free ? 1 : 0;
+    all += is_free || line.find(": collides") != std::string::npos ? 1 : 0;
+  }
+  EXPECT_EQ(all, expected_count) << arguments;
+  return free;
+}
+
+TEST(NativeContacts, LeaveDepositedStructuresWithHydrogensFreeByDefault) {
+  const auto folder = test::shared_molecules();
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "shared data not found";
+  const std::string at = folder.string() + "/";
+  EXPECT_EQ(free_conformations(at + "adk_closed.pdb " + at + "adk_dims.dcd", 98), 96U);
+  EXPECT_EQ(free_conformations(at + "1l2y.pdb", 38), 38U);
+  EXPECT_EQ(free_conformations(at + "paper/nmr_neopetrosiamide.pdb", 24), 24U);
+  // 2AXD's models differ in one atom.
+  for (const char* model : {"1", "2", "12"})
+    EXPECT_EQ(free_conformations(at + "paper/2axd.pdb.gz --model " + model, 1), 1U);
+  EXPECT_EQ(free_conformations(at + "1ejg.pdb", 1), 1U);
+  // Rings of Phe47 and Phe51 overlap by 0.94 angstrom in each of these frames.
+  EXPECT_EQ(free_conformations(at + "paper/1vii_3frames.pdb", 3), 0U);
+}
+
+TEST(Thresholds, AreSevereByDefaultWhereHydrogensAre) {
+  const test::TemporaryFile file(
+      "ATOM      1  CB  ALA A   1       0.000   0.000   0.000  1.00  0.00           C\n"
+      "ATOM      2  HB1 ALA A   1       1.090   0.000   0.000  1.00  0.00           H\n"
+      "ATOM      3  CB  ALA B   1       0.000   5.000   0.000  1.00  0.00           C\n"
+      "END\n");
+  ThresholdOptions options;
+  Thresholds t = make_thresholds(read_structure(file.path()), options);
+  EXPECT_EQ(t.rules->name, "severe");
+  EXPECT_NEAR(t.matrix.threshold(PrimitiveId{0}, PrimitiveId{2}), 2 * 1.70 - 0.9, 1e-8);
+  EXPECT_NEAR(t.matrix.threshold(PrimitiveId{1}, PrimitiveId{2}), 1.22 + 1.70 - 0.9, 1e-8);
+  options.rho = 0.8;  // asks for BioCD's criterion
+  t = make_thresholds(read_structure(file.path()), options);
+  EXPECT_EQ(t.rules->name, "biocd");
+  EXPECT_NEAR(t.matrix.threshold(PrimitiveId{0}, PrimitiveId{2}), 0.8 * 3.40, 1e-8);
+  EXPECT_EQ(make_thresholds(read_structure(file.path(), test::heavy_atoms())).rules->name, "biocd");
 }
 
 TEST(NativeContacts, OfEveryRadiiSetStayFewOnCrambin) {

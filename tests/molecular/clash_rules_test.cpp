@@ -73,7 +73,8 @@ TEST(ClashRules, RefusesUnknownNamesAndWhatTheyFix) {
     clash_rules("whatcheck");
     FAIL();
   } catch (const ModelError& error) {
-    EXPECT_STREQ(error.what(), "clash rules 'whatcheck': expected one of biocd, molprobity, chimerax, posebusters");
+    EXPECT_STREQ(error.what(),
+                 "clash rules 'whatcheck': expected one of biocd, severe, molprobity, chimerax, posebusters");
   }
   const auto molecule = two_carbons(3.0);
   const auto make = [&](const CheckOptions& options) { Checker(molecule, molecule->select({}), options); };
@@ -101,6 +102,8 @@ TEST(ClashRules, DecideTiesInDecimalsAsTheProgramsDo) {
   // MolProbity and ChimeraX include their cutoff, PoseBusters does not.
   EXPECT_TRUE(ends(two_carbons(3.000), "molprobity").collides);  // 2 * 1.70 - 0.4
   EXPECT_FALSE(ends(two_carbons(3.001), "molprobity").collides);
+  EXPECT_TRUE(ends(two_carbons(2.500), "severe").collides);  // 2 * 1.70 - 0.9
+  EXPECT_FALSE(ends(two_carbons(2.501), "severe").collides);
   EXPECT_TRUE(ends(two_carbons(3.160), "chimerax").collides);  // 2 * 1.88 - 0.6
   EXPECT_FALSE(ends(two_carbons(3.161), "chimerax").collides);
   EXPECT_TRUE(ends(two_carbons(2.549), "posebusters").collides);  // 0.75 * 3.40
@@ -115,6 +118,7 @@ TEST(ClashRules, SaySeverityAndClass) {
     EXPECT_EQ(answer.severity.relative_distance.has_value(), std::string(rules) == "posebusters");
   };
   expect(2.500, "biocd", 0.900, "");
+  expect(2.500, "severe", 0.900, "");
   expect(2.500, "molprobity", 0.900, "clash");
   expect(3.001, "molprobity", 0.399, "small_overlap");
   expect(3.400, "molprobity", 0.000, "small_overlap");
@@ -251,6 +255,7 @@ Pairs by_definition(const Structure& s, const std::vector<std::vector<int>>& bon
       const double d = (x[i] - x[j]).norm(), overlap = t.contact[pair] - d;
       const bool hydrogen = s.atoms[i].element == "H" || s.atoms[j].element == "H";
       bool clash = false;
+      if (rules == "severe") clash = overlap >= 0.9 - 1e-9 && bonds[i][j] > (hydrogen ? 4 : 3);
       if (rules == "molprobity") clash = overlap >= 0.4 - 1e-9 && bonds[i][j] > (hydrogen ? 4 : 3);
       if (rules == "chimerax")
         clash = overlap >= 0.6 - 1e-9 && bonds[i][j] > 4 && s.atoms[i].residue != s.atoms[j].residue;
@@ -276,7 +281,7 @@ void expect_definition(const std::shared_ptr<const Molecule>& molecule, const ch
       Pairs found;
       for (const Contact& pair : verdict.pairs) {
         const Severity severity = severity_of(t, pair.hit, pair.collides);
-        EXPECT_EQ(pair.collides, severity.kind == "clash");
+        if (std::string(rules) != "severe") EXPECT_EQ(pair.collides, severity.kind == "clash");
         if (pair.collides)
           found.emplace(static_cast<std::uint32_t>(index(pair.hit.first)),
                         static_cast<std::uint32_t>(index(pair.hit.second)));
@@ -308,7 +313,7 @@ TEST(ClashRules, AreWhatEveryEngineAnswersWithHydrogens) {
   ReadOptions first;
   first.model = 1;
   const auto molecule = std::make_shared<const Molecule>(read_structure(file, first));
-  for (const char* rules : {"molprobity", "chimerax", "posebusters"}) expect_definition(molecule, rules);
+  for (const char* rules : {"severe", "molprobity", "chimerax", "posebusters"}) expect_definition(molecule, rules);
 }
 
 }  // namespace

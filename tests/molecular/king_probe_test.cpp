@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -16,6 +17,7 @@
 #include <numbers>
 #include <optional>
 #include <ostream>
+#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -23,6 +25,8 @@
 
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/checker.hpp"
+#include "hinge/molecular/sampler.hpp"
+#include "hinge/molecular/selection.hpp"
 #include "hinge/molecular/severity.hpp"
 #include "hinge/molecular/write_structure.hpp"
 #include "molecular/test_files.hpp"
@@ -249,27 +253,19 @@ class Comparison {
   explicit Comparison(const std::string& file) : subject_(file), dots_(subject_, dots_per_area, bonds_left_out) {}
 
   void radii() {
-    std::size_t carbonyls_of_other_residues = 0;
-    const auto classes = classify_atoms(subject_.structure());
-    for (std::uint32_t i = 0; i < subject_.size(); ++i) {
-      // Probe knows carbonyls of the residues it knows; bonds tell us about all.
-      const bool excused = classes[i] == AtomClass::carbon_carbonyl && !standard(i);
-      carbonyls_of_other_residues += excused ? 1 : 0;
-      EXPECT_NEAR(subject_.radius(i), subject_.probe_radius_of(i) - (excused ? 0.05 : 0.0), 1e-9) << name(i);
-    }
-    std::printf("%zu radii, %zu of them carbonyls of residues Probe does not know\n", subject_.size(),
-                carbonyls_of_other_residues);
+    for (std::uint32_t i = 0; i < subject_.size(); ++i)
+      EXPECT_NEAR(subject_.radius(i), subject_.probe_radius_of(i), 1e-9) << name(i);
+    std::printf("%zu radii\n", subject_.size());
   }
 
   void overlaps() {
-    std::map<Pair, double> ours;                                  // distance less Probe's radii
-    const Mode mode{Mode::Kind::within, 2 * probe_radius + 0.1};  // carbonyls of both atoms included
+    std::map<Pair, double> ours;  // distance less both radii
+    const Mode mode{Mode::Kind::within, 2 * probe_radius};
     const Verdict verdict = subject_.checker().check_coordinates(subject_.structure().models.front(), mode);
     for (const Contact& pair : verdict.pairs) {
       const auto i = static_cast<std::uint32_t>(index(pair.hit.first)),
                  j = static_cast<std::uint32_t>(index(pair.hit.second));
-      ours[{i, j}] = pair.hit.gap() + subject_.radius(i) - subject_.probe_radius_of(i) + subject_.radius(j) -
-                     subject_.probe_radius_of(j);
+      ours[{i, j}] = pair.hit.gap();
     }
     for (const auto& [pair, contact] : subject_.contacts()) {
       const auto same = ours.find(pair);
@@ -324,13 +320,12 @@ class Comparison {
     std::size_t both = 0;
     std::size_t between_dots = 0;    ///< ours: Probe has it as well with many more dots
     std::size_t hidden = 0;          ///< ours: other atoms cover where the pair is so deep
-    std::size_t carbonyls = 0;       ///< Probe's: a carbonyl carbon of a residue it does not know is larger there
     std::size_t hydrogen_bonds = 0;  ///< of both: with dots of a hydrogen bond beside, which MolProbity takes as one
 
     friend bool operator==(const Clashes&, const Clashes&) = default;
     friend std::ostream& operator<<(std::ostream& out, const Clashes& c) {
-      return out << c.both << " both, " << c.between_dots << " between dots, " << c.hidden << " hidden, " << c.carbonyls
-                 << " carbonyls, " << c.hydrogen_bonds << " hydrogen bonds";
+      return out << c.both << " both, " << c.between_dots << " between dots, " << c.hidden << " hidden, "
+                 << c.hydrogen_bonds << " hydrogen bonds";
     }
   };
 
@@ -351,7 +346,7 @@ class Comparison {
       const double allowance =
           t.allowance[t.matrix.type(contact.hit.first) * t.type_names.size() + t.matrix.type(contact.hit.second)];
       if (probes != subject_.clashes().end()) {
-        EXPECT_NEAR(-probes->second.gap, overlap + allowance + larger(pair.first) + larger(pair.second), printed);
+        EXPECT_NEAR(-probes->second.gap, overlap + allowance, printed);
       }
       if (probes != subject_.clashes().end() && probes->second.bad) {
         ++counted.both;
@@ -365,24 +360,13 @@ class Comparison {
     }
     for (const auto& [pair, clash] : subject_.clashes()) {
       if (!clash.bad || ours.contains(pair)) continue;
-      if (-clash.gap - larger(pair.first) - larger(pair.second) < bad_overlap && -clash.gap >= bad_overlap - printed)
-        ++counted.carbonyls;
-      else
-        ADD_FAILURE() << "Probe alone: " << name(pair.first) << ' ' << name(pair.second) << ' ' << clash.gap;
+      ADD_FAILURE() << "Probe alone: " << name(pair.first) << ' ' << name(pair.second) << ' ' << clash.gap;
     }
     return counted;
   }
 
  private:
   std::string name(std::uint32_t i) const { return label(subject_.structure(), i); }
-  /// By how much Probe's radius is larger, angstrom.
-  double larger(std::uint32_t i) const { return subject_.probe_radius_of(i) - subject_.radius(i); }
-  bool standard(std::uint32_t i) const {
-    static const std::string names =
-        " ALA ARG ASN ASP CYS GLN GLU GLY HIS ILE LEU LYS MET PHE PRO SER THR TRP TYR VAL ";
-    const std::string& residue = subject_.structure().residues[subject_.structure().atoms[i].residue].name;
-    return names.find(' ' + residue + ' ') != std::string::npos;
-  }
 
   Subject subject_;
   Dots dots_;
@@ -434,6 +418,191 @@ TEST(BesideKingProbe, HydrogenBondsThatAreTooShortAreClashes) {
   expect(polar_pair("LYS", " HZ1", " NZ", "ASP", " OD1", 1.24), true);
 }
 
+/// An atom of a monomer of refmac-dictionary, where it stands there.
+struct MonomerAtom {
+  std::string name, element;
+  Vec3 position;
+};
+
+std::vector<MonomerAtom> monomer_atoms(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::vector<std::string> tags;
+  std::vector<MonomerAtom> atoms;
+  const std::string category = "_chem_comp_atom.";
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    std::vector<std::string> row;
+    for (std::string word; words >> word;) {
+      if (word.size() > 2 && word.front() == '"' && word.back() == '"') word = word.substr(1, word.size() - 2);
+      row.push_back(word);
+    }
+    if (row.empty() || row[0][0] == '#') continue;
+    if (row[0] == "loop_" || row[0][0] == '_') {
+      if (row[0] == "loop_") tags.clear();
+      if (row[0][0] == '_') tags.push_back(row[0]);
+      continue;
+    }
+    if (tags.empty() || tags[0].compare(0, category.size(), category) != 0 || row.size() != tags.size()) continue;
+    const auto field = [&](const char* tag) {
+      return row[static_cast<std::size_t>(std::find(tags.begin(), tags.end(), category + tag) - tags.begin())];
+    };
+    atoms.push_back({field("atom_id"), field("type_symbol"),
+                     Vec3(std::stod(field("x")), std::stod(field("y")), std::stod(field("z")))});
+  }
+  return atoms;
+}
+
+/// Bases, nucleotides, modified ones, sugars and ligands: radii and roles in hydrogen bonds, atom by atom, and gaps of
+/// a stack of two of them.
+TEST(BesideKingProbe, NucleotidesSugarsAndLigandsAreWhatProbeSees) {
+  if (test::run_tool("king-probe", "-version 2>/dev/null").status != 0) GTEST_SKIP() << "king-probe is not installed";
+  const std::filesystem::path dictionary = "/usr/share/refmac/monomers";
+  if (!std::filesystem::exists(dictionary)) GTEST_SKIP() << "refmac-dictionary is not installed";
+  std::string text;
+  char chain = 'A';
+  std::size_t written = 0;
+  for (const char* name : {"A",   "G",   "C",   "U",   "DA",  "DG",  "DC",  "DT",  "PSU", "H2U", "5MC", "2MG", "7MG",
+                           "1MA", "M2G", "OMC", "OMG", "5MU", "ATP", "YYG", "HEM", "NAG", "MAN", "FUC", "KNI", "MSE"}) {
+    const std::string lower(1, static_cast<char>(std::tolower(static_cast<unsigned char>(name[0]))));
+    for (const MonomerAtom& atom : monomer_atoms(dictionary / lower / (std::string(name) + ".cif"))) {
+      std::array<char, 100> line{};
+      const bool wide = atom.name.size() == 4 || atom.element.size() == 2;
+      // Neighbours in the alphabet are 3.4 A apart and so overlap; every second pair is far from the others.
+      const int k = chain - 'A';
+      std::snprintf(line.data(), line.size(),
+                    "HETATM%5zu %-4s %3s %c   1    %8.3f%8.3f%8.3f  1.00  0.00          %2s\n", ++written,
+                    (wide ? atom.name : " " + atom.name).c_str(), name, chain,
+                    atom.position[0] - 100 + 40 * (k / 2 % 6), atom.position[1] - 50 + 40 * (k / 12),
+                    atom.position[2] + 3.4 * (k % 2), atom.element.c_str());
+      text += line.data();
+    }
+    ++chain;
+  }
+  const test::TemporaryFile pdb(text + "END\n"), dump("");
+  ReadOptions options;
+  options.hetero = true;
+  options.dictionary = dictionary;
+  const Structure s = read_structure(pdb.path(), options);
+  ASSERT_EQ(s.atoms.size(), written);
+  ThresholdOptions probe;
+  probe.radii = "probe";
+  probe.rho = 1.0;
+  probe.hydrogen_bonds = false;
+  const Thresholds plain = make_thresholds(s, probe);
+  ThresholdOptions molprobity;
+  molprobity.rules = "molprobity";
+  const Thresholds named = make_thresholds(s, molprobity);
+  std::map<std::string, std::uint32_t> atoms;
+  for (std::uint32_t i = 0; i < s.atoms.size(); ++i) {
+    const Residue& residue = s.residues[s.atoms[i].residue];
+    atoms.emplace(s.chains[residue.chain].name + '/' + residue.name + '/' + s.atoms[i].name, i);
+  }
+  const auto radius = [&](std::uint32_t i) {
+    const auto type = plain.matrix.type(id<PrimitiveId>(i));
+    return plain.between(type, type) / 2;
+  };
+  const auto said =
+      test::run_tool("king-probe", "-quiet -mc -unformated -condense -3 -nolimit -het -dumpatoms " +
+                                       dump.path().string() + " -self all " + pdb.path().string() + " 2>/dev/null");
+  std::ifstream dumped(dump.path());
+  std::size_t seen = 0;
+  for (std::string line; std::getline(dumped, line); ++seen) {
+    const std::uint32_t i = atoms.at(trimmed(line, 0, 2) + '/' + trimmed(line, 3, 3) + '/' + trimmed(line, 11, 4));
+    EXPECT_NEAR(radius(i), std::stod(line.substr(line.find("cceptor") - 8, 6)), 1e-9) << label(s, i) << line;
+    const std::string& type = named.type_names[named.matrix.type(id<PrimitiveId>(i))];
+    EXPECT_EQ(type.find(".acceptor") != std::string::npos, line.find("isAcceptor") != std::string::npos)
+        << label(s, i) << ' ' << type;
+    EXPECT_EQ(type.find(".donor") != std::string::npos, line.find("isDonor") != std::string::npos)
+        << label(s, i) << ' ' << type;
+  }
+  EXPECT_EQ(seen, written);
+  std::istringstream lines(said.out);
+  std::size_t contacts = 0;
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string> fields;
+    std::istringstream parts(line);
+    for (std::string field; std::getline(parts, field, ':');) fields.push_back(field);
+    ASSERT_GT(fields.size(), 6U) << line;
+    const auto find = [&](const std::string& name) {
+      return atoms.at(trimmed(name, 0, 2) + '/' + trimmed(name, 7, 3) + '/' + trimmed(name, 11, 4));
+    };
+    const std::uint32_t i = find(fields[3]), j = find(fields[4]);
+    const double d = (s.models.front()[i] - s.models.front()[j]).norm();
+    // Probe's coordinates are floats below 128, off by 2^-18 each.
+    EXPECT_NEAR(d - radius(i) - radius(j), std::stod(fields[6]), printed + 0x1p-16)
+        << label(s, i) << ' ' << label(s, j);
+    ++contacts;
+  }
+  EXPECT_GT(contacts, 1000U);
+  std::printf("%zu atoms, %zu contacts with the same gap\n", seen, contacts);
+}
+
+/// What Probe calls an overlap of 0.9 A or more, hydrogen bonds allowed for, is found by default: in structures as they
+/// are and in conformations that clash.
+TEST(BesideKingProbe, SevereOverlapsAreAllFound) {
+  if (test::run_tool("king-probe", "-version 2>/dev/null").status != 0) GTEST_SKIP() << "king-probe is not installed";
+  if (!std::filesystem::exists(test::shared_molecules())) GTEST_SKIP() << "shared data not found";
+  constexpr double severe = 0.9;
+  std::size_t severe_of_probe = 0, ours = 0;
+  for (const char* file : {"1l2y.pdb", "paper/nmr_neopetrosiamide.pdb", "paper/1vii_3frames.pdb", "5pti.pdb"}) {
+    ReadOptions first;
+    first.model = 1;
+    const auto molecule = std::make_shared<const Molecule>(read_structure(test::shared_molecules() / file, first));
+    const Structure& s = molecule->structure();
+    Checker checker(molecule, molecule->select(select_torsions(*molecule, "all", false)), CheckOptions{});
+    ASSERT_EQ(checker.thresholds().rules->name, "severe");
+    const Thresholds& t = checker.thresholds();
+    std::map<std::string, std::uint32_t> atoms;
+    for (std::uint32_t i = 0; i < s.atoms.size(); ++i)
+      atoms.emplace(
+          trimmed(std::to_string(s.residues[s.atoms[i].residue].sequence_number), 0, 5) + '/' + s.atoms[i].name, i);
+    for (std::uint64_t k = 0; k < 4; ++k) {
+      std::vector<Vec3> x = s.models.front();
+      if (k > 0) {  // turns of any size collide everywhere, small ones here and there
+        const std::optional<double> sigma = k == 1 ? std::nullopt : std::optional(k == 2 ? 0.3 : 0.05);
+        checker.check(sample_configuration({7, sigma}, k, checker.dof_count()), Mode::parse("any"));
+        x = checker.positions();
+      }
+      const test::TemporaryFile pdb("");
+      {
+        std::ofstream out(pdb.path());
+        write_pdb_model(out, s, x, 1);
+        out << "END\n";
+      }
+      const std::vector<Vec3> written = read_structure(pdb.path()).models.front();
+      std::set<Pair> found;
+      for (const Contact& pair : checker.check_coordinates(written, Mode::parse("all")).pairs)
+        found.emplace(static_cast<std::uint32_t>(index(pair.hit.first)),
+                      static_cast<std::uint32_t>(index(pair.hit.second)));
+      ours += found.size();
+      const auto said = test::run_tool(
+          "king-probe", "-quiet -4H -mc -het -unformated -condense -self all " + pdb.path().string() + " 2>/dev/null");
+      std::set<Pair> probes;
+      std::istringstream lines(said.out);
+      for (std::string line; std::getline(lines, line);) {
+        std::vector<std::string> fields;
+        std::istringstream parts(line);
+        for (std::string field; std::getline(parts, field, ':');) fields.push_back(field);
+        ASSERT_GT(fields.size(), 6U) << line;
+        const auto find = [&](const std::string& name) {
+          return atoms.at(trimmed(name, 2, 4) + '/' + trimmed(name, 11, 4));
+        };
+        const auto [i, j] = std::minmax(find(fields[3]), find(fields[4]));
+        const std::size_t pair =
+            t.matrix.type(id<PrimitiveId>(i)) * t.type_names.size() + t.matrix.type(id<PrimitiveId>(j));
+        if (-std::stod(fields[6]) - t.allowance[pair] < severe + printed) continue;
+        // Probe perceives bonds from distances, and so misses disulphides that a sample tears open.
+        if (!checker.exclusions().admits(id<PrimitiveId>(i), id<PrimitiveId>(j))) continue;
+        probes.emplace(i, j);
+        EXPECT_TRUE(found.contains({i, j})) << file << ' ' << k << ' ' << line;
+      }
+      severe_of_probe += probes.size();
+    }
+  }
+  EXPECT_GT(severe_of_probe, 500U);
+  std::printf("%zu pairs that overlap by 0.9 A or more in Probe are found, %zu in all\n", severe_of_probe, ours);
+}
+
 /// A file and its clashes by version 2.21.
 struct Case {
   const char* file;
@@ -455,12 +624,12 @@ TEST_P(ProteinBesideKingProbe, RadiiOverlapsHydrogenBondsAndClashesAreTheSame) {
   EXPECT_EQ(comparison.clashes(), GetParam().clashes);
 }
 
-constexpr std::array<Case, 6> proteins{{{"1l2y.pdb", {0, 0, 0, 0, 0}},
-                                        {"1ejg.pdb", {5, 1, 1, 0, 0}},
-                                        {"paper/nmr_neopetrosiamide.pdb", {14, 0, 2, 0, 0}},
-                                        {"5pti.pdb", {8, 1, 0, 0, 0}},
-                                        {"paper/1vii_3frames.pdb", {90, 5, 3, 0, 0}},
-                                        {"paper/2axd.pdb.gz", {8, 3, 1, 0, 0}}}};
+constexpr std::array<Case, 6> proteins{{{"1l2y.pdb", {0, 0, 0, 0}},
+                                        {"1ejg.pdb", {5, 1, 1, 0}},
+                                        {"paper/nmr_neopetrosiamide.pdb", {14, 0, 2, 0}},
+                                        {"5pti.pdb", {8, 1, 0, 0}},
+                                        {"paper/1vii_3frames.pdb", {90, 5, 3, 0}},
+                                        {"paper/2axd.pdb.gz", {8, 3, 1, 0}}}};
 
 INSTANTIATE_TEST_SUITE_P(Proteins, ProteinBesideKingProbe, testing::ValuesIn(proteins),
                          [](const auto& parameter) { return "n" + std::to_string(parameter.index); });

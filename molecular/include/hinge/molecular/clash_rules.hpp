@@ -21,7 +21,7 @@ struct ClashRules {
   double hydrogen_bond_allowance;  ///< angstrom; 0: as chosen, or none
 };
 
-/// biocd, molprobity, chimerax, posebusters.
+/// biocd, severe, molprobity, chimerax, posebusters.
 const std::vector<ClashRules>& all_clash_rules();
 
 /// ModelError, listing the names, when there are none of that name.

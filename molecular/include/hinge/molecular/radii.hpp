@@ -51,14 +51,19 @@ const RadiiSet& radii_set(std::string_view name);
 /// One class per atom, from elements, bonds and residues.
 std::vector<AtomClass> classify_atoms(const Structure& structure);
 
+/// Rules and radii. By default those are `severe` for a structure with hydrogens, `biocd` for one without, or as soon
+/// as one of the options of biocd is given.
 struct ThresholdOptions {
-  std::string radii = "bondi";
-  double rho = 0.8;                      ///< M = rho * d0; finite, > 0
+  std::optional<std::string> radii{};    ///< none: bondi
+  std::optional<double> rho{};           ///< M = rho * d0; finite, > 0; none: 0.8
   std::optional<bool> hydrogen_bonds{};  ///< hydrogen-bond rule; none: on when the structure has hydrogens
   /// Angstrom, taken from M(polar H, acceptor N, O or S), in a structure without hydrogens from M(N, O or S that may
-  /// bear one, acceptor).
-  double hydrogen_bond_allowance = 0.4;
-  std::string rules = "biocd";  ///< clash_rules(); others than biocd's fix all of the above
+  /// bear one, acceptor). None: 0.4.
+  std::optional<double> hydrogen_bond_allowance{};
+  std::string rules = "auto";  ///< or one of all_clash_rules(); others than biocd's fix all of the above
+
+  /// Is one of the options of biocd given?
+  bool choose_biocd() const noexcept { return radii || rho || hydrogen_bonds || hydrogen_bond_allowance; }
 };
 
 /// Thresholds with what is needed to print them. Tables are type x type, row-major, angstrom.
