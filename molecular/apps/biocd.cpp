@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/components.hpp"
@@ -106,7 +109,15 @@ void add_model_options(CLI::App& command, Options& o) {
       "alternative location to use (default: the one of the highest summed occupancy); residues without it take their "
       "own "
       "best");
-  command.add_flag("--hetero", o.read.hetero, "keep ligands, ions and sugars");
+  command
+      .add_option_function<std::string>(
+          "--hetero",
+          [&o](const std::string& word) {
+            o.read.hetero = word != "none";
+            o.read.waters = word == "waters";
+          },
+          "keep ligands (and ions and sugars; the same as --hetero alone), or waters too, or none (default)")
+      ->check(CLI::IsMember({"none", "ligands", "waters"}));
   command
       .add_option("--components", o.read.components,
                   "CIF file with chemical components: bonds of residues by name (may be given more than once)")
@@ -156,7 +167,7 @@ void add_check_options(CLI::App& command, Options& o) {
           },
           "any, all, within:D (angstrom) or closest")
       ->default_str(o.mode);
-  command.add_option("--out", o.out, "write the conformations to this .pdb, .dcd or .npy file");
+  command.add_option("--out", o.out, "write the conformations to this .pdb, .cif, .dcd or .npy file");
   command
       .add_option_function<std::string>(
           "--filter", [&o](const std::string& text) { o.only_free = text == "free"; },
@@ -190,6 +201,17 @@ void add_path_options(CLI::App& command, Options& o) {
   add_number(command, "--min-step", o.min_step, Reals{0.0, 1.0, true},
              "stretches no longer than this share of the path are not cut any more")
       ->excludes(sampled);
+}
+
+/// Arguments with a value behind each --hetero, which needs none: it stands for --hetero ligands.
+std::vector<std::string> with_hetero_words(int argc, char** argv) {
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  for (std::size_t k = 0; k < arguments.size(); ++k) {
+    if (arguments[k] != "--hetero") continue;
+    const std::string next = k + 1 < arguments.size() ? arguments[k + 1] : "";
+    if (next != "none" && next != "ligands" && next != "waters") arguments[k] = "--hetero=ligands";
+  }
+  return arguments;
 }
 
 Exit run(int argc, char** argv) {
@@ -226,6 +248,10 @@ Exit run(int argc, char** argv) {
   sample->add_flag("--collision-free", o.collision_free, "only conformations that do not collide");
   add_number(*sample, "--tries", o.most_tries, counts,
              "starts for each conformation at most, where cycles are closed or --collision-free");
+  sample->add_flag("--torsions", o.torsions,
+                   "rows of --json and --csv say every free torsion (degrees) and placement as drawn");
+  sample->add_option("--torsions-out", o.torsions_out,
+                     "write them to this .npy file: samples x DOF, 64-bit floats, in the order of `dofs` in --json");
   sample->callback([&] {
     o.keep_closures = o.keep_closures.value_or(true);
     o.draws = true;
@@ -240,7 +266,7 @@ Exit run(int argc, char** argv) {
              "standard deviation of a torsion's change, degrees");
   add_number(*walk, "--changes", o.changes, counts, "torsions that a move changes");
   add_number(*walk, "--seed", o.seed, seeds, "seed; a walk is a function of it, the file and the options alone");
-  walk->add_option("--out", o.out, "write conformations as a multi-model PDB file");
+  walk->add_option("--out", o.out, "write conformations to this .pdb, .cif, .dcd or .npy file");
   add_number(*walk, "--every", o.every, counts, "steps from one conformation written to the next");
   add_closures_option(*walk, o);
   walk->callback([&] {
@@ -267,7 +293,10 @@ Exit run(int argc, char** argv) {
   demo->callback([&] { command = biocd::run_demo; });
 
   try {
-    app.parse(argc, argv);
+    app.name(argv[0]);
+    std::vector<std::string> arguments = with_hetero_words(argc, argv);
+    std::reverse(arguments.begin(), arguments.end());  // as the parser takes them
+    app.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error) == 0 ? Exit::free : Exit::usage;  // --help, --version
     throw hinge::ModelError(std::string(error.what()) + "; --help says more");

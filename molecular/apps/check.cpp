@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -33,6 +34,8 @@ struct Checked {
   BondDeviation bond;
   std::vector<hinge::Vec3> positions;  // only when they are to be written
   std::string error;                   // why there is no verdict
+  std::shared_ptr<const Job> own{};    // of a model that has other atoms than the first
+  std::string difference{};            // in which atom
 };
 
 /// MolProbity's, where its rules are in use and all pairs were asked about.
@@ -81,15 +84,47 @@ void print_table_row(const Job& job, const std::string& name, const Checked& che
   if (verdict.closest) fmt::print("{}  (closest)\n", pair_line(job, *verdict.closest));
 }
 
+/// The verdict about a model that has atoms of its own, by a topology of its own.
+Checked check_alone(const Options& options, int model, const Mode& mode, const std::string& difference) {
+  Options alone = options;
+  alone.read.model = model;
+  Checked checked;
+  checked.difference = difference;
+  checked.own = std::make_shared<const Job>(load(alone));
+  Checker checker = checked.own->checker;
+  checked.verdict = checker.check_coordinates(checked.own->molecule->structure().models.front(), mode);
+  return checked;
+}
+
+/// Are all models conformations of the first? Looked up where one file is to hold them all.
+bool have_same_atoms(const Options& options, const Structure& s) {
+  const std::vector<std::string> none;
+  const Frames frames(none, options.file, s, options.read);
+  try {
+    for (std::size_t k = 0; k < frames.size(); ++k) frames.file(k).frame(frames.place(k).frame);
+  } catch (const OtherAtoms&) {
+    return false;
+  } catch (const hinge::LoadError&) {  // told when its turn comes
+  }
+  return true;
+}
+
 }  // namespace
 
 Exit run_check(const Options& options) {
   Options first = options;
   // A pipe is read but once; models of files that are joined are read with them.
   first.read.first_model = options.with.empty() && std::filesystem::is_regular_file(options.file);
-  const Job job = load(first);
+  std::optional<Job> loaded(load(first));
+  if (!options.out.empty() && options.trajectories.empty() && loaded->molecule->structure().more_models &&
+      !have_same_atoms(options, loaded->molecule->structure())) {
+    first.read.first_model = false;  // which takes the atoms that all models have
+    loaded.emplace(load(first));
+  }
+  const Job& job = *loaded;
   const Mode mode = Mode::parse(options.mode, "angstrom");
   print_notes(job);
+  print_left_out(options, job);
   if (!options.explain.empty()) {
     explain(options, job);
     return Exit::free;
@@ -129,6 +164,13 @@ Exit run_check(const Options& options) {
         checked.positions = {};
       else if (!file.wants_whole_frames())
         checked.positions = std::move(own);
+    } catch (const OtherAtoms& error) {
+      if (!frames.are_models()) {
+        checked.error = error.what();
+        return checked;
+      }
+      checked = check_alone(options, frames.number(k), mode, error.what());
+      checked.verdict.closure_residuals.assign(job.molecule->closure_atoms().size(), 0.0);
     } catch (const hinge::LoadError& error) {
       checked.error = error.what();
     }
@@ -137,21 +179,30 @@ Exit run_check(const Options& options) {
   const auto report = [&, begin = begin](std::size_t n, const Checked& checked) {
     if (!checked.error.empty()) throw hinge::LoadError(checked.error);
     const auto k = static_cast<std::size_t>(begin) + n;
-    summary.add(s, checked.verdict);
-    const std::optional<double> clashscore = clashscore_of(options, job, checked.verdict, mode);
+    const Job& of = checked.own ? *checked.own : job;
+    if (checked.own) {  // its pairs are no pairs of the first model's atoms, whose offenders are counted
+      fmt::print(stderr, "note: {}: checked as the molecule it is\n", checked.difference);
+      Verdict counted = checked.verdict;
+      counted.pairs.clear();
+      summary.add(s, counted);
+    } else {
+      summary.add(s, checked.verdict);
+    }
+    const std::optional<double> clashscore = clashscore_of(options, of, checked.verdict, mode);
     if (clashscore) summary.add_clashscore(*clashscore);
     if (options.output == Output::json) {
-      Json row = verdict_json(job, k, checked.verdict, mode);
+      Json row = verdict_json(of, k, checked.verdict, mode);
       frames.name(row, k);
       if (clashscore) row["clashscore"] = *clashscore;
+      if (checked.own) row["other_atoms"] = checked.difference;
       row["worst_bond"] = bond_json(s, checked.bond);
       if (has_closures) row["closures"] = closures_json(job, checked.verdict.closure_residuals);
       results.add(row);
     }
     if (options.output == Output::csv)
-      results.add(with_columns(csv_rows(job, k, checked.verdict),
+      results.add(with_columns(csv_rows(of, k, checked.verdict),
                                fmt::format(",{},{}", checked.bond.residual, checked.verdict.closure_residual)));
-    if (options.output == Output::table) print_table_row(job, frames.name(k), checked, mode, clashscore);
+    if (options.output == Output::table) print_table_row(of, frames.name(k), checked, mode, clashscore);
     if (checked.bond.residual > worst.residual) {
       worst = checked.bond;
       worst_name = frames.name(k);

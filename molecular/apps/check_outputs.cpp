@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Refuses output files that would destroy an input, before any work.
+// Refuses output files of an unknown format, or that would destroy an input, before any work.
 #include <filesystem>
 #include <string>
 #include <system_error>
 #include <vector>
 
+#include "conformation_file.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/tool/check_output.hpp"
 #include "options.hpp"
@@ -34,9 +35,17 @@ bool is_inside(const std::filesystem::path& file, const std::filesystem::path& f
 }  // namespace
 
 void check_outputs(const Options& options, bool is_folder) {
+  if (!options.torsions_out.empty()) {
+    if (std::filesystem::path(options.torsions_out).extension() != ".npy")
+      throw hinge::ModelError("--torsions-out " + options.torsions_out + ": expected .npy");
+    hinge::tool::check_output("--torsions-out", options.torsions_out, input_files(options));
+    if (options.torsions_out == options.out)
+      throw hinge::ModelError("--torsions-out " + options.torsions_out + ": is the file of --out, expected another");
+  }
   const std::filesystem::path out = options.out;
   if (out.empty()) return;
   if (!is_folder) {
+    conformation_format(options.out);
     hinge::tool::check_output("--out", out, input_files(options));
     if (is_inside(out, options.read.dictionary))
       throw hinge::ModelError("--out " + options.out +

@@ -2,13 +2,18 @@
 // ConformationFile: what --out and --filter ask for.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
+#include <cstdio>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/vec3.hpp"
+#include "hinge/molecular/write_structure.hpp"
 #include "hinge/molecular/write_trajectory.hpp"
 #include "hinge/tool/complete_file.hpp"
 #include "options.hpp"
@@ -21,13 +26,24 @@ inline std::size_t results_at_once(std::size_t atoms) {
   return std::clamp<std::size_t>((std::size_t{1} << 16) / std::max<std::size_t>(atoms, 1), 1, 256);
 }
 
+/// The format of --out, by its extension. ModelError: another one, which is told before any work.
+inline hinge::molecular::TrajectoryFormat conformation_format(const std::string& path) {
+  const auto format = hinge::molecular::trajectory_format(path);
+  if (!path.empty() && !format)
+    throw hinge::ModelError("--out " + path + ": expected " + hinge::molecular::trajectory_extensions);
+  return format.value_or(hinge::molecular::TrajectoryFormat::pdb);
+}
+
 class ConformationFile {
  public:
-  /// frame_atoms: of whole frames, which DCD and NumPy files take; PDB files take the molecule's atoms. ModelError:
-  /// another extension. LoadError: cannot be written.
+  /// frame_atoms: of whole frames, which DCD and NumPy files take; PDB and mmCIF files take the molecule's atoms.
+  /// ModelError: another extension, or a molecule that does not fit PDB. LoadError: cannot be written.
   ConformationFile(const Options& options, const hinge::molecular::Structure& molecule, std::size_t frame_atoms,
                    bool single)
-      : only_free_(options.only_free), format_(format_of(options.out)), file_(options.out) {
+      : only_free_(options.only_free),
+        format_(conformation_format(options.out)),
+        path_(options.out),
+        file_((check(molecule), options.out)) {
     if (!wanted()) return;
     if (!file_.is_regular() && wants_whole_frames())
       throw hinge::ModelError("--out " + options.out +
@@ -40,26 +56,37 @@ class ConformationFile {
   bool wanted() const { return file_.wanted(); }
   /// Does it take this one?
   bool takes(bool collides) const { return wanted() && !(only_free_ && collides); }
-  bool wants_whole_frames() const { return wanted() && format_ != hinge::molecular::TrajectoryFormat::pdb; }
+  bool wants_whole_frames() const { return wanted() && !names_atoms(format_); }
+  /// Conformations written so far.
+  std::size_t size() const { return writer_ ? writer_->size() : 0; }
   void add(std::span<const hinge::Vec3> positions, int number, bool collides) {
     if (!takes(collides)) return;
     writer_->add(positions, number);
     file_.check();
   }
+  /// Without any conformation, DCD and NumPy files hold 0 frames; PDB and mmCIF have no such file, so none is written
+  /// and one that is there stays as it is.
   void finish() {
-    if (writer_) writer_->finish();
+    if (!wanted()) return;
+    const bool is_file = size() > 0 || wants_whole_frames();
+    if (size() == 0)
+      fmt::print(stderr, "note: --out {}: no conformation{}: {}\n", path_, only_free_ ? " is free" : " to write",
+                 is_file ? "the file holds 0 frames" : "no file is written, the format has none without atoms");
+    if (!is_file) return;
+    writer_->finish();
     file_.finish();
   }
 
  private:
-  static hinge::molecular::TrajectoryFormat format_of(const std::string& path) {
-    const auto format = hinge::molecular::trajectory_format(path);
-    if (!path.empty() && !format) throw hinge::ModelError("--out " + path + ": expected .pdb, .dcd or .npy");
-    return format.value_or(hinge::molecular::TrajectoryFormat::pdb);
+  void check(const hinge::molecular::Structure& molecule) const {
+    if (path_.empty()) return;
+    if (format_ == hinge::molecular::TrajectoryFormat::pdb) check_fits_pdb(molecule);
+    if (format_ == hinge::molecular::TrajectoryFormat::cif) check_fits_cif(molecule);
   }
 
   bool only_free_;
   hinge::molecular::TrajectoryFormat format_;
+  std::string path_;
   hinge::tool::CompleteFile file_;
   std::optional<hinge::molecular::TrajectoryWriter> writer_;
 };

@@ -62,8 +62,9 @@ int differences(Checker& wide, Checker& brute, const Sampling& sampling, std::ui
 
 void write_worst(const Structure& s, const Worst& worst, const std::filesystem::path& folder) {
   CompleteFile pdb((folder / "worst.pdb").string());
+  write_pdb_head(pdb.stream(), s);
   write_pdb_model(pdb.stream(), s, worst.positions, 1);
-  pdb.stream() << "END\n";
+  write_pdb_tail(pdb.stream(), s);
   pdb.finish();
   CompleteFile chimerax((folder / "worst.cxc").string());
   write_chimerax_script(chimerax.stream(), s, worst.pairs, "worst.pdb");

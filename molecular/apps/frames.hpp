@@ -21,11 +21,11 @@ namespace biocd {
 class Frames {
  public:
   /// Of `named`, which must outlive it as the molecule must; of the molecule's own models where it is empty, in `own`
-  /// where not all of them were read. Notes go to standard error.
+  /// where not all of them were read. may_have_more: of atoms, which are left out. Notes go to standard error.
   Frames(const std::vector<std::string>& named, const std::string& own, const hinge::molecular::Structure& molecule,
-         const hinge::molecular::ReadOptions& read)
+         const hinge::molecular::ReadOptions& read, bool may_have_more = false)
       : named_(named) {
-    for (const std::string& path : named_) files_.emplace_back(path, molecule, read);
+    for (const std::string& path : named_) files_.emplace_back(path, molecule, read, may_have_more);
     if (named_.empty() && molecule.more_models) files_.emplace_back(own, molecule, read);
     if (files_.empty()) files_.emplace_back(molecule);
     for (const hinge::molecular::Trajectory& file : files_) {
@@ -79,6 +79,11 @@ class Frames {
       row["trajectory"] = file;
       row["frame"] = files_[file].number(frame);
     }
+  }
+  /// Of the model, in its file.
+  int number(std::size_t k) const {
+    const auto [file, frame] = place(k);
+    return files_[file].number(frame);
   }
   std::string name(std::size_t k) const {
     const auto [file, frame] = place(k);

@@ -58,20 +58,6 @@ Json atoms_json(const Job& job) {
   return list;
 }
 
-/// In the order in which configurations give their values.
-Json dofs_json(const Job& job) {
-  Json list = Json::array();
-  for (const hinge::DofId dof : job.checker.selection().dofs()) {
-    const std::size_t torsion = job.molecule->torsion_of(dof);
-    const bool places = torsion == Molecule::no_torsion;
-    list.push_back(
-        Json{{"torsion", dof_label(job, dof)},
-             {"reference_degrees",
-              places ? Json() : Json(job.molecule->torsions()[torsion].reference * 180.0 / std::numbers::pi)}});
-  }
-  return list;
-}
-
 Json bonds_json(const Structure& s) {
   Json list = Json::array();
   for (const Bond& bond : s.bonds) list.push_back({bond.first, bond.second});

@@ -62,6 +62,8 @@ struct Options {
   std::optional<double> sigma_degrees;
   unsigned threads = 1;
   std::string out;                    // check, sample, walk: conformations, by extension
+  bool torsions = false;              // sample: rows say the torsions
+  std::string torsions_out;           // sample: .npy file of them
   bool only_free = false;             // check, sample: `out` gets those that do not collide
   std::optional<Shard> shard;         // check, sample
   std::vector<std::string> shards{};  // merge

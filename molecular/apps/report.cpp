@@ -93,6 +93,9 @@ Json model_json(const Options& options, const Job& job) {
               {"residues", s.residues.size()},
               {"chains", s.chains.size()},
               {"models", s.models.size()},
+              {"waters_left_out", s.waters_dropped},
+              {"hetero_atoms_left_out", s.hetero_dropped},
+              {"hetero_residues_left_out", s.hetero_residues_dropped},
               {"free", options.free},
               {"free_words", free_words_json(job)},
               {"omega", options.omega},
@@ -155,25 +158,6 @@ Json closures_json(const Job& job, const std::vector<double>& residuals) {
   for (std::size_t k = 0; k < residuals.size(); ++k)
     list.push_back({{"bond", job.molecule->model().tree().closures()[k].name}, {"residual", residuals[k]}});
   return list;
-}
-
-std::string dof_label(const Job& job, hinge::DofId dof) {
-  const std::size_t torsion = job.molecule->torsion_of(dof);
-  if (torsion != hinge::molecular::Molecule::no_torsion)
-    return torsion_label(job.molecule->structure(), job.molecule->torsions()[torsion]);
-  const hinge::KinematicTree& tree = job.molecule->model().tree();
-  return tree.joint(tree.link_of(dof)).name;
-}
-
-bool turns(const Job& job, hinge::DofId dof) {
-  const hinge::KinematicTree& tree = job.molecule->model().tree();
-  return tree.joint(tree.link_of(dof)).kind == hinge::JointKind::revolute;
-}
-
-std::vector<double> in_degrees(const Job& job, std::vector<double> q) {
-  for (std::size_t k = 0; k < q.size(); ++k)
-    if (turns(job, job.checker.selection().dofs()[k])) q[k] /= degree;
-  return q;
 }
 
 std::vector<std::string> closure_names(const Job& job) {
@@ -266,11 +250,32 @@ std::string heading(const Options& options, const Job& job) {
       options.file, s.atoms.size(), s.residues.size(), s.chains.size(), s.bonds.size(), options.free,
       options.omega ? " with omega" : "", options.loop.empty() ? "" : " and loop " + options.loop, checker.dof_count(),
       checker.rigid_group_count(), job.molecule->model().tree().closures().size(), rule_line(checker), exempt);
-  text += free_words_line(job) + scene_lines(options, job);
+  text += left_out_line(s) + free_words_line(job) + scene_lines(options, job);
   text += fmt::format("reference: {} colliding pairs; constant contacts under this selection: {}\n",
                       checker.reference_collisions().size(), checker.constant_contacts().size());
   for (const hinge::Hit& hit : checker.constant_contacts()) text += pair_line(job, {hit, true}) + "  (constant)\n";
   return text;
+}
+
+std::string left_out_line(const Structure& s) {
+  std::string what, options;
+  constexpr std::size_t most_names = 6;
+  std::size_t names = 0;
+  for (const auto& [name, count] : s.hetero_residues_dropped) {
+    if (++names > most_names) continue;
+    what += fmt::format("{}{} x{}", what.empty() ? "" : ", ", name, count);
+  }
+  if (names > most_names) what += fmt::format(" and {} more names", names - most_names);
+  if (s.waters_dropped > 0) what += fmt::format("{}{} waters", what.empty() ? "" : ", ", s.waters_dropped);
+  if (what.empty()) return {};
+  if (names > 0) options = "--hetero keeps ligands and ions";
+  if (s.waters_dropped > 0) options += names > 0 ? ", --hetero waters waters too" : "--hetero waters keeps them";
+  return fmt::format("left out: {} ({})\n", what, options);
+}
+
+void print_left_out(const Options& options, const Job& job) {
+  const std::string line = left_out_line(job.molecule->structure());
+  if (options.output == Output::csv && !line.empty()) std::fprintf(stderr, "note: %s", line.c_str());
 }
 
 void print_constant_contacts(const Job& job) {

@@ -29,6 +29,11 @@ bool turns(const Job& job, hinge::DofId dof);
 /// A configuration's values as people give and read them: degrees, and angstrom of placed parts' moves.
 std::vector<double> in_degrees(const Job& job, std::vector<double> q);
 
+/// The same, but torsions as the angles they are, not as turns from the reference: in (-180, 180].
+std::vector<double> torsion_values(const Job& job, std::vector<double> q);
+/// [{torsion, reference_degrees}] of the selection, in the order in which configurations give their values.
+Json dofs_json(const Job& job);
+
 /// Their names, in the tree's order.
 std::vector<std::string> closure_names(const Job& job);
 /// A line for each of them; residuals: of each the worst, or none.
@@ -57,6 +62,11 @@ std::string heading(const Options& options, const Job& job);
 
 /// Constant contacts on standard error, for outputs whose format has no place for them.
 void print_constant_contacts(const Job& job);
+
+/// "left out: 333 waters, 1 ACT (--hetero keeps ...)", or nothing.
+std::string left_out_line(const hinge::molecular::Structure& structure);
+/// The same on standard error, for CSV, which has no place for it.
+void print_left_out(const Options& options, const Job& job);
 
 /// Notes of loader and builder, on standard error.
 void print_notes(const Job& job);

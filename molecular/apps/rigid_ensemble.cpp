@@ -23,7 +23,7 @@ namespace {
 /// What use(positions, name) says of each conformation; an error of a frame names it.
 template <class Use>
 void for_conformations(const Options& options, const Structure& s, const Use& use) {
-  const Frames frames(options.rigid_from, options.file, s, options.read);
+  const Frames frames(options.rigid_from, options.file, s, options.read, true);
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const Trajectory& source = frames.file(k);
     const std::vector<hinge::Vec3> positions = source.kept(source.frame(frames.place(k).frame));

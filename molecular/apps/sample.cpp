@@ -16,6 +16,8 @@
 #include "hinge/ensemble/ensemble.hpp"
 #include "hinge/molecular/closed_sampler.hpp"
 #include "hinge/molecular/sampler.hpp"
+#include "hinge/tool/complete_file.hpp"
+#include "hinge/tool/csv_field.hpp"
 #include "hinge/tool/progress_bar.hpp"
 #include "options.hpp"
 #include "report.hpp"
@@ -35,6 +37,7 @@ struct Sample {
   bool found = true;                   // false: no start closed (or none was free, where that was asked for)
   std::uint64_t unclosed = 0, refused = 0;
   Placements placements{};
+  std::vector<double> torsions{};  // and placements, of the selection
 };
 
 /// One per thread.
@@ -49,6 +52,7 @@ Sample draw(Worker& worker, const Job& job, const Sampling& sampling, std::uint6
     const std::vector<double> q = sample_configuration(sampling, k, *job.molecule, job.checker.selection(), job.ranges);
     Sample sample{worker.checker.check(q, mode), {}};
     sample.placements = placements_of(job, q);
+    sample.torsions = torsion_values(job, q);
     return sample;
   }
   const auto accept = [&](std::span<const double> q) {
@@ -59,8 +63,43 @@ Sample draw(Worker& worker, const Job& job, const Sampling& sampling, std::uint6
   if (closed.found()) {
     sample.verdict = worker.checker.check(closed.q, mode);
     sample.placements = placements_of(job, closed.q);
+    sample.torsions = torsion_values(job, closed.q);
   }
   return sample;
+}
+
+/// --torsions-out: an array of samples x DOF.
+class TorsionFile {
+ public:
+  TorsionFile(const std::string& path, std::size_t dof) : file_(path) {
+    if (file_.wanted()) writer_.emplace(file_.stream(), dof);
+  }
+  void add(const std::vector<double>& row) {
+    if (!writer_) return;
+    writer_->add(row);
+    file_.check();
+  }
+  void finish() {
+    if (writer_) writer_->finish();
+    file_.finish();
+  }
+
+ private:
+  hinge::tool::CompleteFile file_;
+  std::optional<RowWriter> writer_;
+};
+
+std::string torsion_names(const Job& job) {
+  std::string names;
+  for (const hinge::DofId dof : job.checker.selection().dofs())
+    names += ',' + hinge::tool::csv_field(dof_label(job, dof));
+  return names;
+}
+
+std::string torsion_columns(const std::vector<double>& torsions) {
+  std::string columns;
+  for (const double value : torsions) columns += fmt::format(",{}", value);
+  return columns;
 }
 
 void print_table(const Job& job, const Summary& summary, double seconds) {
@@ -91,6 +130,7 @@ Exit run_sample(const Options& options) {
   const Job job = load(options);
   const Mode mode = Mode::parse(options.mode, "angstrom");
   print_notes(job);
+  print_left_out(options, job);
   if (!options.explain.empty()) {
     explain(options, job);
     return Exit::free;
@@ -101,11 +141,17 @@ Exit run_sample(const Options& options) {
   const auto [begin, end] = shard_range(options.shard.value_or(Shard{}), options.count);
   ConformationFile file(options, s, s.atoms.size(), false);
 
+  TorsionFile torsions(options.torsions_out, job.checker.dof_count());
+  if (options.torsions && options.output == Output::table)
+    throw hinge::ModelError("--torsions: expected --json or --csv with it, or --torsions-out FILE.npy");
+
   Json head{{"tool", "biocd"}, {"command", "sample"}, {"model", model_json(options, job)}, {"mode", mode.text()}};
   head["seed"] = options.seed;
   head["sigma_degrees"] = options.sigma_degrees ? Json(*options.sigma_degrees) : Json();
+  if (options.torsions) head["dofs"] = dofs_json(job);
   head["constant_contacts"] = constant_contacts_json(job);
-  Results results(options, std::move(head), options.count, placements_header(job));
+  Results results(options, std::move(head), options.count,
+                  placements_header(job) + (options.torsions ? torsion_names(job) : ""));
   if (options.output == Output::csv) print_constant_contacts(job);
   if (options.output == Output::table) fmt::print("{}", heading(options, job));
 
@@ -132,16 +178,21 @@ Exit run_sample(const Options& options) {
       if (!sample.verdict.closure_residuals.empty())
         row["closures"] = closures_json(job, sample.verdict.closure_residuals);
       if (!sample.placements.empty()) row["placements"] = placements_json(job, sample.placements);
+      if (options.torsions) row["torsions"] = sample.torsions;
       results.add(row);
     }
-    if (options.output == Output::csv)
-      results.add(with_placements(csv_rows(job, k, sample.verdict), sample.placements));
+    if (options.output == Output::csv) {
+      const std::string rows = with_placements(csv_rows(job, k, sample.verdict), sample.placements);
+      results.add(options.torsions ? with_columns(rows, torsion_columns(sample.torsions)) : rows);
+    }
+    torsions.add(sample.torsions);
     file.add(sample.positions, static_cast<int>(k) + 1, sample.verdict.collides);
   };
   try {
     hinge::Ensemble(worker, options.threads)
         .run(static_cast<std::size_t>(end - begin), judge, report, results_at_once(s.atoms.size()));
     file.finish();
+    torsions.finish();
   } catch (const hinge::Error& error) {  // such as a full disk
     results.finish(summary.json(true), error.what());
     throw;

@@ -45,7 +45,7 @@ void Summary::add(const Json& row) {
   colliding_ += row.at("collides").get<bool>() ? 1 : 0;
   if (row.contains("clashscore")) add_clashscore(row.at("clashscore").get<double>());
   const auto pairs = row.find("pairs");
-  if (pairs == row.end()) return;
+  if (pairs == row.end() || row.contains("other_atoms")) return;
   for (const Json& pair : *pairs) {
     if (!pair.at("collides").get<bool>()) continue;
     const auto i = pair.at("i").get<std::uint32_t>(), j = pair.at("j").get<std::uint32_t>();

@@ -8,12 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "conformation_file.hpp"
 #include "hinge/core/error.hpp"
-#include "hinge/molecular/write_structure.hpp"
 #include "hinge/moves/move_checker.hpp"
 #include "hinge/moves/move_closer.hpp"
 #include "hinge/moves/random_move.hpp"
-#include "hinge/tool/complete_file.hpp"
 #include "hinge/tool/json_text.hpp"
 #include "hinge/tool/progress_bar.hpp"
 #include "options.hpp"
@@ -71,13 +70,12 @@ Exit run_walk(const Options& options) {
   check_start(options, s, moves);
   if (options.output == Output::table) fmt::print("{}", heading(options, job));
 
-  hinge::tool::CompleteFile file(options.out);
+  ConformationFile file(options, s, s.atoms.size(), false);
   hinge::tool::ProgressBar bar(options.steps);
   const double sigma = options.step_degrees * degree;
   std::vector<hinge::DofChange> changes;
   hinge::MoveCloser closer(job.molecule->model().tree(), job.checker.selection(), job.kept.closures);
   std::uint64_t accepted = 0, unclosed = 0;
-  int frames = 0;
   const auto start = std::chrono::steady_clock::now();
   for (std::uint64_t step = 0; step < options.steps; ++step) {
     hinge::random_move(options.seed, step, moves.configuration(), options.changes, sigma, changes);
@@ -89,14 +87,11 @@ Exit run_walk(const Options& options) {
     } else {
       moves.reject();
     }
-    if (file.wanted() && (step + 1) % options.every == 0) {
-      write_pdb_model(file.stream(), s, positions(moves), ++frames);
-      file.check();
-    }
+    if (file.wanted() && (step + 1) % options.every == 0)
+      file.add(positions(moves), static_cast<int>(file.size()) + 1, false);
     bar.show(step + 1);
   }
   const std::chrono::duration<double> walking = std::chrono::steady_clock::now() - start;
-  if (file.wanted()) file.stream() << "END\n";
   file.finish();
 
   // A second opinion on where the walk ended, by a query that knows nothing of moves.
@@ -112,7 +107,7 @@ Exit run_walk(const Options& options) {
                        {"accepted", accepted},
                        {"rejected", rejected},
                        {"unclosed", unclosed},
-                       {"frames", frames},
+                       {"frames", file.size()},
                        {"full_queries", moves.counts().full_queries},
                        {"closure_residual", end.closure_residual}};
     fmt::print("{}\n", hinge::tool::json_text(json, 1));
@@ -120,7 +115,7 @@ Exit run_walk(const Options& options) {
     fmt::print("{} of {} steps accepted ({:.2f} %), {} rejected, {:.0f} steps per second\n", accepted, options.steps,
                100.0 * static_cast<double>(accepted) / static_cast<double>(options.steps), rejected,
                static_cast<double>(options.steps) / walking.count());
-    if (frames > 0) fmt::print("{} conformations written to {}\n", frames, options.out);
+    if (file.size() > 0) fmt::print("{} conformations written to {}\n", file.size(), options.out);
     if (!job.kept.closures.empty())
       fmt::print("closures kept: {}; moves that did not close, and were rejected: {}\n", job.kept.closures.size(),
                  unclosed);

@@ -38,11 +38,13 @@ class Assembler {
     for (const RawResidue& residue : chosen.front()->residues)
       for (const RawAtom& atom : residue.atoms)
         s_.atom_records = std::max(s_.atom_records, std::size_t{atom.record} + 1);
+    keep_what_is_there(*chosen.front());
     conformers_.emplace(*chosen.front(), options_);
     for (std::size_t m = 0; m < chosen.size(); ++m) add_model(*chosen[m], m == 0);
     if (s_.atoms.empty())
       throw LoadError(path_ + ": no atoms left (" + std::to_string(s_.waters_dropped) + " waters and " +
-                      std::to_string(s_.hetero_dropped) + " hetero atoms left out; hetero atoms are kept on request)");
+                      std::to_string(s_.hetero_dropped) +
+                      " hetero atoms left out; --hetero keeps ligands and ions, --hetero waters waters too)");
     resolve_records();
     resolve_conect();
     say_repairs();
@@ -50,6 +52,21 @@ class Assembler {
   }
 
  private:
+  /// In a model without a polymer hetero atoms are kept, in one of waters alone those.
+  void keep_what_is_there(const RawModel& model) {
+    bool has_hetero = false;
+    for (std::size_t r = 0; r < model.residues.size(); ++r) {
+      const ResidueKind kind = residue_kind(model.residues, r);
+      if (kind == ResidueKind::amino_acid || kind == ResidueKind::nucleotide || is_cap(model.residues[r].name)) return;
+      has_hetero = has_hetero || (kind == ResidueKind::other && !is_dummy(model.residues[r]));
+    }
+    bool& kept = has_hetero ? options_.hetero : options_.waters;
+    if (kept) return;
+    kept = true;
+    s_.notes.emplace_back(has_hetero ? "no protein or nucleic acid in the file: its ligands and ions are kept"
+                                     : "nothing but waters in the file: they are kept");
+  }
+
   /// Atoms of one model in order, of the conformer chosen; topology is taken from the first.
   void add_model(const RawModel& model, bool first) {
     std::vector<Vec3> positions;
@@ -72,9 +89,7 @@ class Assembler {
       begin = end;
     }
     if (!difference_.empty() || (!first && positions.size() != s_.atoms.size()))
-      throw LoadError(path_ + ": model " + std::to_string(model.number) + " has " + std::to_string(positions.size()) +
-                      " atoms, expected " + std::to_string(s_.atoms.size()) + " as in the first" +
-                      (difference_.empty() ? "" : " (they differ at " + difference_ + ")") + "; choose one model");
+      throw OtherAtoms(path_ + ": model " + std::to_string(model.number) + " has other atoms than the first model");
     s_.models.push_back(std::move(positions));
     s_.model_numbers.push_back(model.number);
   }
@@ -87,12 +102,13 @@ class Assembler {
            (residue.insertion_code != '\0' ? std::string(1, residue.insertion_code) : "");
   }
   void add_residue(const RawResidue& raw, ResidueKind kind, bool first, std::vector<Vec3>& positions) {
-    if (kind == ResidueKind::water) {
+    if (kind == ResidueKind::water && !options_.waters) {
       if (first) ++s_.waters_dropped;
       return;
     }
     if (kind == ResidueKind::other && !options_.hetero && !is_cap(raw.name)) {
       if (first) s_.hetero_dropped += raw.atoms.size();
+      if (first) ++s_.hetero_residues_dropped[raw.name];
       return;
     }
     if (is_dummy(raw)) {
@@ -105,6 +121,7 @@ class Assembler {
     Residue residue{raw.name, raw.number, raw.insertion_code, 0, static_cast<std::uint32_t>(s_.atoms.size()), 0, kind};
     std::map<std::string, int> seen;
     for (const RawAtom& atom : raw.atoms) {
+      if (kind == ResidueKind::water && element_by_name(atom, raw).empty()) continue;  // a water model's virtual site
       if (atom.altloc != '\0' && atom.altloc != altloc) {
         if (first) conformers_->count_dropped(name_of(raw) + ":" + atom.name + " at " + atom.altloc);
         continue;
@@ -218,7 +235,7 @@ class Assembler {
 
   RawFile raw_;
   const std::string& path_;
-  const ReadOptions& options_;
+  ReadOptions options_;
   Structure s_;
   std::string difference_;  ///< first atom of the model being added that the first model does not have there
   std::optional<ConformerChoice> conformers_;
@@ -227,21 +244,6 @@ class Assembler {
 };
 
 }  // namespace
-
-void check_same_atoms(const Structure& other, const Structure& molecule, const std::string& where) {
-  std::uint32_t i = 0;
-  const auto same = [&] {
-    const Residue& a = other.residues[other.atoms[i].residue];
-    const Residue& b = molecule.residues[molecule.atoms[i].residue];
-    return other.atoms[i].name == molecule.atoms[i].name && a.sequence_number == b.sequence_number &&
-           a.insertion_code == b.insertion_code;
-  };
-  while (i < other.atoms.size() && i < molecule.atoms.size() && same()) ++i;
-  if (i == other.atoms.size() && i == molecule.atoms.size()) return;
-  throw LoadError(where + " has " + std::to_string(other.atoms.size()) + " atoms, expected " +
-                  std::to_string(molecule.atoms.size()) + " as in the first" +
-                  (i < other.atoms.size() ? " (they differ at " + label(other, i) + ")" : "") + "; choose one model");
-}
 
 Structure assemble(RawFile raw, const std::string& path, const ReadOptions& options) {
   return Assembler(std::move(raw), path, options).run();

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Refusals that need the text of a PDB file: what a lenient parser turns into zeros.
+#include <algorithm>
 #include <charconv>
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
@@ -47,11 +49,13 @@ Vec3 read_pdb_coordinates(std::string_view line, const std::string& path, std::s
   return position;
 }
 
-void check_pdb(std::string_view text, const std::string& path, std::size_t number) {
+void check_pdb(std::string_view text, const std::string& path, std::size_t number, std::vector<std::string>* notes) {
   const std::size_t lines_before = number;
   std::size_t atoms = 0;
   std::set<std::string_view> models;
-  std::size_t open_model = 0;  // its line; 0: none is open
+  std::size_t open_model = 0;         // its line; 0: none is open
+  std::size_t longest = 0, last = 0;  // atom records' lengths without blanks at their ends
+  bool is_closed = false;             // by a record that stands behind all models
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
     const std::string_view line = text.substr(0, end);
@@ -63,6 +67,8 @@ void check_pdb(std::string_view text, const std::string& path, std::size_t numbe
     if (is_atom_record(line)) {
       read_pdb_coordinates(line, path, number);
       ++atoms;
+      last = trimmed(line).size();
+      longest = std::max(longest, last);
     } else if (line.starts_with("MODEL ")) {
       const std::string where = path + ":" + std::to_string(number);
       const std::string_view name = trimmed(line.substr(6));
@@ -73,12 +79,19 @@ void check_pdb(std::string_view text, const std::string& path, std::size_t numbe
       open_model = number;
     } else if (line.starts_with("ENDMDL")) {
       open_model = 0;
+    } else if (line.starts_with("CONECT") || line.starts_with("MASTER") || ends_pdb_model(line)) {
+      is_closed = true;
     }
   }
   if (atoms == 0)
     throw LoadError(path + ": no ATOM or HETATM record in " + std::to_string(number - lines_before) + " lines");
-  if (open_model != 0)
-    throw LoadError(path + ":" + std::to_string(open_model) + ": MODEL has no ENDMDL, the file may be cut short");
+  if (open_model == 0) return;
+  const std::string what = ":" + std::to_string(open_model) + ": MODEL has no ENDMDL";
+  const bool is_whole = is_closed || (notes != nullptr && models.size() == 1 && last == longest);
+  if (!is_whole) throw LoadError(path + what + ", the file may be cut short");
+  if (notes != nullptr)
+    notes->push_back("line " + std::to_string(open_model) +
+                     ": MODEL has no ENDMDL, it is taken to go to the end of the file");
 }
 
 }  // namespace hinge::molecular

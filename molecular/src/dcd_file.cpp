@@ -95,7 +95,11 @@ DcdFile::DcdFile(BinaryFile file) : file_(std::move(file)) {
     }
   }
   frames_at_ = next;
-  if (frames_at_ == file_.size()) throw LoadError(file_.name() + ": holds no frame");
+  if (frames_at_ == file_.size()) {
+    if (integer(header, frame_count_at) == 0) return;  // as a writer leaves it when there was nothing to write
+    throw LoadError(file_.name() + ": holds no frame, its header claims " +
+                    std::to_string(integer(header, frame_count_at)));
+  }
 
   const std::uint64_t first = frame_bytes(atoms_), later = frame_bytes(moving_.empty() ? atoms_ : moving_.size());
   const std::uint64_t rest = file_.size() - frames_at_;

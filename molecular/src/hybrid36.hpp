@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers in five columns of a PDB file.
+// Numbers in few columns of a PDB file.
 #pragma once
 
 #include <cstddef>
@@ -9,17 +9,20 @@
 
 namespace hinge::molecular {
 
-/// Hybrid-36 (Grosse-Kunstleve): decimal up to 99999, then A0000 ... ZZZZZ, a0000 ... in base 36.
-inline std::string hybrid36(std::size_t value) {
-  if (value < 100000) return std::to_string(value);
-  constexpr std::size_t block = 26UL * 36 * 36 * 36 * 36;
-  value -= 100000;
+/// Hybrid-36 (Grosse-Kunstleve) in so many columns: of five, decimal up to 99999, then A0000 ... ZZZZZ, a0000 ... in
+/// base 36.
+inline std::string hybrid36(std::size_t value, std::size_t width = 5) {
+  std::size_t decimal = 1, block = 26, shift = 10;
+  for (std::size_t k = 0; k < width; ++k) decimal *= 10;
+  for (std::size_t k = 1; k < width; ++k) block *= 36, shift *= 36;
+  if (value < decimal) return std::to_string(value);
+  value -= decimal;
   const bool lower = value >= block;
   if (lower) value -= block;
   const char* digits = lower ? "0123456789abcdefghijklmnopqrstuvwxyz" : "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ";
-  value += 10UL * 36 * 36 * 36 * 36;
-  std::string text(5, '0');
-  for (std::size_t k = 5; k-- > 0; value /= 36) text[k] = digits[value % 36];
+  value += shift;
+  std::string text(width, '0');
+  for (std::size_t k = width; k-- > 0; value /= 36) text[k] = digits[value % 36];
   return text;
 }
 

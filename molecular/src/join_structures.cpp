@@ -105,6 +105,7 @@ void append(Structure& all, Structure added) {
   all.atom_records += added.atom_records;
   all.waters_dropped += added.waters_dropped;
   all.hetero_dropped += added.hetero_dropped;
+  for (const auto& [name, count] : added.hetero_residues_dropped) all.hetero_residues_dropped[name] += count;
 }
 
 }  // namespace

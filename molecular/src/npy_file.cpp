@@ -92,7 +92,6 @@ NpyFile::NpyFile(BinaryFile file) : file_(std::move(file)) {
   if (!is_tuple || shape.size() != 3 || shape[2] != 3 || shape[1] == 0 || shape[0] > most || shape[1] > most / 3 / 8)
     refuse("shape " + std::string(tuple.substr(0, tuple.find(')') + 1)) + ", expected frames x atoms x 3");
   atoms_ = static_cast<std::size_t>(shape[1]);
-  if (shape[0] == 0) throw LoadError(file_.name() + ": holds no frame");
 
   const std::uint64_t frame_bytes = 3 * width_ * shape[1], rest = file_.size() - data_at_;
   const std::uint64_t begun = (rest + frame_bytes - 1) / frame_bytes;

@@ -108,12 +108,16 @@ void PdbModels::find_models() {
 }
 
 PdbModels::PdbModels(std::string path, std::variant<BinaryFile, std::string> source, const Structure& structure,
-                     const ReadOptions& options)
-    : path_(std::move(path)), source_(std::move(source)), structure_(structure), options_(options) {
+                     const ReadOptions& options, bool may_have_more)
+    : path_(std::move(path)),
+      source_(std::move(source)),
+      structure_(structure),
+      options_(options),
+      may_have_more_(may_have_more) {
   options_.model.reset();
   find_models();
   const std::string first = text(models_.front());
-  const Structure known = parsed(first, models_.front());
+  const MatchedAtoms known = parsed(first, models_.front());
   std::vector<Vec3> all;
   for_lines(first, [&](std::string_view line) {
     if (!is_atom_record(line)) return;
@@ -121,9 +125,9 @@ PdbModels::PdbModels(std::string path, std::variant<BinaryFile, std::string> sou
     all.push_back(read_pdb_coordinates(line, path_, 0));
   });
   // The parser takes "atom" and "ATOMX" for atoms, too: the short way must find what it found, or there is none.
-  for (std::size_t i = 0; i < known.atoms.size() && !records_.empty(); ++i) {
-    kept_.push_back(known.atoms[i].record);
-    if (kept_[i] >= all.size() || all[kept_[i]] != known.models[0][i]) records_.clear();
+  for (std::size_t i = 0; i < known.records.size() && !records_.empty(); ++i) {
+    kept_.push_back(known.records[i]);
+    if (kept_[i] >= all.size() || all[kept_[i]] != known.positions[i]) records_.clear();
   }
 }
 
@@ -137,11 +141,11 @@ std::string PdbModels::text(const Model& model) const {
   return text;
 }
 
-Structure PdbModels::parsed(const std::string& text, const Model& model) const {
-  check_pdb(text, path_, model.line);
-  Structure structure = assemble(parse_with_gemmi(text, path_, false), path_, options_);
-  check_same_atoms(structure, structure_, path_ + ": model " + std::to_string(model.number));
-  return structure;
+MatchedAtoms PdbModels::parsed(const std::string& text, const Model& model) const {
+  std::vector<std::string> notes;
+  check_pdb(text, path_, model.line, models_.size() == 1 ? &notes : nullptr);
+  return conformation(assemble(parse_with_gemmi(text, path_, false), path_, options_), structure_, may_have_more_,
+                      path_ + ": model " + std::to_string(model.number));
 }
 
 std::vector<Vec3> PdbModels::frame(std::size_t k) const {
@@ -164,7 +168,7 @@ std::vector<Vec3> PdbModels::frame(std::size_t k) const {
   });
   // Cut short, or another choice of atoms: the long way knows.
   if (!same || !ended || all.empty() || all.size() * identity_bytes != records_.size())
-    return std::move(parsed(own, model).models[0]);
+    return parsed(own, model).positions;
   std::vector<Vec3> positions;
   positions.reserve(kept_.size());
   for (const std::uint32_t i : kept_) positions.push_back(all[i]);

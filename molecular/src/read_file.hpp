@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "hinge/molecular/components.hpp"
 #include "hinge/molecular/read_structure.hpp"
 #include "hinge/molecular/structure.hpp"
+#include "recorded_bonds.hpp"
 
 namespace hinge::molecular {
 
@@ -37,8 +39,10 @@ inline bool ends_pdb_model(std::string_view line) {
 Vec3 read_pdb_coordinates(std::string_view line, const std::string& path, std::size_t line_number);
 
 /// Refuses what the parser would silently repair: blank or malformed coordinates, repeated or nested MODEL records.
-/// LoadError names the line; the text starts with line `number` + 1.
-void check_pdb(std::string_view text, const std::string& path, std::size_t number = 0);
+/// LoadError names the line; the text starts with line `number` + 1. A single MODEL without ENDMDL in a file that is
+/// whole otherwise (its last line is END or CONECT) is accepted, with a note.
+void check_pdb(std::string_view text, const std::string& path, std::size_t number = 0,
+               std::vector<std::string>* notes = nullptr);
 
 /// An atom as the file has it, before conformers are chosen.
 struct RawAtom {
@@ -95,10 +99,17 @@ struct RawFile {
   std::vector<RawModel> models;
   std::vector<RawLink> links;
   std::vector<RawConnection> conect;
-  std::vector<Component> components;  ///< that an mmCIF file brings along
+  std::vector<Component> components;      ///< that an mmCIF file brings along
+  std::optional<RecordedBonds> recorded;  ///< Hinge wrote the file
   std::vector<RawElement> elements;
   std::vector<std::string> notes;
 };
+
+/// A PDB file's text for the parser; serials: the file's serial number of each atom record.
+/// Atoms are numbered from 0, lines cut after so many columns: gemmi would start a new line behind some characters of
+/// what it cuts off. And without the lengths behind LINK and SSBOND records, which nobody asks for: it would read the
+/// start of "nan" or "inf" beyond the end of the record, of which the end of the line is the last character.
+std::string prepare_pdb(const std::string& text, std::size_t columns, std::vector<int>& serials);
 
 /// Parses the bytes with gemmi (PDB or mmCIF). LoadError carries the parser's message.
 RawFile parse_with_gemmi(const std::string& bytes, const std::string& path, bool cif);
@@ -106,6 +117,14 @@ RawFile parse_with_gemmi(const std::string& bytes, const std::string& path, bool
 /// The CONECT records of a PDB file, each pair once, first < second. A field that is no serial number ends its record:
 /// these records are hints, and programs put other things there.
 std::vector<RawConnection> read_conect(const std::string& text);
+
+/// All that a file says, before anything is chosen. first_model: of others no more than that they are there, in
+/// cut_short. LoadError: cannot be trusted.
+RawFile read_raw(const std::string& bytes, const std::filesystem::path& path, bool first_model = false,
+                 bool* cut_short = nullptr);
+
+/// What a PDB file that Hinge wrote says of its bonds; none: another file, or one that lost CONECT records since.
+std::optional<RecordedBonds> read_recorded(const std::string& text, const std::vector<RawConnection>& conect);
 
 /// Every component with bonds in a CIF file. LoadError: no CIF, a bond of fewer than two different atoms or of an
 /// unknown order.
@@ -121,10 +140,28 @@ bool is_dummy(const RawResidue& residue);
 /// The element the residue's table demands, else the file's, else the name's; empty when none of them tells.
 std::string element_by_name(const RawAtom& atom, const RawResidue& residue);
 
-/// LoadError, starting with `where`: not the molecule's atoms in its order, by name and residue number.
-void check_same_atoms(const Structure& other, const Structure& molecule, const std::string& where);
+/// The first atom in which a model is not the molecule, by name, residue number and order, in words; empty: none.
+std::string first_difference(const Structure& other, const Structure& molecule);
 
-/// Chooses conformers, kinds and elements and leaves out what was not asked for.
+/// The molecule's atoms among those of another structure of one model, by chain, residue and name; none: one is
+/// missing.
+struct MatchedAtoms {
+  std::vector<Vec3> positions;
+  std::vector<std::uint32_t> records;
+};
+std::optional<MatchedAtoms> match_atoms(const Structure& other, const Structure& molecule);
+/// Another structure of one model as a conformation of the molecule: its atoms in its order, or with may_have_more all
+/// of them among others. OtherAtoms, starting with `where`: it is none.
+MatchedAtoms conformation(const Structure& other, const Structure& molecule, bool may_have_more,
+                          const std::string& where);
+
+/// Every model as a structure of its own.
+std::vector<Structure> assemble_each(RawFile raw, const std::string& path, ReadOptions options);
+/// Models that differ, as far as they are the same: the first one with the atoms that all have, which a note counts.
+/// OtherAtoms: there are none.
+Structure assemble_common(RawFile raw, const std::string& path, const ReadOptions& options);
+
+/// Chooses conformers, kinds and elements and leaves out what was not asked for. OtherAtoms: models that differ.
 Structure assemble(RawFile raw, const std::string& path, const ReadOptions& options);
 
 }  // namespace hinge::molecular

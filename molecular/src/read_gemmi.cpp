@@ -2,13 +2,17 @@
 // The only file that includes gemmi, which takes long to compile.
 #include <algorithm>
 #include <cctype>
+#include <charconv>
+#include <cstdint>
 #include <cstdlib>
 #include <exception>
 #include <limits>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include <gemmi/cif.hpp>
@@ -17,7 +21,6 @@
 #include <gemmi/resinfo.hpp>
 
 #include "hinge/core/error.hpp"
-#include "hybrid36.hpp"
 #include "read_file.hpp"
 
 namespace hinge::molecular {
@@ -28,6 +31,16 @@ char or_null(char c) { return c == ' ' ? '\0' : c; }
 
 RawAddress address(const gemmi::AtomAddress& a) {
   return {a.chain_name, *a.res_id.seqid.num, or_null(a.res_id.seqid.icode), a.atom_name};
+}
+
+/// 0 where a model has none. From gemmi 0.7 on it is a number, before a text.
+template <class Model>
+auto number_of(const Model& model, int) -> decltype(model.num) {
+  return model.num;
+}
+template <class Model>
+int number_of(const Model& model, long) {
+  return std::atoi(model.name.c_str());
 }
 
 ResidueKind kind_of(const std::string& name) {
@@ -111,40 +124,6 @@ void keep_what_is_read(gemmi::cif::Document& document) {
     }
 }
 
-/// gemmi looks at four letters, of either case.
-bool is_record(std::string_view line, std::string_view name) {
-  return line.size() >= name.size() &&
-         std::equal(name.begin(), name.end(), line.begin(), [](char a, char b) { return a == (b & ~0x20); });
-}
-
-/// Atoms numbered, lines cut after so many columns: gemmi would start a new line behind some characters of what it cuts
-/// off. And without the lengths behind LINK and SSBOND records, which nobody asks for: it would read the start of "nan"
-/// or "inf" beyond the end of the record, of which the end of the line is the last character.
-std::string prepare_pdb(const std::string& text, std::size_t columns, Serials& serials) {
-  constexpr std::size_t length_column = 72;
-  constexpr std::size_t most_atoms = 100000 + 26UL * 36 * 36 * 36 * 36;  // that gemmi reads from five columns
-  serials.clear();
-  std::string kept;
-  kept.reserve(text.size());
-  for (std::size_t first = 0; first < text.size();) {
-    const std::size_t end = std::min(text.find('\n', first), text.size());
-    std::string_view line = std::string_view(text).substr(first, end - first);
-    line =
-        line.substr(0, is_record(line, "LINK") || is_record(line, "SSBO") ? std::min(columns, length_column) : columns);
-    kept += line;
-    if ((is_record(line, "ATOM") || is_record(line, "HETA")) && line.size() > 11) {
-      if (serials.size() == most_atoms)
-        throw std::runtime_error("more than " + std::to_string(most_atoms) + " atoms, expected mmCIF of so many");
-      const std::string number = hybrid36(serials.size());
-      serials.push_back(gemmi::pdb_impl::read_serial(line.data() + 6));
-      kept.replace(kept.size() - line.size() + 6, 5, std::string(5 - number.size(), ' ') + number);
-    }
-    if (end < text.size()) kept += '\n';
-    first = end + 1;
-  }
-  return kept;
-}
-
 /// wwPDB's value_order or the type of a refinement dictionary; both in words of which the first letters count.
 BondOrder bond_order(std::string word, bool aromatic) {
   for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -189,6 +168,28 @@ std::vector<Component> components_of(gemmi::cif::Document& document, const std::
   return components;
 }
 
+/// What write_cif_head wrote of bonds; none: another file, or one that is not as it was written.
+std::optional<RecordedBonds> recorded_of(gemmi::cif::Document& document) {
+  if (document.blocks.empty()) return std::nullopt;
+  const auto read = [](const std::string& text) {
+    std::uint32_t n = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
+    return error == std::errc{} && end == text.data() + text.size() ? n : 0;
+  };
+  gemmi::cif::Block& block = document.blocks.front();
+  const std::string *version = block.find_value("_hinge_bonds.version"),
+                    *atoms = block.find_value("_hinge_bonds.atoms");
+  if (version == nullptr || *version != "1" || atoms == nullptr) return std::nullopt;
+  RecordedBonds recorded{read(*atoms), {}};
+  for (const auto& row : block.find("_hinge_bond.", {"atom_1", "atom_2", "order"})) {
+    const std::uint32_t i = read(row[0]), j = read(row[1]);
+    if (i == 0 || j == 0 || i == j || i > recorded.atoms || j > recorded.atoms) return std::nullopt;
+    const bool bonded = row[2] != "none";
+    recorded.bonds.push_back({i - 1, j - 1, bonded ? bond_order(trimmed(row[2]), false) : BondOrder::unknown, bonded});
+  }
+  return recorded;
+}
+
 /// A message on one line that names the file.
 [[noreturn]] void refuse_file(const std::exception& error, const std::string& path) {
   std::string what = error.what();
@@ -209,6 +210,7 @@ gemmi::Structure parse(const std::string& bytes, const std::string& path, bool c
   if (cif) {
     gemmi::cif::Document document = gemmi::cif::read_memory(bytes.data(), bytes.size(), path.c_str());
     raw.components = components_of(document, path);
+    raw.recorded = recorded_of(document);
     keep_what_is_read(document);
     number_atoms(document, serials);
     return gemmi::make_structure(std::move(document));
@@ -259,7 +261,7 @@ RawFile parse_with_gemmi(const std::string& bytes, const std::string& path, bool
   int position = 0;
   for (const gemmi::Model& model : st.models) {
     ++position;
-    const int number = std::atoi(model.name.c_str());
+    const int number = number_of(model, 0);
     raw.models.push_back(convert(model, number != 0 ? number : position, serials));
   }
   for (const gemmi::Connection& link : st.connections)

@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -104,20 +105,44 @@ std::string read_bytes(const std::filesystem::path& path, bool first_model, bool
   return bytes;
 }
 
+RawFile read_raw(const std::string& bytes, const std::filesystem::path& path, bool first_model, bool* cut_short) {
+  const bool cif = looks_like_cif(bytes);
+  std::vector<std::string> notes;
+  if (!cif) check_pdb(bytes, path.string(), 0, &notes);
+  RawFile raw = parse_with_gemmi(bytes, path.string(), cif);
+  raw.notes.insert(raw.notes.end(), notes.begin(), notes.end());
+  if (!cif) {
+    raw.conect = read_conect(bytes);
+    raw.recorded = read_recorded(bytes, raw.conect);
+  }
+  if (raw.name.empty() || raw.name == path.string()) raw.name = stem(path);
+  if (first_model && raw.models.size() > 1) {
+    raw.models.resize(1);
+    if (cut_short != nullptr) *cut_short = true;
+  }
+  return raw;
+}
+
 Structure read_structure(const std::filesystem::path& path, const ReadOptions& options) {
   bool cut_short = false;
-  const std::string bytes = read_bytes(path, options.first_model && !options.model, &cut_short);
-  const bool cif = looks_like_cif(bytes);
-  if (!cif) check_pdb(bytes, path.string());
-  RawFile raw = parse_with_gemmi(bytes, path.string(), cif);
-  if (!cif) raw.conect = read_conect(bytes);
+  const bool first_model = options.first_model && !options.model;
+  const std::string bytes = read_bytes(path, first_model, &cut_short);
+  RawFile raw = read_raw(bytes, path, first_model, &cut_short);
   ComponentLibrary components(options.dictionary);
   for (const std::filesystem::path& file : options.components) components.add_file(file);
   for (Component& component : raw.components) components.add(std::move(component));
-  if (raw.name.empty() || raw.name == path.string()) raw.name = stem(path);
-  Structure structure = assemble(std::move(raw), path.string(), options);
+  const std::optional<RecordedBonds> recorded = raw.recorded;
+  Structure structure;
+  try {
+    structure = assemble(std::move(raw), path.string(), options);
+  } catch (const OtherAtoms&) {
+    structure = assemble_common(read_raw(bytes, path), path.string(), options);
+  }
   structure.more_models = cut_short;
-  perceive_bonds(structure, std::move(components), options.bonds);
+  if (recorded && recorded->atoms == structure.atom_records)
+    take_recorded_bonds(structure, *recorded);
+  else
+    perceive_bonds(structure, std::move(components), options.bonds);
   return structure;
 }
 

@@ -23,22 +23,50 @@ struct Trajectory::Format {
   struct Models {
     std::vector<std::vector<Vec3>> own;  ///< empty: the molecule's
     std::vector<int> numbers;
+    std::vector<std::string> refusals;  ///< of each model that has other atoms, why it is no frame; else empty
     const Structure& molecule;
 
     std::size_t size() const noexcept { return numbers.size(); }
     int number(std::size_t k) const noexcept { return numbers[k]; }
-    std::vector<Vec3> frame(std::size_t k) const { return own.empty() ? molecule.models[k] : own[k]; }
+    std::vector<Vec3> frame(std::size_t k) const {
+      if (own.empty()) return molecule.models[k];
+      if (!refusals[k].empty()) throw OtherAtoms(refusals[k]);
+      return own[k];
+    }
   };
   template <class File>
   static constexpr bool names_atoms = std::same_as<File, Models> || std::same_as<File, PdbModels>;
 
   std::variant<DcdFile, XtcFile, NpyFile, PdbModels, Models> file;
 
-  static Format open(const std::filesystem::path& path, const Structure& molecule, const ReadOptions& options);
+  static Format open(const std::filesystem::path& path, const Structure& molecule, const ReadOptions& options,
+                     bool may_have_more);
+  /// Of mmCIF.
+  static Models models(const std::filesystem::path& path, const Structure& molecule, const ReadOptions& options,
+                       bool may_have_more);
 };
 
+Trajectory::Format::Models Trajectory::Format::models(const std::filesystem::path& path, const Structure& molecule,
+                                                      const ReadOptions& options, bool may_have_more) {
+  Models all{{}, {}, {}, molecule};
+  for (const Structure& other : assemble_each(read_raw(read_bytes(path), path), path.string(), options)) {
+    const int number = other.model_numbers[0];
+    all.numbers.push_back(number);
+    all.own.emplace_back();
+    all.refusals.emplace_back();
+    try {
+      all.own.back() =
+          conformation(other, molecule, may_have_more, path.string() + ": model " + std::to_string(number)).positions;
+    } catch (const OtherAtoms& error) {
+      if (all.own.size() == 1) throw;
+      all.refusals.back() = error.what();
+    }
+  }
+  return all;
+}
+
 Trajectory::Format Trajectory::Format::open(const std::filesystem::path& path, const Structure& molecule,
-                                            const ReadOptions& options) {
+                                            const ReadOptions& options, bool may_have_more) {
   BinaryFile file(path);
   if (DcdFile::is_one(file)) return {DcdFile(std::move(file))};
   if (XtcFile::is_one(file)) return {XtcFile(std::move(file))};
@@ -52,36 +80,33 @@ Trajectory::Format Trajectory::Format::open(const std::filesystem::path& path, c
     text.resize(std::size_t{1} << 16);
     text.resize(file.read(0, text));
   }
-  if (looks_like_cif(text)) {
-    ReadOptions all = options;
-    all.model.reset();
-    all.first_model = false;
-    Structure other = read_structure(path, all);
-    check_same_atoms(other, molecule, path.string());
-    return {Models{std::move(other.models), std::move(other.model_numbers), molecule}};
-  }
+  if (looks_like_cif(text)) return {models(path, molecule, options, may_have_more)};
   std::variant<BinaryFile, std::string> source(std::move(file));
   if (is_gzipped) source.emplace<std::string>(std::move(text));
-  return {PdbModels(path.string(), std::move(source), molecule, options)};
+  return {PdbModels(path.string(), std::move(source), molecule, options, may_have_more)};
 }
 
 Trajectory::Trajectory(Trajectory&& other) noexcept = default;
 Trajectory& Trajectory::operator=(Trajectory&& other) noexcept = default;
 Trajectory::~Trajectory() = default;
 
-Trajectory::Trajectory(const std::filesystem::path& path, const Structure& molecule, const ReadOptions& options)
+Trajectory::Trajectory(const std::filesystem::path& path, const Structure& molecule, const ReadOptions& options,
+                       bool may_have_more)
     : path_(path.string()),
       molecule_(&molecule),
-      format_(std::make_unique<const Format>(Format::open(path, molecule, options))) {
+      format_(std::make_unique<const Format>(Format::open(path, molecule, options, may_have_more))) {
   choose_atoms();
   if (const auto* dcd = std::get_if<DcdFile>(&format_->file)) notes_ = dcd->notes();
-  if (std::holds_alternative<NpyFile>(format_->file)) check_unit();
+  if (size() == 0)
+    notes_.push_back(path_ + ": holds 0 frames");
+  else if (std::holds_alternative<NpyFile>(format_->file))
+    check_unit();
 }
 
 Trajectory::Trajectory(const Structure& molecule)
     : path_(molecule.name),
       molecule_(&molecule),
-      format_(std::make_unique<const Format>(Format{Format::Models{{}, molecule.model_numbers, molecule}})) {}
+      format_(std::make_unique<const Format>(Format{Format::Models{{}, molecule.model_numbers, {}, molecule}})) {}
 
 void Trajectory::choose_atoms() {
   const std::size_t atoms = atom_count(), records = molecule_->atom_records, own = molecule_->atoms.size();

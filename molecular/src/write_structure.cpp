@@ -1,25 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PDB format 3.3 columns; atom specifications as ChimeraX and PyMOL write them.
+// Atom specifications as ChimeraX and PyMOL write them.
 #include "hinge/molecular/write_structure.hpp"
 
-#include <array>
-#include <cstdio>
 #include <ostream>
-
-#include "hinge/core/error.hpp"
-#include "hybrid36.hpp"
 
 namespace hinge::molecular {
 
 namespace {
-
-/// A name of fewer than four characters starts in column 14 when its element symbol has one letter.
-std::string atom_field(const Atom& atom) {
-  std::string name = atom.name.substr(0, 4);
-  if (name.size() < 4 && atom.element.size() < 2) name.insert(name.begin(), ' ');
-  name.resize(4, ' ');
-  return name;
-}
 
 const Residue& residue_of(const Structure& s, PrimitiveId i) { return s.residues[s.atoms[index(i)].residue]; }
 
@@ -40,30 +27,6 @@ std::string pymol_spec(const Structure& s, PrimitiveId i) {
 }
 
 }  // namespace
-
-void write_pdb_model(std::ostream& out, const Structure& structure, std::span<const Vec3> positions, int number) {
-  std::array<char, 96> line{};
-  std::snprintf(line.data(), line.size(), "MODEL %8d\n", number);
-  out << line.data();
-  for (std::size_t i = 0; i < structure.atoms.size(); ++i) {
-    const Atom& atom = structure.atoms[i];
-    const Residue& residue = structure.residues[atom.residue];
-    const std::string& chain = structure.chains[residue.chain].name;
-    if (chain.size() > 1) throw ModelError("chain " + chain + ": PDB format has one character for a chain name");
-    for (int k = 0; k < 3; ++k)
-      if (!(positions[i][k] > -999.9995 && positions[i][k] < 9999.9995))
-        throw ModelError(label(structure, static_cast<std::uint32_t>(i)) +
-                         ": a coordinate does not fit the PDB columns");
-    const bool hetero = residue.kind == ResidueKind::other || residue.kind == ResidueKind::water;
-    std::snprintf(line.data(), line.size(), "%-6s%5s %4s%c%3.3s %c%4d%c   %8.3f%8.3f%8.3f%6.2f%6.2f          %2.2s\n",
-                  hetero ? "HETATM" : "ATOM", hybrid36(i + 1).c_str(), atom_field(atom).c_str(), ' ',
-                  residue.name.c_str(), chain.empty() ? ' ' : chain.front(), residue.sequence_number % 10000,
-                  residue.insertion_code == '\0' ? ' ' : residue.insertion_code, positions[i][0], positions[i][1],
-                  positions[i][2], 1.0, 0.0, atom.element.c_str());
-    out << line.data();
-  }
-  out << "ENDMDL\n";
-}
 
 void write_chimerax_script(std::ostream& out, const Structure& structure, std::span<const Hit> pairs,
                            const std::string& pdb_file) {

@@ -51,15 +51,14 @@ std::string dcd_head(std::size_t frames, std::size_t atoms) {
   return bytes;
 }
 
-std::string npy_head(std::size_t frames, std::size_t atoms, bool single) {
+/// shape: "10, 5, 3".
+std::string npy_head(const std::string& shape, bool single) {
   std::string text = "{'descr': '";
   text += std::endian::native == std::endian::little ? '<' : '>';
   text += single ? "f4" : "f8";
   text += "', 'fortran_order': False, 'shape': (";
-  text += std::to_string(frames);
-  text += ", ";
-  text += std::to_string(atoms);
-  text += ", 3), }";
+  text += shape;
+  text += "), }";
   constexpr std::uint16_t length = 128 - 10;  // room for any number of frames, and data at a multiple of 64
   text.resize(length - 1, ' ');
   text += '\n';
@@ -74,6 +73,7 @@ std::string npy_head(std::size_t frames, std::size_t atoms, bool single) {
 std::optional<TrajectoryFormat> trajectory_format(const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
   if (extension == ".pdb") return TrajectoryFormat::pdb;
+  if (extension == ".cif") return TrajectoryFormat::cif;
   if (extension == ".dcd") return TrajectoryFormat::dcd;
   if (extension == ".npy") return TrajectoryFormat::npy;
   return std::nullopt;
@@ -82,19 +82,26 @@ std::optional<TrajectoryFormat> trajectory_format(const std::filesystem::path& p
 TrajectoryWriter::TrajectoryWriter(std::ostream& out, TrajectoryFormat format, const Structure& molecule,
                                    std::size_t atom_count, bool single)
     : out_(out), format_(format), molecule_(molecule), atoms_(atom_count), single_(single) {
+  if (format_ == TrajectoryFormat::pdb) check_fits_pdb(molecule_);
+  if (format_ == TrajectoryFormat::cif) check_fits_cif(molecule_);
   write_head();
 }
 
 void TrajectoryWriter::write_head() {
   if (format_ == TrajectoryFormat::dcd) out_ << dcd_head(frames_, atoms_);
-  if (format_ == TrajectoryFormat::npy) out_ << npy_head(frames_, atoms_, single_);
+  if (format_ == TrajectoryFormat::npy)
+    out_ << npy_head(std::to_string(frames_) + ", " + std::to_string(atoms_) + ", 3", single_);
 }
 
 void TrajectoryWriter::add(std::span<const Vec3> positions, int number) {
   if (positions.size() != atoms_)
     throw ModelError("a frame of " + std::to_string(positions.size()) + " atoms, expected " + std::to_string(atoms_));
+  if (frames_ == 0 && format_ == TrajectoryFormat::pdb) write_pdb_head(out_, molecule_);
+  if (frames_ == 0 && format_ == TrajectoryFormat::cif) write_cif_head(out_, molecule_);
   ++frames_;
   if (format_ == TrajectoryFormat::pdb) return write_pdb_model(out_, molecule_, positions, number);
+  if (format_ == TrajectoryFormat::cif)
+    return write_cif_model(out_, molecule_, positions, number, (frames_ - 1) * atoms_ + 1);
   std::string bytes;
   const auto put_single = [&](std::string& to, double x) {
     const auto value = static_cast<float>(x);
@@ -115,12 +122,30 @@ void TrajectoryWriter::add(std::span<const Vec3> positions, int number) {
 }
 
 void TrajectoryWriter::finish() {
-  if (format_ == TrajectoryFormat::pdb) {
-    out_ << "END\n";
-    return;
-  }
+  if (frames_ > 0 && format_ == TrajectoryFormat::pdb) write_pdb_tail(out_, molecule_);
+  if (frames_ > 0 && format_ == TrajectoryFormat::cif) out_ << "#\n";
+  if (names_atoms(format_)) return;
   out_.seekp(0);
   write_head();
+  out_.seekp(0, std::ios::end);
+}
+
+RowWriter::RowWriter(std::ostream& out, std::size_t columns) : out_(out), columns_(columns) {
+  out_ << npy_head("0, " + std::to_string(columns_), false);
+}
+
+void RowWriter::add(std::span<const double> row) {
+  if (row.size() != columns_)
+    throw ModelError("a row of " + std::to_string(row.size()) + " numbers, expected " + std::to_string(columns_));
+  ++rows_;
+  std::string bytes;
+  for (const double x : row) put(bytes, x);
+  out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+void RowWriter::finish() {
+  out_.seekp(0);
+  out_ << npy_head(std::to_string(rows_) + ", " + std::to_string(columns_), false);
   out_.seekp(0, std::ios::end);
 }
 

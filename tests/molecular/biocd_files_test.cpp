@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -206,6 +208,144 @@ TEST_F(BiocdFiles, NamesNeedNotBeText) {
     EXPECT_NE(json["model"]["file"].get<std::string>().find("l\xEF\xBF\xBDs.pdb"), std::string::npos);
     EXPECT_NE(content(folder / "notes").find("note: a name or path is not UTF-8"), std::string::npos);
   }
+}
+
+std::string pdb_atom(int serial, const std::string& name, const std::string& residue, int number, double x, double y,
+                     double z, const std::string& element, const std::string& record = "ATOM  ") {
+  char line[100];
+  std::snprintf(line, sizeof line, "%s%5d  %-3s %3s A%4d    %8.3f%8.3f%8.3f  1.00  0.00          %2s\n", record.c_str(),
+                serial, name.c_str(), residue.c_str(), number, x, y, z, element.c_str());
+  return line;
+}
+
+std::string alanine() {
+  return pdb_atom(1, "N", "ALA", 1, 0, 0, 0, "N") + pdb_atom(2, "CA", "ALA", 1, 1.46, 0, 0, "C") +
+         pdb_atom(3, "C", "ALA", 1, 2.0, 1.42, 0, "C") + pdb_atom(4, "O", "ALA", 1, 1.25, 2.39, 0, "O") +
+         pdb_atom(5, "CB", "ALA", 1, 1.99, -0.77, -1.2, "C");
+}
+
+TEST_F(BiocdFiles, FormatsFollowTheExtensionInEveryCommand) {
+  const std::string walk = "walk" + in + " --exempt-reference --steps 20 --every 10";
+  for (const std::string& command : {sample, walk, "check" + in}) {
+    ASSERT_LE(run_biocd(command + " --out" + file("x.dcd") + " 2>&1").status, 1) << command;
+    EXPECT_EQ(content(folder / "x.dcd").substr(4, 4), "CORD") << command;
+    ASSERT_LE(run_biocd(command + " --out" + file("x.npy") + " 2>&1").status, 1) << command;
+    EXPECT_EQ(content(folder / "x.npy").substr(1, 5), "NUMPY") << command;
+    ASSERT_LE(run_biocd(command + " --out" + file("x.cif") + " 2>&1").status, 1) << command;
+    EXPECT_EQ(content(folder / "x.cif").substr(0, 5), "data_") << command;
+    ASSERT_LE(run_biocd(command + " --out" + file("x.pdb") + " 2>&1").status, 1) << command;
+    EXPECT_EQ(run_biocd("info" + file("x.pdb") + " 2>&1").status, 0) << command;
+    const test::Said said = run_biocd(command + " --out" + file("x.xyz") + " 2>&1");
+    EXPECT_EQ(said.status, 2) << command;
+    EXPECT_NE(said.out.find("x.xyz: expected .pdb, .cif, .dcd or .npy"), std::string::npos) << said.out;
+    EXPECT_EQ(std::count(said.out.begin(), said.out.end(), '\n'), 1) << said.out;  // before any work
+    EXPECT_FALSE(fs::exists(folder / "x.xyz"));
+  }
+}
+
+TEST_F(BiocdFiles, NothingFreeIsAFileOfNoFramesOrNoFile) {
+  const std::string none = "sample" + in + " -n 3 --free backbone --seed 3 --filter free --out";
+  for (const std::string name : {"none.npy", "none.dcd"}) {
+    const test::Said said = run_biocd(none + file(name) + " 2>&1");
+    ASSERT_EQ(said.status, 1);
+    EXPECT_NE(said.out.find("no conformation is free: the file holds 0 frames"), std::string::npos) << said.out;
+    const test::Said read = run_biocd("check" + in + file(name) + " 2>&1");
+    EXPECT_EQ(read.status, 0) << read.out;
+    EXPECT_NE(read.out.find(name + ": holds 0 frames"), std::string::npos) << read.out;
+  }
+  std::ofstream(folder / "old.pdb") << "old";
+  const test::Said said = run_biocd(none + file("old.pdb") + " 2>&1");
+  EXPECT_NE(said.out.find("no file is written"), std::string::npos) << said.out;
+  EXPECT_EQ(content(folder / "old.pdb"), "old");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator{}), 4);
+}
+
+TEST_F(BiocdFiles, ModelsThatDifferAreCheckedAsWhatTheyAre) {
+  // The second model has an OXT, on the oxygen of a second residue that both have.
+  const std::string far = pdb_atom(6, "N", "GLY", 2, 9, 9, 9, "N") + pdb_atom(7, "CA", "GLY", 2, 10.4, 9, 9, "C") +
+                          pdb_atom(8, "C", "GLY", 2, 11, 10.4, 9, "C") + pdb_atom(9, "O", "GLY", 2, 10.2, 11.4, 9, "O"),
+                    end = pdb_atom(10, "OXT", "GLY", 2, 1.46, 0.5, 0.5, "O");
+  std::ofstream(folder / "nmr.pdb") << "MODEL        1\n"
+                                    << alanine() << far << "ENDMDL\nMODEL        2\n"
+                                    << alanine() << far << end << "ENDMDL\nMODEL        3\n"
+                                    << alanine() << far << "ENDMDL\nEND\n";
+  const test::Said said = run_biocd("check" + file("nmr.pdb") + " 2>&1");
+  EXPECT_EQ(said.status, 1) << said.out;
+  EXPECT_NE(said.out.find("model 1: free"), std::string::npos) << said.out;
+  EXPECT_NE(said.out.find("model 2: collides"), std::string::npos) << said.out;
+  EXPECT_NE(said.out.find("model 3: free"), std::string::npos) << said.out;
+  EXPECT_NE(
+      said.out.find("model 2 has other atoms than the first: A:GLY2:OXT is there, too (10 atoms, 9 in the first)"),
+      std::string::npos)
+      << said.out;
+  const test::Said written = run_biocd("check" + file("nmr.pdb") + " --out" + file("all.pdb") + " 2>&1");
+  EXPECT_EQ(written.status, 0) << written.out;
+  EXPECT_NE(written.out.find("models differ: 1 atoms"), std::string::npos) << written.out;
+  const test::Said path = run_biocd("path" + file("nmr.pdb") + " --from reference --to model:2 2>&1");
+  EXPECT_NE(path.out.find("models differ: 1 atoms"), std::string::npos) << path.out;
+  EXPECT_EQ(run_biocd("check" + file("nmr.pdb") + " --rigid-from" + file("nmr.pdb") + " 2>&1").status, 1);
+  // As a trajectory of another file they are refused.
+  std::ofstream(folder / "top.pdb") << alanine() << far;
+  const test::Said frames = run_biocd("check" + file("top.pdb") + file("nmr.pdb") + " 2>&1");
+  EXPECT_EQ(frames.status, 3) << frames.out;
+  EXPECT_NE(frames.out.find("A:GLY2:OXT is there, too"), std::string::npos) << frames.out;
+  // So are models of mmCIF files.
+  ASSERT_EQ(run_biocd("check" + file("nmr.pdb") + " --model 2 --out" + file("second.cif") + " > /dev/null 2>&1").status,
+            1);
+}
+
+TEST_F(BiocdFiles, SaysWhatWasLeftOut) {
+  std::ofstream(folder / "wet.pdb") << alanine() << pdb_atom(6, "O", "HOH", 2, 9, 9, 9, "O", "HETATM")
+                                    << pdb_atom(7, "ZN", "ZN", 3, 20, 9, 9, "ZN", "HETATM");
+  const std::string line = "left out: ZN x1, 1 waters (--hetero keeps ligands and ions, --hetero waters waters too)";
+  for (const std::string command :
+       {"check", "sample -n 1", "path --from reference --to reference", "check --csv", "sample -n 1 --csv", "info"}) {
+    const test::Said said = run_biocd(command + " " + file("wet.pdb") + " 2>&1");
+    EXPECT_NE(said.out.find(line), std::string::npos) << command << said.out;
+  }
+  const test::Said json = run_biocd("check --json" + file("wet.pdb") + " 2>/dev/null");
+  EXPECT_NE(json.out.find("\"waters_left_out\": 1"), std::string::npos) << json.out;
+  const test::Said kept = run_biocd("check" + file("wet.pdb") + " --hetero 2>&1");
+  EXPECT_NE(kept.out.find("left out: 1 waters (--hetero waters keeps them)"), std::string::npos) << kept.out;
+  EXPECT_NE(run_biocd("check --hetero" + file("wet.pdb") + " 2>&1").out.find("6 atoms"), std::string::npos);
+  for (const std::string words : {"--hetero waters", "--hetero=waters"}) {
+    const test::Said all = run_biocd("check " + words + file("wet.pdb") + " 2>&1");
+    EXPECT_NE(all.out.find("7 atoms"), std::string::npos) << all.out;
+    EXPECT_EQ(all.out.find("left out"), std::string::npos) << all.out;
+  }
+  EXPECT_EQ(run_biocd("check --hetero=salt" + file("wet.pdb") + " 2>&1").status, 2);
+}
+
+TEST_F(BiocdFiles, SamplesSayTheTorsionsTheyDrew) {
+  const std::string command = "sample" + in + " --free A:20-22:phi -n 6 --seed 4 --mode any --torsions";
+  const test::Said csv = run_biocd(command + " --csv --torsions-out" + file("t.npy") + " 2>/dev/null"),
+                   json = run_biocd(command + " --json --threads 2 2>/dev/null");
+  ASSERT_LE(csv.status, 1);
+  const std::string head = csv.out.substr(0, csv.out.find('\n'));
+  EXPECT_NE(head.find(",A:SER20:phi,A:ASP21:phi,A:THR22:phi"), std::string::npos) << head;
+  const std::size_t row = csv.out.find('\n') + 1;
+  std::string last = csv.out.substr(row, csv.out.find('\n', row) - row);
+  for (int k = 0; k < 7; ++k) last.erase(0, last.find(',') + 1);
+  while (std::count(last.begin(), last.end(), ',') > 2) last.erase(0, last.find(',') + 1);
+  EXPECT_NE(json.out.find("\"torsions\":[" + last + "]"), std::string::npos) << last << json.out;
+  const std::string npy = content(folder / "t.npy");
+  EXPECT_NE(npy.find("'shape': (6, 3)"), std::string::npos);
+  ASSERT_EQ(npy.size(), 128U + 6 * 3 * 8);
+  double first = 0.0;
+  std::memcpy(&first, npy.data() + 128, sizeof first);
+  EXPECT_NEAR(first, std::stod(last), 1e-12);
+  // They are the angles of the coordinates that are written: found again as the reference of that file.
+  ASSERT_LE(run_biocd("sample" + in + " --free A:20-22:phi -n 1 --seed 4 --out" + file("s.cif") + " 2>&1").status, 1);
+  const test::Said info = run_biocd("info --json --atoms" + file("s.cif") + " --free A:20-22:phi 2>/dev/null");
+  const std::size_t at = info.out.find("\"reference_degrees\": ");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_NEAR(std::stod(info.out.substr(at + 21)), first, 1e-6);
+  // Shards join to the same bytes.
+  for (const std::string shard : {"1", "2"})
+    ASSERT_LE(run_biocd(command + " --csv --shard " + shard + "/2 >" + file(shard + ".csv") + " 2>/dev/null").status,
+              1);
+  EXPECT_EQ(run_biocd("merge" + file("1.csv") + file("2.csv") + " 2>&1").out, csv.out);
+  EXPECT_EQ(run_biocd(command + " 2>&1").status, 2);
 }
 
 }  // namespace

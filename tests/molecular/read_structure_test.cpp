@@ -81,7 +81,10 @@ TEST(ReadStructure, RefusesEmptyMissingAndCutShortFiles) {
   EXPECT_NE(refusal("").find("is empty"), std::string::npos);
   EXPECT_NE(refusal(" \n\n").find("is empty"), std::string::npos);
   EXPECT_NE(refusal("HEADER    NOTHING\nEND\n").find("no ATOM or HETATM record"), std::string::npos);
-  EXPECT_NE(refusal("MODEL        1\n" + alanine()).find("has no ENDMDL"), std::string::npos);
+  const std::string cut = alanine().substr(0, alanine().size() - 10);
+  EXPECT_NE(refusal("MODEL        1\n" + cut).find("has no ENDMDL"), std::string::npos);
+  const std::string two = "MODEL        1\n" + alanine() + "ENDMDL\nMODEL        2\n" + alanine();
+  EXPECT_NE(refusal(two).find("has no ENDMDL"), std::string::npos);
   EXPECT_NE(refusal("ATOM      1  N   ALA\n").find("expected coordinates"), std::string::npos);
   EXPECT_THROW(read_structure("/nonexistent/file.pdb"), LoadError);
   EXPECT_THROW(read_structure("/tmp"), LoadError);
@@ -218,10 +221,61 @@ TEST(ReadStructure, RefusesAFileThatUnpacksWithoutEndNearlyAtOnce) {
   EXPECT_LT(std::stoul(said.substr(said.find(words) + words.size())), std::size_t{80} << 20);
 }
 
-TEST(ReadStructure, RefusesModelsThatDiffer) {
+TEST(ReadStructure, TakesAModelToTheEndOfAWholeFile) {
+  for (const std::string end : {"", "END\n", "CONECT    1    2\n"}) {
+    const TemporaryFile file("MODEL        0\n" + alanine() + end);
+    const Structure s = read_structure(file.path());
+    EXPECT_EQ(s.atoms.size(), 5U);
+    EXPECT_TRUE(has_note(s, "line 1: MODEL has no ENDMDL")) << end;
+  }
+}
+
+TEST(ReadStructure, TakesTheAtomsThatAllModelsHave) {
   const std::string two = "MODEL        1\n" + alanine() + "ENDMDL\nMODEL        2\n" +
                           alanine().substr(0, alanine().size() - 79) + "ENDMDL\n";
-  EXPECT_NE(refusal(two).find("model 2 has 4 atoms, expected 5"), std::string::npos);
+  const TemporaryFile file(two);
+  const Structure s = read_structure(file.path());
+  ASSERT_EQ(s.models.size(), 2U);
+  EXPECT_EQ(s.atoms.size(), 4U);
+  EXPECT_EQ(s.models[1].size(), 4U);
+  EXPECT_EQ(s.bonds.size(), 3U);
+  EXPECT_TRUE(
+      has_note(s, "models differ: 1 atoms that not every model has are left out (first: A:ALA1:CB of model 1)"));
+  // Another order is no other molecule; another ion is.
+  const std::string zinc = atom(6, "ZN", "ZN", 3, 20, 9, 9, ' ', 1, "ZN", "HETATM"),
+                    renumbered = atom(6, "ZN", "ZN", 4, 20, 9, 9, ' ', 1, "ZN", "HETATM");
+  const TemporaryFile ions("MODEL        1\n" + alanine() + zinc + "ENDMDL\nMODEL        2\n" + alanine() + renumbered +
+                           "ENDMDL\n");
+  ReadOptions hetero;
+  hetero.hetero = true;
+  EXPECT_EQ(read_structure(ions.path(), hetero).atoms.size(), 5U);
+  EXPECT_TRUE(has_note(read_structure(ions.path(), hetero), "models differ: 2 atoms"));
+  std::string other = alanine();
+  for (std::size_t at = 0; (at = other.find("A   1", at)) != std::string::npos;) other[at] = 'B';
+  EXPECT_NE(refusal("MODEL        1\n" + alanine() + "ENDMDL\nMODEL        2\n" + other + "ENDMDL\n")
+                .find("its models share no atom"),
+            std::string::npos);
+}
+
+TEST(ReadStructure, KeepsHeteroAtomsAndWatersWhereThereIsNothingElse) {
+  const std::string water = atom(6, "O", "HOH", 2, 9, 9, 9, ' ', 1, "O", "HETATM"),
+                    zinc = atom(7, "ZN", "ZN", 3, 20, 9, 9, ' ', 1, "ZN", "HETATM");
+  const TemporaryFile waters(water), both(water + zinc), all(alanine() + water + zinc);
+  Structure s = read_structure(waters.path());
+  EXPECT_EQ(s.atoms.size(), 1U);
+  EXPECT_TRUE(has_note(s, "nothing but waters"));
+  s = read_structure(both.path());
+  EXPECT_EQ(s.atoms.size(), 1U);
+  EXPECT_EQ(s.waters_dropped, 1U);
+  EXPECT_TRUE(has_note(s, "no protein or nucleic acid"));
+  ReadOptions options;
+  options.waters = options.hetero = true;
+  EXPECT_EQ(read_structure(all.path(), options).atoms.size(), 7U);
+  EXPECT_EQ(read_structure(all.path()).hetero_residues_dropped.at("ZN"), 1U);
+}
+
+TEST(ReadStructure, RefusesModelsThatAreThereTwice) {
+  const std::string two = "MODEL        1\n" + alanine() + "ENDMDL\nMODEL        2\n" + alanine() + "ENDMDL\n";
   ReadOptions options;
   options.model = 2;
   EXPECT_EQ(refusal(two, options), "");

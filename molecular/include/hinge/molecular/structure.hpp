@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -106,7 +107,8 @@ struct Structure {
   std::vector<int> model_numbers;         ///< as in the file, one per model
   std::vector<std::string> notes;         ///< repairs, guesses and warnings, one sentence each
   std::size_t waters_dropped = 0;
-  std::size_t hetero_dropped = 0;
+  std::size_t hetero_dropped = 0;                              ///< atoms
+  std::map<std::string, std::size_t> hetero_residues_dropped;  ///< by name
   std::size_t atom_records = 0;  ///< of the first model in the file, kept or not; 0: made by no file
   bool more_models = false;      ///< the file goes on with models that were not read (ReadOptions::first_model)
 };

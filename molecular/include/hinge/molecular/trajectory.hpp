@@ -20,8 +20,11 @@ namespace hinge::molecular {
 /// frames begin. Frames may be read by many threads at once.
 class Trajectory {
  public:
-  /// The molecule must outlive it. LoadError: cannot be read, holds no frame, or frames of another molecule.
-  Trajectory(const std::filesystem::path& path, const Structure& molecule, const ReadOptions& options = {});
+  /// The molecule must outlive it. LoadError: cannot be read, or frames of another molecule. DCD and NumPy
+  /// files may hold 0 frames, which notes() says.
+  /// may_have_more: models of PDB and mmCIF files may have other atoms too, which are left out.
+  Trajectory(const std::filesystem::path& path, const Structure& molecule, const ReadOptions& options = {},
+             bool may_have_more = false);
   /// The molecule's own models.
   explicit Trajectory(const Structure& molecule);
   Trajectory(Trajectory&& other) noexcept;
@@ -40,7 +43,7 @@ class Trajectory {
   const std::vector<std::string>& notes() const noexcept { return notes_; }
 
   /// Frame k < size(): every atom, as the file has them, angstrom. LoadError names the file, the frame and the atom:
-  /// damaged, cut short, not finite.
+  /// damaged, cut short, not finite. OtherAtoms (a LoadError): a model that is no conformation of the molecule.
   std::vector<Vec3> frame(std::size_t k) const;
   /// Those of a frame that are the molecule's atoms, in its order.
   std::vector<Vec3> kept(std::vector<Vec3> frame) const;
