@@ -19,14 +19,14 @@ namespace robocd {
 
 using namespace hinge::robotics;
 
-Worker make_worker(const Options& options, const Job& job) {
+Worker make_worker(const Options& options, Job& job) {
   const LinkMargins margins(*job.robot, options.clearance);
   Worker worker{RobotChecker(job.robot, job.tested, margins, CheckOptions{options.engine}), {}};
   if (options.environment.empty()) return worker;
   worker.environment.emplace(options.clearance, options.engine);
   std::map<std::string, std::vector<BodyId>> named;
   for (const Body& body : job.bodies) {
-    Shape shape = shape_of(body);
+    Shape shape = shape_of(body, job.notes);
     auto* mesh = std::get_if<MeshShape>(&shape);
     if (options.contained && mesh != nullptr) mesh->solid = closed(tessellate(*mesh).triangles);
     try {

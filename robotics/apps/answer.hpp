@@ -31,8 +31,9 @@ struct Worker {
   std::optional<hinge::robotics::Environment> environment;
 };
 
-/// ModelError: engine or clearance. LoadError: a mesh of the environment.
-Worker make_worker(const Options& options, const Job& job);
+/// job.notes gets what the meshes of the environment have to say. ModelError: engine or clearance. LoadError: such a
+/// mesh.
+Worker make_worker(const Options& options, Job& job);
 
 /// q: one value (rad or m) per independent joint. contained: name what is inside closed meshes, too.
 Answer ask(Worker& worker, std::span<const double> q, const hinge::robotics::Mode& mode, bool contained);

@@ -148,9 +148,9 @@ class BodyReader {
 
 Body parse_body(const std::string& text) { return BodyReader(text).read(); }
 
-Shape shape_of(const Body& body) {
+Shape shape_of(const Body& body, std::vector<std::string>& notes) {
   if (body.primitive) return *body.primitive;
-  return MeshShape{std::make_shared<const TriangleMesh>(read_mesh(body.file)), body.scale, body.file};
+  return MeshShape{std::make_shared<const TriangleMesh>(read_mesh(body.file, &notes)), body.scale, body.file};
 }
 
 }  // namespace robocd

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "hinge/core/pose.hpp"
 #include "hinge/core/vec3.hpp"
@@ -27,7 +28,7 @@ struct Body {
 /// naming the option: a text that does not fit.
 Body parse_body(const std::string& text);
 
-/// LoadError: what read_mesh() refuses.
-hinge::robotics::Shape shape_of(const Body& body);
+/// `notes` gets what read_mesh() says. LoadError: what it refuses.
+hinge::robotics::Shape shape_of(const Body& body, std::vector<std::string>& notes);
 
 }  // namespace robocd

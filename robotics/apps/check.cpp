@@ -68,13 +68,13 @@ void print_json_end(const Summary& summary, const std::string& error = {}) {
   fmt::print("\n],\n\"summary\": {}}}\n", hinge::tool::json_text(end));
 }
 
-void print_table_end(const Summary& summary, bool sampled, double seconds) {
+void print_table_end(const Summary& summary, const Robot& robot, bool sampled, double seconds) {
   fmt::print("{} of {} configurations collide", summary.colliding, summary.checked);
   if (sampled)
     fmt::print(" ({:.2f} %), {:.0f} per second",
                100.0 * static_cast<double>(summary.colliding) / static_cast<double>(summary.checked),
                static_cast<double>(summary.checked) / seconds);
-  fmt::print("\n");
+  fmt::print("{}\n", incomplete(robot));
   if (!sampled) return;
   for (const auto& [pair, count] : summary.top(shown_pairs))
     fmt::print("  {:<28} {:<28} {:8}\n", pair.first, pair.second, count);
@@ -127,7 +127,8 @@ Exit run_check(const Options& options) {
                  hinge::tool::json_text(answer_json(worker, k, configurations.at(k), answer, columns)));
     if (options.output == Output::csv) fmt::print("{}", csv_rows(worker, k, answer));
     if (options.output == Output::table && !sampled)
-      fmt::print("configuration {}: {}\n{}", k, answer.collides ? "collides" : "free", pair_lines(worker, answer));
+      fmt::print("configuration {}: {}{}\n{}", k, answer.collides ? "collides" : "free", incomplete(*job.robot),
+                 pair_lines(worker, answer));
     if (file.wanted()) write_row(file.stream(), configurations.at(k));
     file.check();
     bar.show(k + 1);
@@ -141,7 +142,8 @@ Exit run_check(const Options& options) {
   }
   const std::chrono::duration<double> checking = std::chrono::steady_clock::now() - start;
   if (options.output == Output::json) print_json_end(summary);
-  if (options.output == Output::table) print_table_end(summary, sampled, checking.count());
+  if (options.output == Output::table) print_table_end(summary, *job.robot, sampled, checking.count());
+  print_incomplete(*job.robot);
   return summary.colliding > 0 ? Exit::collision : Exit::free;
 }
 

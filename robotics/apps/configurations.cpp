@@ -38,7 +38,7 @@ std::vector<double> join_states(const char* option, const std::vector<std::strin
     std::string known;
     bool found = false;
     for (const NamedConfiguration& state : job.srdf.configurations) {
-      const std::string name = state.group + "/" + state.name;
+      const std::string name = state.full_name();
       known += (known.empty() ? "" : ", ") + name;
       if (name != wanted) continue;
       state.apply(q);

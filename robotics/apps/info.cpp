@@ -110,7 +110,7 @@ Json states_json(const Job& job) {
   for (const NamedConfiguration& state : job.srdf.configurations) {
     Json values = Json::object();
     for (const auto& [position, value] : state.values) values[job.robot->independent_name(position)] = value;
-    list.push_back({{"state", state.group + "/" + state.name}, {"values", std::move(values)}});
+    list.push_back({{"state", state.full_name()}, {"values", std::move(values)}});
   }
   return list;
 }
@@ -150,7 +150,7 @@ Exit run_info(const Options& options) {
     json["joints"] = joints_json(*job.robot);
     json["tested_pairs"] = pairs_json(job);
     json["states"] = states_json(job);
-    json["notes"] = job.srdf.notes;
+    json["notes"] = job.notes;
     fmt::print("{}\n", hinge::tool::json_text(json, 1));
     return Exit::free;
   }
@@ -160,7 +160,7 @@ Exit run_info(const Options& options) {
   fmt::print("\ntested pairs:\n");
   for (const auto& [a, b] : job.tested.list())
     fmt::print("  {} - {}\n", job.robot->link_name(a), job.robot->link_name(b));
-  for (const NamedConfiguration& state : job.srdf.configurations) fmt::print("state {}/{}\n", state.group, state.name);
+  for (const NamedConfiguration& state : job.srdf.configurations) fmt::print("state {}\n", state.full_name());
   return Exit::free;
 }
 

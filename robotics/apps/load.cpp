@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From options to a robot and its pair rule.
 #include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -94,6 +95,16 @@ void read_allowed(const Options& options, Job& job) {
   }
 }
 
+/// A floating robot may stand anywhere: against bodies of the world that has to be said.
+void check_floating_base(const Options& options, const RobotDescription& robot) {
+  const std::string joint = options.urdf + ": joint '" + robot.floating_base + "' lets the whole robot float";
+  if (options.floating_base.empty())
+    throw hinge::ModelError(joint + ": with --env say --floating-base fixed (it stands where the joint's origin is)");
+  if (options.floating_base == "free")
+    throw hinge::ModelError(joint + ": --floating-base free is not offered, expected fixed; for a base that moves, " +
+                            "replace the joint by three prismatic and three continuous ones");
+}
+
 }  // namespace
 
 std::shared_ptr<const Robot> load_robot(const Options& options, std::vector<std::string>& notes) {
@@ -105,7 +116,10 @@ std::shared_ptr<const Robot> load_robot(const Options& options, std::vector<std:
   for (std::filesystem::path& folder : ros_package_path()) urdf.package_folders.push_back(std::move(folder));
   Tessellation tessellation;
   if (options.reference_primitives) tessellation.manner = Tessellation::Manner::inscribed;
+  urdf.skip_missing_meshes = options.skip_missing_meshes;
   RobotDescription description = read_urdf(path, urdf);
+  notes = description.notes;
+  if (!options.environment.empty() && !description.floating_base.empty()) check_floating_base(options, description);
   std::vector<std::filesystem::path> meshes;
   for (const LinkDescription& link : description.links)
     for (const PlacedShape& placed : link.geometry)
@@ -126,7 +140,7 @@ Job load(const Options& options) {
   const UnknownLinks unknown = options.note_unknown_links ? UnknownLinks::noted : UnknownLinks::refused;
   if (!options.srdf.empty()) job.srdf = read_srdf(options.srdf, *job.robot, unknown);
   job.disabled = options.srdf.empty() ? LinkPairs(job.robot->link_count()) : job.srdf.disabled;
-  job.notes.insert(job.notes.begin(), job.srdf.notes.begin(), job.srdf.notes.end());
+  job.notes.insert(job.notes.end(), job.srdf.notes.begin(), job.srdf.notes.end());
   read_allowed(options, job);
   job.tested = tested_pairs(*job.robot, job.disabled);
   return job;
@@ -134,6 +148,19 @@ Job load(const Options& options) {
 
 void print_notes(const Job& job) {
   for (const std::string& note : job.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+}
+
+std::string incomplete(const Robot& robot) {
+  const std::size_t links = robot.description().incomplete.size();
+  if (links == 0) return "";
+  return " (incomplete model: " + std::to_string(links) + (links == 1 ? " link lacks" : " links lack") + " geometry)";
+}
+
+void print_incomplete(const Robot& robot) {
+  std::string names;
+  for (const std::string& link : robot.description().incomplete) names += (names.empty() ? "" : ", ") + link;
+  if (!names.empty())
+    std::fprintf(stderr, "note: incomplete model: geometry is missing, and was not tested, of %s\n", names.c_str());
 }
 
 }  // namespace robocd

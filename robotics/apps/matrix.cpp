@@ -73,6 +73,7 @@ Exit run_matrix(const Options& options) {
   }
   for (const auto& [kind, count] : counts) std::fprintf(stderr, "%6zu pairs %s\n", count, name(kind));
   std::fprintf(stderr, "%zu of %zu pairs disabled\n", disabled, matrix.entries.size());
+  print_incomplete(*robot);
   return Exit::free;
 }
 

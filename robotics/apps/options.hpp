@@ -30,6 +30,7 @@ struct Options {
   bool note_unknown_links = false;           // in the SRDF, instead of refusing them
   bool reference_primitives = false;         // tessellated as the published reference data is
   std::vector<std::string> package_folders;  // for package://
+  bool skip_missing_meshes = false;          // and go on with an incomplete model
   Output output = Output::table;
   // check: which configurations; one of the four
   std::uint64_t count = 0;
@@ -42,6 +43,7 @@ struct Options {
   double clearance = 0.0;                                    // m
   std::vector<std::string> environment;                      // bodies, see bodies.hpp
   std::vector<std::pair<std::string, std::string>> allowed;  // a link and a body that may touch
+  std::string floating_base;                                 // fixed or free; empty: not said
   std::string engine = "wide";
   bool contained = false;  // closed meshes are solid
   unsigned threads = 1;
@@ -72,14 +74,20 @@ struct Job {
 /// are known once the robot is: load_robot looks at them.
 void check_outputs(const Options& options);
 
-/// With --contained closed meshes are made solid; `notes` names the links whose meshes are open. LoadError: one line
-/// naming file and element.
+/// With --contained closed meshes are made solid. `notes` gets what the reader says and the links whose meshes are
+/// open. LoadError: one line naming file and element. ModelError: --floating-base is missing, or free.
 std::shared_ptr<const hinge::robotics::Robot> load_robot(const Options& options, std::vector<std::string>& notes);
 /// ModelError: options that do not fit the robot or each other.
 Job load(const Options& options);
 
 /// job.notes, on standard error.
 void print_notes(const Job& job);
+
+/// To go behind a verdict: " (incomplete model: ...)", empty when the geometry is whole.
+std::string incomplete(const hinge::robotics::Robot& robot);
+
+/// The same as a note at the end of the run, with the names of the links.
+void print_incomplete(const hinge::robotics::Robot& robot);
 
 Exit run_info(const Options& options);
 Exit run_check(const Options& options);

@@ -102,20 +102,21 @@ void print_table(const Options& options, const Job& job, const Worker& worker, c
   switch (path.verdict) {
     case PathVerdict::free:
       if (options.sampled)
-        fmt::print("free at {} states at most {} rad or m apart; what lies between them was not looked at\n",
-                   asked.states_looked_at, *options.sampled);
+        fmt::print("free at {} states at most {} rad or m apart; what lies between them was not looked at{}\n",
+                   asked.states_looked_at, *options.sampled, incomplete(*job.robot));
       else
-        fmt::print("free: proved for every state, from {} of them\n", asked.states_looked_at);
+        fmt::print("free: proved for every state, from {} of them{}\n", asked.states_looked_at, incomplete(*job.robot));
       break;
     case PathVerdict::colliding: {
-      fmt::print("collides at t = {}{}\n", path.parameter, where);
+      fmt::print("collides at t = {}{}{}\n", path.parameter, where, incomplete(*job.robot));
       const std::string lines = pair_lines(worker, asked.state);
       if (lines.empty()) contact();  // found with followers as the path has them, rounded otherwise
       fmt::print("{}", lines);
       break;
     }
     case PathVerdict::undecided:
-      fmt::print("undecided: nothing is proved within {:.3g} of t = {}{}\n", path.half_width, path.parameter, where);
+      fmt::print("undecided: nothing is proved within {:.3g} of t = {}{}{}\n", path.half_width, path.parameter, where,
+                 incomplete(*job.robot));
       contact();
       break;
   }
@@ -154,6 +155,7 @@ Exit run_path(const Options& options) {
     fmt::print("{}\n", hinge::tool::json_text(path_json(options, job, worker, asked), 1));
   else
     print_table(options, job, worker, asked);
+  print_incomplete(*job.robot);
   switch (asked.path.verdict) {
     case PathVerdict::free: return Exit::free;
     case PathVerdict::colliding: return Exit::collision;

@@ -95,7 +95,8 @@ Json robot_json(const Options& options, const Job& job) {
               {"rigid_groups", rigid_groups(robot)},
               {"disabled_pairs", job.disabled.size()},
               {"tested_pairs", job.tested.size()},
-              {"primitives", options.reference_primitives ? "reference" : "exact"}};
+              {"primitives", options.reference_primitives ? "reference" : "exact"},
+              {"incomplete_links", robot.description().incomplete}};
 }
 
 Json joint_names(const Robot& robot) {
@@ -181,10 +182,10 @@ std::vector<std::pair<std::string, std::string>> named_pairs(const Worker& worke
 std::string heading(const Options& options, const Job& job) {
   const Robot& robot = *job.robot;
   return fmt::format(
-      "{}: robot '{}', {} links, {} with geometry, {} triangles ({} degenerate)\n"
+      "{}: robot '{}', {} links, {} with geometry, {} triangles ({} degenerate){}\n"
       "{} DOF, {} movable joints, {} rigid groups; {} pairs of links tested, {} disabled\n",
       options.urdf, robot.name(), robot.link_count() - 1, links_with_geometry(robot), robot.model().size(),
-      robot.degenerate_count(), robot.independent_joints().size(), robot.model().tree().dof_count(),
+      robot.degenerate_count(), incomplete(robot), robot.independent_joints().size(), robot.model().tree().dof_count(),
       rigid_groups(robot), job.tested.size(), job.disabled.size());
 }
 

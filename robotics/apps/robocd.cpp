@@ -34,8 +34,15 @@ constexpr const char* footer =
 
 void add_robot_options(CLI::App& command, Options& o) {
   command.add_option("URDF", o.urdf, "robot description; meshes STL, OBJ, DAE or PLY")->required();
-  command.add_option("--package-path", o.package_folders,
-                     "folder of packages for package://, repeatable; those of ROS_PACKAGE_PATH come after");
+  command.add_option(
+      "--package-path", o.package_folders,
+      "folder of packages for package://, repeatable; those of ROS_PACKAGE_PATH and AMENT_PREFIX_PATH come after");
+  command
+      .add_option_function<std::string>(
+          "--missing-meshes", [&o](const std::string& text) { o.skip_missing_meshes = text == "skip"; },
+          "refuse (default) or skip: leave out geometry whose mesh is absent or empty, or that is of a kind not read; "
+          "every verdict then says that the model is incomplete")
+      ->check(CLI::IsMember({"refuse", "skip"}));
   command
       .add_option_function<std::string>(
           "--primitives", [&o](const std::string& text) { o.reference_primitives = text == "reference"; },
@@ -73,6 +80,10 @@ void add_environment_option(CLI::App& command, Options& o) {
                      "'box:X Y Z', 'sphere:R', 'cylinder:R L' or 'capsule:R L'; repeatable");
   command.add_option("--allow", o.allowed, "LINK BODY: the two may touch, such as a base and its table; repeatable")
       ->type_name("LINK BODY");
+  command
+      .add_option("--floating-base", o.floating_base,
+                  "fixed: a robot whose base floats stands at its joint's origin; to be said with --env")
+      ->check(CLI::IsMember({"fixed", "free"}));
 }
 
 void add_configuration_options(CLI::App& command, Options& o) {

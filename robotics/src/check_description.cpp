@@ -122,28 +122,28 @@ Found check_mimics(const RobotDescription& robot) {
   return {};
 }
 
-std::string unless_above_zero(const char* what, double size) {
-  return is_finite(size) && size > 0.0 ? ""
-                                       : std::string(what) + " " + text(size) + ", expected a finite length above 0";
+// A size of 0 is well defined: a point, a segment or a flat solid.
+std::string unless_length(const char* what, double size) {
+  return is_finite(size) && size >= 0.0
+             ? ""
+             : std::string(what) + " " + text(size) + ", expected a finite length of at least 0";
 }
 
 struct ShapeProblem {
   std::string operator()(const BoxShape& box) const {
     for (int k = 0; k < 3; ++k)
-      if (!is_finite(box.size[k]) || !(box.size[k] > 0.0))
-        return "box of size " + text(box.size) + ", expected finite lengths above 0";
+      if (!is_finite(box.size[k]) || !(box.size[k] >= 0.0))
+        return "box of size " + text(box.size) + ", expected finite lengths of at least 0";
     return "";
   }
-  std::string operator()(const SphereShape& sphere) const {
-    return unless_above_zero("sphere of radius", sphere.radius);
-  }
+  std::string operator()(const SphereShape& sphere) const { return unless_length("sphere of radius", sphere.radius); }
   std::string operator()(const CylinderShape& cylinder) const {
-    const std::string radius = unless_above_zero("cylinder of radius", cylinder.radius);
-    return radius.empty() ? unless_above_zero("cylinder of length", cylinder.length) : radius;
+    const std::string radius = unless_length("cylinder of radius", cylinder.radius);
+    return radius.empty() ? unless_length("cylinder of length", cylinder.length) : radius;
   }
   std::string operator()(const CapsuleShape& capsule) const {
-    const std::string radius = unless_above_zero("capsule of radius", capsule.radius);
-    return radius.empty() ? unless_above_zero("capsule of length", capsule.length) : radius;
+    const std::string radius = unless_length("capsule of radius", capsule.radius);
+    return radius.empty() ? unless_length("capsule of length", capsule.length) : radius;
   }
   std::string operator()(const MeshShape& shape) const {
     std::string who = "mesh";
@@ -161,6 +161,23 @@ struct ShapeProblem {
   }
 };
 
+/// Meshes aside, which may be anything.
+struct WithoutVolume {
+  std::string operator()(const BoxShape& box) const {
+    return box.size[0] > 0.0 && box.size[1] > 0.0 && box.size[2] > 0.0 ? "" : "box of size " + text(box.size);
+  }
+  std::string operator()(const SphereShape& sphere) const { return sphere.radius > 0.0 ? "" : "sphere of radius 0"; }
+  std::string operator()(const CylinderShape& cylinder) const {
+    return cylinder.radius > 0.0 && cylinder.length > 0.0
+               ? ""
+               : "cylinder of radius " + text(cylinder.radius) + " and length " + text(cylinder.length);
+  }
+  std::string operator()(const CapsuleShape& capsule) const {
+    return capsule.radius > 0.0 ? "" : "capsule of radius 0";
+  }
+  std::string operator()(const MeshShape&) const { return ""; }
+};
+
 Found check_geometry(const LinkDescription& link) {
   for (const PlacedShape& placed : link.geometry) {
     if (!is_rigid(placed.origin)) return at(link, ": a collision's origin is not a rigid placement of finite numbers");
@@ -173,6 +190,8 @@ Found check_geometry(const LinkDescription& link) {
 }  // namespace
 
 std::string problem_of(const Shape& shape) { return std::visit(ShapeProblem{}, shape); }
+
+std::string without_volume(const Shape& shape) { return std::visit(WithoutVolume{}, shape); }
 
 std::optional<Problem> tree_problem(const RobotDescription& robot) {
   if (robot.links.empty()) return Problem{0, "the robot has no links"};

@@ -15,8 +15,8 @@ struct Problem {
 };
 
 /// No links; empty or repeated names; joints to links that do not exist; links with two parents, on a cycle or apart
-/// from the rest; origins that are no rigid placement; axes, limits and mimic factors that are zero or not finite;
-/// mimics of unknown joints or in a circle; sizes, scales and vertices no shape has.
+/// from the rest; origins that are no rigid placement; axes that are zero; axes, limits and mimic factors that are not
+/// finite; mimics of unknown joints or in a circle; sizes below 0, scales of 0, vertices that are not finite.
 std::optional<Problem> first_problem(const RobotDescription& robot);
 
 /// Of those, what concerns names and tree alone.
@@ -24,5 +24,8 @@ std::optional<Problem> tree_problem(const RobotDescription& robot);
 
 /// The same for a shape, to go behind the name of its link; empty when there is none.
 std::string problem_of(const Shape& shape);
+
+/// A shape that is a point, a segment or flat, for a note: "sphere of radius 0". Empty for others and for meshes.
+std::string without_volume(const Shape& shape);
 
 }  // namespace hinge::robotics

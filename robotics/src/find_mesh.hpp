@@ -9,7 +9,8 @@
 
 namespace hinge::robotics {
 
-/// `folder` is the URDF's. LoadError says what was looked for and where; without a file name in front.
+/// `folder` is the URDF's. MissingMesh: there is no such file. LoadError: no path. Both say what was looked for and
+/// where; without a file name in front.
 std::filesystem::path find_mesh(const std::string& name, const std::filesystem::path& folder,
                                 const UrdfOptions& options);
 

@@ -15,7 +15,9 @@ namespace hinge::robotics {
 struct OutlinedCollision {
   int line = 0;
   Pose origin{};
-  std::optional<CapsuleShape> capsule{};  ///< when its shape is one; urdfdom, which knows none, is told of a sphere
+  // urdfdom is told of a sphere in place of these.
+  std::optional<CapsuleShape> capsule{};  ///< when its shape is one
+  std::string unread{};                   ///< the element, when its shape is none that anyone here reads
 };
 
 struct OutlinedLink {
@@ -31,17 +33,19 @@ struct OutlinedJoint {
   std::string parent, child;  ///< links
 };
 
-/// In the file's order. Origins are computed here, so that they are the same bits on every CPU: urdfdom goes through
-/// the sine and cosine of the C library.
+/// In the file's order. What can change no verdict and urdfdom is strict about is mended: efforts and velocities,
+/// limits and axes of joints that have no use for them, blanks around numbers. Origins are computed here, so that they
+/// are the same bits on every CPU: urdfdom goes through the sine and cosine of the C library.
 struct UrdfOutline {
   std::vector<OutlinedLink> links;
   std::vector<OutlinedJoint> joints;
+  std::vector<std::string> notes;
   std::string
       geometry_only;  ///< the file without visuals, inertias and extensions, whose faults are no concern of ours
 };
 
 /// LoadError: see XmlFile; elements without name, numbers in an origin that are not six finite ones, sizes of a capsule
-/// that are not one number, a <geometry> of several shapes (urdfdom takes the first).
+/// that are not one number, xacro left where it could stand for geometry or change it.
 UrdfOutline outline_urdf(const std::filesystem::path& path);
 
 }  // namespace hinge::robotics

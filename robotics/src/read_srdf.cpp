@@ -2,7 +2,6 @@
 // SRDF with tinyxml2; groups are resolved to joints.
 #include "hinge/robotics/read_srdf.hpp"
 
-#include <algorithm>
 #include <map>
 #include <optional>
 #include <set>
@@ -30,6 +29,7 @@ class SrdfReader {
  public:
   SrdfReader(const std::filesystem::path& path, const Robot& robot, UnknownLinks unknown)
       : file_(path, "robot"), robot_(robot), unknown_(unknown) {
+    file_.refuse_xacro_in(file_.root());
     const auto& joints = robot.description().joints;
     for (std::size_t k = 0; k < joints.size(); ++k) above_[joints[k].child] = k;
     for (std::size_t k = 0; k < robot.independent_joints().size(); ++k) independent_[robot.independent_joints()[k]] = k;
@@ -37,6 +37,9 @@ class SrdfReader {
 
   Srdf read() {
     srdf_.disabled = LinkPairs(robot_.link_count());
+    const std::string name = text_of(file_.root(), "name");
+    if (!name.empty() && name != robot_.name())
+      srdf_.notes.push_back(file_.at(0) + "is made for robot '" + name + "', this one is '" + robot_.name() + "'");
     read_disabled();
     for_each(file_.root(), "group", [&](const XMLElement& group) { groups_[name_of(group)] = &group; });
     for_each(file_.root(), "group", [&](const XMLElement& group) {
@@ -46,14 +49,39 @@ class SrdfReader {
       srdf_.groups.push_back({name_of(group), {joints.begin(), joints.end()}});
     });
     for_each(file_.root(), "group_state", [&](const XMLElement& state) { read_configuration(state); });
+    note(unknown_joints_, "joint", "left out of groups and states");
+    note(unknown_links_, "link", "left out of groups, with the chains it is an end of");
+    note(unknown_groups_, "subgroup", "left out of groups");
+    note(twice_, "joint", "given twice by a state, the last value counts");
     if (skipped_pairs_ > 0)
-      srdf_.notes.push_back(std::to_string(skipped_pairs_) +
+      srdf_.notes.push_back(file_.at(0) + std::to_string(skipped_pairs_) +
                             " pairs name links the robot does not have; the first is " + first_skipped_);
     return std::move(srdf_);
   }
 
  private:
   std::string name_of(const XMLElement& element) const { return file_.attribute(element, "name"); }
+
+  /// Elements of one kind that share a cause, and so a note.
+  struct Noted {
+    int line = 0;  // of the first
+    std::string first;
+    std::set<std::string> names{};
+
+    void add(const XMLElement& element, const std::string& name) {
+      if (names.empty()) line = element.GetLineNum();
+      if (names.empty()) first = name;
+      names.insert(name);
+    }
+  };
+
+  void note(const Noted& noted, const std::string& kind, const std::string& what) {
+    if (noted.names.empty()) return;
+    std::string text = file_.at(noted.line).append(kind).append(" '").append(noted.first).append("'");
+    if (noted.names.size() > 1) text.append(" and ").append(std::to_string(noted.names.size() - 1)).append(" more");
+    const bool absent = &noted != &twice_;
+    srdf_.notes.push_back(text + ": " + (absent ? "unknown, " : "") + what);
+  }
 
   /// None only for unknown links that are to be noted.
   std::optional<LinkId> link(const XMLElement& element, const char* attribute) {
@@ -62,7 +90,8 @@ class SrdfReader {
     if (found) return found;
     const std::string what = tag(element) + " names link '" + name + "'";
     if (unknown_ == UnknownLinks::refused)
-      file_.refuse(element.GetLineNum(), what + ", which robot '" + robot_.name() + "' does not have");
+      file_.refuse(element.GetLineNum(), what + ", which robot '" + robot_.name() +
+                                             "' does not have; --note-unknown-links passes over such pairs");
     if (first_skipped_.empty())
       first_skipped_ = "line " + std::to_string(element.GetLineNum()) + ", link '" + name + "'";
     return {};
@@ -104,20 +133,15 @@ class SrdfReader {
   std::optional<std::size_t> joint(const XMLElement& element) {
     const std::string name = name_of(element);
     const auto found = robot_.find_joint(name);
-    const std::string note =
-        "line " + std::to_string(element.GetLineNum()) + ": joint '" + name + "' is none of the robot's and left out";
-    // Subgroups are read more than once.
-    if (!found && std::find(srdf_.notes.begin(), srdf_.notes.end(), note) == srdf_.notes.end())
-      srdf_.notes.push_back(note);
+    if (!found) unknown_joints_.add(element, name);
     return found;
   }
 
-  std::string known_link(const XMLElement& element, const char* attribute) const {
+  std::optional<std::string> known_link(const XMLElement& element, const char* attribute) {
     std::string name = file_.attribute(element, attribute);
-    if (!robot_.find_link(name))
-      file_.refuse(element.GetLineNum(),
-                   tag(element) + " names link '" + name + "', which robot '" + robot_.name() + "' does not have");
-    return name;
+    if (robot_.find_link(name)) return name;
+    unknown_links_.add(element, name);
+    return {};
   }
 
   /// SRDF: a link brings the joint above it, a chain the joints between its two ends, a subgroup its own.
@@ -129,30 +153,36 @@ class SrdfReader {
       if (found && is_movable(*found)) joints.insert(*found);
     });
     for_each(group, "link", [&](const XMLElement& element) {
-      const auto above = above_.find(known_link(element, "name"));
+      const auto known = known_link(element, "name");
+      const auto above = known ? above_.find(*known) : above_.end();
       if (above != above_.end() && is_movable(above->second)) joints.insert(above->second);
     });
     for_each(group, "chain", [&](const XMLElement& chain) {
       // Through the lowest link above both ends: what is above both is above that one too.
-      std::set<std::size_t> base = joints_above(known_link(chain, "base_link"));
-      for (const std::size_t k : joints_above(known_link(chain, "tip_link")))
+      const auto base_link = known_link(chain, "base_link"), tip_link = known_link(chain, "tip_link");
+      if (!base_link || !tip_link) return;
+      std::set<std::size_t> base = joints_above(*base_link);
+      for (const std::size_t k : joints_above(*tip_link))
         if (base.erase(k) == 0) base.insert(k);
       joints.merge(base);
     });
     for_each(group, "group", [&](const XMLElement& element) {
       const auto sub = groups_.find(name_of(element));
       if (sub == groups_.end())
-        file_.refuse(element.GetLineNum(), "group '" + name + "': subgroup '" + name_of(element) + "' does not exist");
-      collect(*sub->second, joints, open);
+        unknown_groups_.add(element, name_of(element));
+      else
+        collect(*sub->second, joints, open);
     });
     open.erase(name);
   }
 
   void read_configuration(const XMLElement& state) {
-    NamedConfiguration configuration{name_of(state), file_.attribute(state, "group"), {}};
+    NamedConfiguration configuration{name_of(state), text_of(state, "group"), {}};
+    std::set<std::string> named;
     for_each(state, "joint", [&](const XMLElement& element) {
       const auto found = joint(element);
       if (!found) return;
+      if (!named.insert(name_of(element)).second) twice_.add(element, name_of(element));
       const auto values = parse_numbers(file_.attribute(element, "value"));
       if (!values || values->size() != 1)
         file_.refuse(element.GetLineNum(), "joint '" + name_of(element) + "' has value \"" +
@@ -170,6 +200,7 @@ class SrdfReader {
   std::map<std::size_t, std::size_t> independent_;  // joint to its position among the independent ones
   std::map<std::string, const XMLElement*> groups_;
   Srdf srdf_;
+  Noted unknown_joints_, unknown_links_, unknown_groups_, twice_;
   std::size_t skipped_pairs_ = 0;
   std::string first_skipped_;
 };

@@ -18,12 +18,19 @@ inline std::string text_of(const tinyxml2::XMLElement& element, const char* attr
   return text != nullptr ? text : "";
 }
 
-/// An XML file with this root element. LoadError: cannot be opened, no XML, another root, xacro macros not expanded.
+/// An XML file with this root element. LoadError: cannot be opened, no XML, another root.
 class XmlFile {
  public:
   XmlFile(const std::filesystem::path& path, const char* root);
 
   tinyxml2::XMLElement& root() noexcept { return *document_.RootElement(); }
+
+  /// LoadError: it, or an element or attribute in it, is one that xacro would have replaced.
+  void refuse_xacro_in(const tinyxml2::XMLElement& element) const;
+  [[noreturn]] void refuse_xacro(const tinyxml2::XMLElement& element) const;
+
+  /// "file:line: "; without the line when it is 0.
+  std::string at(int line) const;
 
   /// Throws LoadError "file:line: what"; without the line when it is 0.
   [[noreturn]] void refuse(int line, const std::string& what) const;

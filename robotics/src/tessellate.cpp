@@ -30,7 +30,12 @@ constexpr std::size_t most_triangles = 1'000'000;
                    " m: expected a finite length above 0 that takes at most 10^6 triangles");
 }
 
+// What has no volume is made of the fewest triangles: one without area for a point or a segment.
+Triangles segment(const Vec3& end) { return {{-end, end, end}}; }
+
 Triangles box(const Vec3& size) {
+  const auto flat = std::count(size.data(), size.data() + 3, 0.0);
+  if (flat >= 2) return segment(size / 2);
   std::array<Vec3, 8> corner;
   for (std::size_t k = 0; k < 8; ++k)
     for (int axis = 0; axis < 3; ++axis) corner[k][axis] = (k >> axis & 1U) != 0 ? size[axis] / 2 : -size[axis] / 2;
@@ -38,7 +43,10 @@ Triangles box(const Vec3& size) {
   constexpr std::array<std::array<std::size_t, 4>, 6> faces = {
       {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
   Triangles triangles;
-  for (const auto& f : faces) {
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    // A flat box has one face, that of its thin axis.
+    if (flat == 1 && (k % 2 == 0 || size[static_cast<int>(k / 2)] > 0.0)) continue;
+    const auto& f = faces[k];
     triangles.push_back({corner[f[0]], corner[f[1]], corner[f[2]]});
     triangles.push_back({corner[f[0]], corner[f[2]], corner[f[3]]});
   }
@@ -56,6 +64,10 @@ Triangles prism(double radius, double length, std::size_t sides) {
   Triangles triangles;
   for (std::size_t i = 0; i < sides; ++i) {
     const Vec3 a = vertex(i), b = vertex(i + 1);
+    if (length == 0.0) {  // a disc
+      triangles.push_back({up, a, b});
+      continue;
+    }
     triangles.push_back({a - up, b - up, b + up});
     triangles.push_back({a - up, b + up, a + up});
     triangles.push_back({-up, b - up, a - up});
@@ -180,13 +192,17 @@ struct InTriangles {
   Triangles operator()(const MeshShape& mesh) const { return scaled(mesh); }
   Triangles operator()(const BoxShape& shape) const { return box(shape.size); }
   Triangles operator()(const CylinderShape& cylinder) const {
+    if (cylinder.radius == 0.0) return segment({0, 0, cylinder.length / 2});
     return inscribed ? prism(cylinder.radius, cylinder.length, inscribed_sides) : around_cylinder(cylinder, tolerance);
   }
   Triangles operator()(const SphereShape& sphere) const {
+    if (sphere.radius == 0.0) return segment(Vec3::Zero());
     return inscribed ? geodesic(sphere.radius, inscribed_parts) : around_sphere(sphere.radius, tolerance);
   }
   Triangles operator()(const CapsuleShape& capsule) const {
-    return drawn_apart((*this)(SphereShape{capsule.radius}), capsule.length);
+    if (capsule.radius == 0.0) return segment({0, 0, capsule.length / 2});
+    const Triangles sphere = (*this)(SphereShape{capsule.radius});
+    return capsule.length == 0.0 ? sphere : drawn_apart(sphere, capsule.length);
   }
 };
 

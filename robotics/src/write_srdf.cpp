@@ -77,6 +77,8 @@ std::string seen(const MatrixEntry& entry) {
 
 void write_srdf(const Robot& robot, const CollisionMatrix& matrix, std::ostream& out, UnseenPairs unseen) {
   out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<robot name=\"" << escaped(robot.name()) << "\">\n";
+  for (const std::string& link : robot.description().incomplete)
+    out << "  <!-- incomplete model: link " << in_comment(link) << " lacks geometry -->\n";
   for (const MatrixEntry& entry : matrix.entries) {
     const std::string &a = robot.link_name(entry.link1), &b = robot.link_name(entry.link2), what = seen(entry);
     if (is_disabled(entry.kind, unseen)) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -125,6 +126,10 @@ TEST(ReadUrdf, TakesRosPackagePathOnlyWhenAsked) {
   ASSERT_EQ(setenv("ROS_PACKAGE_PATH", "/opt/one::/opt/two", 1), 0);
   EXPECT_EQ(ros_package_path(), (std::vector<std::filesystem::path>{"/opt/one", "/opt/two"}));
   EXPECT_TRUE(UrdfOptions{}.package_folders.empty());
+  ASSERT_EQ(setenv("AMENT_PREFIX_PATH", "/opt/ros/humble:/ws", 1), 0);
+  EXPECT_EQ(ros_package_path(),
+            (std::vector<std::filesystem::path>{"/opt/one", "/opt/two", "/opt/ros/humble/share", "/ws/share"}));
+  unsetenv("AMENT_PREFIX_PATH");
   unsetenv("ROS_PACKAGE_PATH");
   EXPECT_TRUE(ros_package_path().empty());
 }
@@ -146,10 +151,10 @@ TEST(ReadUrdf, ReadsCapsulesBesideOtherShapes) {
 }
 
 TEST(ReadUrdf, RefusesCapsulesThatAreNone) {
-  EXPECT_EQ(refusal(one_shape("<capsule radius='0' length='1'/>")),
-            "r.urdf:4: link 'a': capsule of radius 0, expected a finite length above 0");
+  EXPECT_EQ(refusal(one_shape("<capsule radius='-1' length='1'/>")),
+            "r.urdf:4: link 'a': capsule of radius -1, expected a finite length of at least 0");
   EXPECT_EQ(refusal(one_shape("<capsule radius='1' length='-1'/>")),
-            "r.urdf:4: link 'a': capsule of length -1, expected a finite length above 0");
+            "r.urdf:4: link 'a': capsule of length -1, expected a finite length of at least 0");
   EXPECT_EQ(refusal(one_shape("<capsule radius='1'/>")), "r.urdf:4: <capsule> has no attribute 'length'");
   EXPECT_EQ(refusal(one_shape("<capsule radius='1 2' length='1'/>")),
             "r.urdf:4: <capsule> has radius=\"1 2\", expected a finite number");
@@ -168,8 +173,15 @@ TEST(ReadUrdf, RefusesWhatIsNoUrdf) {
 }
 
 TEST(ReadUrdf, SendsXacroInputToXacro) {
-  EXPECT_EQ(refusal(robot_of("<link name='a'/>\n<xacro:property name='p' value='1'/>\n")),
-            "r.urdf:4: <xacro:property> needs xacro: run `xacro FILE > FILE.urdf` first and read its output");
+  for (const char* element : {"<xacro:include filename='arm.xacro'/>", "<xacro:macro name='arm'/>",
+                              "<xacro:arm><link name='b'/></xacro:arm>"})
+    EXPECT_NE(refusal(robot_of("<link name='a'/>\n" + std::string(element))).find("> needs xacro: run `xacro"),
+              std::string::npos)
+        << element;
+  // Where geometry belongs, a macro may stand for it.
+  EXPECT_EQ(refusal(robot_of("<link name='a'>\n<xacro:foot/></link>\n")),
+            "r.urdf:4: <xacro:foot> needs xacro: run `xacro FILE > FILE.urdf` first and read its output");
+  EXPECT_NE(refusal(one_shape("<xacro:foot/>")).find("needs xacro"), std::string::npos);
   EXPECT_EQ(refusal(two_links("fixed", "<origin xyz='${p} 0 0'/>")),
             "r.urdf:5: <origin> needs xacro: run `xacro FILE > FILE.urdf` first and read its output");
   // What xacro leaves behind is fine.
@@ -208,10 +220,12 @@ TEST(ReadUrdf, RefusesWhatIsNoTree) {
 }
 
 TEST(ReadUrdf, RefusesJointsItCannotMove) {
-  EXPECT_EQ(refusal(two_links("floating", "")),
-            "r.urdf:5: joint 'j' is floating, expected fixed, revolute, continuous or prismatic");
-  EXPECT_EQ(refusal(two_links("planar", "")),
-            "r.urdf:5: joint 'j' is planar or of unknown type, expected fixed, revolute, continuous or prismatic");
+  for (const std::string type : {"floating", "planar"})
+    EXPECT_EQ(refusal(robot_of("<link name='a'><collision><geometry><sphere radius='1'/></geometry></collision></link>"
+                               "<link name='b'/>\n<joint name='j' type='" +
+                               type + "'><parent link='a'/><child link='b'/></joint>\n")),
+              "r.urdf:4: joint 'j' is " + type +
+                  ", expected fixed, revolute, continuous or prismatic (or all the geometry below it)");
   EXPECT_NE(refusal(two_links("ball", "")).find("r.urdf:5: Joint [j] has no known type [ball]"), std::string::npos);
   EXPECT_EQ(refusal(two_links("continuous", "<axis xyz='0 0 0'/>")),
             "r.urdf:5: joint 'j': its axis is 0 0 0, expected a finite direction other than 0 0 0");
@@ -238,27 +252,44 @@ TEST(ReadUrdf, RefusesShapesThatAreNone) {
             "r.urdf:3: Parser found 2 elements but 3 expected while parsing vector [1 1]; Could not parse collision "
             "element for Link [a]");
   EXPECT_EQ(refusal(one_shape("<box size='1 -1 1'/>")),
-            "r.urdf:4: link 'a': box of size 1 -1 1, expected finite lengths above 0");
-  EXPECT_EQ(refusal(one_shape("<sphere radius='0'/>")),
-            "r.urdf:4: link 'a': sphere of radius 0, expected a finite length above 0");
+            "r.urdf:4: link 'a': box of size 1 -1 1, expected finite lengths of at least 0");
+  EXPECT_EQ(refusal(one_shape("<sphere radius='-1'/>")),
+            "r.urdf:4: link 'a': sphere of radius -1, expected a finite length of at least 0");
   EXPECT_NE(refusal(one_shape("<sphere radius='nan'/>")).find("r.urdf:3: radius [nan] is not a valid float"),
             std::string::npos);
-  EXPECT_NE(refusal(one_shape("<cone radius='1' length='2'/>")).find("r.urdf:3: Unknown geometry type 'cone'"),
+  for (const std::string shape : {"plane", "cdf", "cone"})
+    EXPECT_EQ(refusal(one_shape("<" + shape + " normal='0 0 1'/>")),
+              "r.urdf:4: link 'a': shape <" + shape +
+                  ">, expected <box>, <sphere>, <cylinder>, <capsule> or <mesh>; --missing-meshes skip goes on "
+                  "without it");
+  EXPECT_NE(refusal(one_shape("<mesh filename='a.stl' scale='1 1 1 1'/>")).find("found 4 elements but 3 expected"),
             std::string::npos);
-  EXPECT_EQ(refusal(one_shape("<box size='1 1 1'/><sphere radius='1'/>")),
-            "r.urdf:4: link 'a': a <geometry> of several shapes, expected one");
   EXPECT_NE(refusal(robot_of("<link name='a'>\n<collision/>\n</link>\n")), "");
 }
 
 TEST(ReadUrdf, RefusesMeshesThatAreMissingOrBad) {
   const auto with_mesh = [](const std::string& attributes) { return one_shape("<mesh " + attributes + "/>"); };
-  EXPECT_EQ(refusal(with_mesh("filename='no.stl'")), "r.urdf:4: link 'a': mesh 'no.stl': there is no file no.stl");
-  EXPECT_EQ(refusal(with_mesh("filename='package://arm/a.stl'")),
-            "r.urdf:4: link 'a': mesh 'package://arm/a.stl': not found in any package folder, none was given");
-  EXPECT_EQ(refusal(with_mesh("filename='package://arm/a.stl'"), {{"/one", "/two"}}),
-            "r.urdf:4: link 'a': mesh 'package://arm/a.stl': not found in the package folders /one, /two");
+  EXPECT_EQ(refusal(with_mesh("filename='no.stl'")),
+            "r.urdf:4: link 'a': mesh 'no.stl': there is no file no.stl; --missing-meshes skip goes on without it");
+  EXPECT_EQ(
+      refusal(with_mesh("filename='package://arm/a.stl'")),
+      "r.urdf:4: link 'a': mesh 'package://arm/a.stl': not found in any package folder, none was given or around the "
+      "URDF file; --package-path names the folder that holds package 'arm'; --missing-meshes skip goes on without "
+      "it");
+  EXPECT_EQ(
+      refusal(with_mesh("filename='package://arm/a.stl'"), {{"/one", "/two"}}),
+      "r.urdf:4: link 'a': mesh 'package://arm/a.stl': not found in the package folders /one, /two or around the URDF "
+      "file; --package-path names the folder that holds package 'arm'; --missing-meshes skip goes on without it");
   EXPECT_EQ(refusal(with_mesh("filename='model://arm/a.stl'")),
             "r.urdf:4: link 'a': mesh 'model://arm/a.stl': expected a path, file:// or package://");
+  for (const std::string name : {"a.wrl", "a.vtk"}) {
+    const test::TemporaryFolder other;
+    other.write(name, "#VRML");
+    const auto urdf = other.write("r.urdf", with_mesh("filename='" + name + "'"));
+    EXPECT_EQ(test::refusal(other, [&] { read_urdf(urdf); }),
+              "r.urdf:4: link 'a': " + name + ": a mesh of format '" + name.substr(1) +
+                  "', expected .stl, .obj, .dae or .ply; --missing-meshes skip goes on without it");
+  }
   EXPECT_NE(refusal(with_mesh("filename=''")).find("r.urdf:4: link 'a': mesh '': expected a path"), std::string::npos);
   EXPECT_NE(refusal(with_mesh("")).find("Mesh must contain a filename attribute"), std::string::npos);
 
@@ -271,6 +302,142 @@ TEST(ReadUrdf, RefusesMeshesThatAreMissingOrBad) {
   EXPECT_EQ(
       test::refusal(folder, [&] { read_urdf(file); }),
       "r.urdf:4: link 'a': a.stl: text STL with 1 facets, 0 of them ended, and no endsolid: cut short or damaged");
+}
+
+/// What was read of a file, its notes without the folder.
+RobotDescription read_in(const test::TemporaryFolder& folder, const std::string& urdf,
+                         const UrdfOptions& options = {}) {
+  RobotDescription robot = read_urdf(folder.write("r.urdf", urdf), options);
+  const std::string prefix = folder.path().string() + "/";
+  for (std::string& note : robot.notes)
+    for (std::size_t at = note.find(prefix); at != std::string::npos; at = note.find(prefix))
+      note.erase(at, prefix.size());
+  return robot;
+}
+
+std::vector<std::string> notes_of(const std::string& urdf) {
+  const test::TemporaryFolder folder;
+  return read_in(folder, urdf).notes;
+}
+
+using Notes = std::vector<std::string>;
+
+TEST(ReadUrdfNotes, TakesSizesOfZeroOncePerLink) {
+  for (const auto& [shape, what] : std::vector<std::pair<std::string, std::string>>{
+           {"<sphere radius='0'/>", "sphere of radius 0"},
+           {"<sphere radius='-0.0'/>", "sphere of radius 0"},
+           {"<box size='0 0 0'/>", "box of size 0 0 0"},
+           {"<box size='0.5 0 0.25'/>", "box of size 0.5 0 0.25"},
+           {"<cylinder radius='0' length='1'/>", "cylinder of radius 0 and length 1"},
+           {"<cylinder radius='0.5' length='0'/>", "cylinder of radius 0.5 and length 0"},
+           {"<capsule radius='0' length='1'/>", "capsule of radius 0"}})
+    EXPECT_EQ(notes_of(one_shape(shape)), (Notes{"r.urdf:4: link 'a': 1 of 1 <collision> without volume, taken as "
+                                                 "point, segment or flat solid: " +
+                                                 what}));
+  EXPECT_TRUE(notes_of(one_shape("<capsule radius='1' length='0'/>")).empty());  // a sphere
+  const std::string point = "<collision><geometry><sphere radius='0'/></geometry></collision>\n";
+  EXPECT_EQ(notes_of(robot_of("<link name='foot'>\n" + point + point + point + "</link>\n")).size(), 1U);
+}
+
+/// As urdfdom does, which passes over them.
+TEST(ReadUrdfNotes, PassesOverXacroThatCarriesNoGeometry) {
+  const std::string sensors = "<link name='a'/>\n<xacro:imu port='1'/>\n";
+  EXPECT_EQ(notes_of(robot_of(sensors)),
+            (Notes{"r.urdf:4: <xacro:imu>, which xacro should have replaced, is left out"}));
+  EXPECT_EQ(notes_of(robot_of("<xacro:property name='p' value='1'/>\n<link name='a'/>\n")).size(), 1U);
+  // Nobody looks at visuals, inertias and extensions.
+  EXPECT_TRUE(notes_of(robot_of("<link name='a'><visual><xacro:grey/><origin xyz='${x}'/></visual></link>"
+                                "<gazebo><xacro:if value='$(arg x)'/></gazebo>\n"))
+                  .empty());
+}
+
+TEST(ReadUrdfNotes, FixesAFloatingBase) {
+  for (const std::string type : {"floating", "planar"}) {
+    const test::TemporaryFolder folder;
+    const RobotDescription robot = read_in(
+        folder, robot_of("<link name='world'/>\n<link name='a'><collision><geometry><sphere radius='1'/></geometry>"
+                         "</collision></link>\n<joint name='j' type='" +
+                         type + "'><parent link='world'/><child link='a'/><origin xyz='1 2 3'/></joint>\n"));
+    EXPECT_EQ(robot.joints.at(0).type, JointType::fixed);
+    EXPECT_EQ(robot.joints[0].origin.translation, Vec3(1, 2, 3));
+    EXPECT_EQ(robot.floating_base, "j");
+    EXPECT_EQ(robot.notes, (Notes{"r.urdf:5: joint 'j' is " + type + " and carries all the geometry: taken as fixed"}));
+  }
+}
+
+TEST(ReadUrdfNotes, TakesTheFirstOfSeveralShapes) {
+  const test::TemporaryFolder folder;
+  const RobotDescription robot = read_in(folder, one_shape("<box size='1 1 1'/><sphere radius='1'/>"));
+  ASSERT_EQ(robot.links.at(0).geometry.size(), 1U);
+  EXPECT_TRUE(std::holds_alternative<BoxShape>(robot.links[0].geometry[0].shape));
+  EXPECT_EQ(robot.notes,
+            (Notes{"r.urdf:4: link 'a': a <geometry> of several shapes, of which the first, <box>, is read"}));
+}
+
+TEST(ReadUrdfNotes, CallsANamelessRobotByItsFile) {
+  const test::TemporaryFolder folder;
+  const RobotDescription robot = read_in(folder, "<robot version='2.0'><link name='a'/></robot>");
+  EXPECT_EQ(robot.name, "r");
+  EXPECT_EQ(robot.notes, (Notes{"r.urdf: the robot has no name, it is called by its file: 'r'"}));
+}
+
+// What urdfdom refuses or drops, and what can change no verdict.
+TEST(ReadUrdf, TakesWhatChangesNoVerdict) {
+  const auto expect_silence = [](const std::string& urdf) { EXPECT_TRUE(notes_of(urdf).empty()) << urdf; };
+  expect_silence(two_links("prismatic", "<limit lower=' -1' upper='2 '/>"));  // no effort, no velocity
+  expect_silence(two_links("revolute", "<limit lower='0' upper='1' effort='much' velocity='inf'/>"));
+  expect_silence(two_links("continuous", "<limit lower='nan' upper='x'/>"));
+  expect_silence(two_links("fixed", "<axis xyz='0'/><limit/><mimic joint='?'/>"));
+  expect_silence(two_links("continuous", "<dynamics/><safety_controller/><calibration rising='x'/>"));
+  expect_silence(
+      robot_of("<material name='m'/><material name='m'/><link name='a'><visual><material name='m'><color "
+               "rgba='1 1'/></material></visual></link>\n"));
+  const std::string turning = "<link name='c'/><joint name='k' type='continuous'><parent link='b'/><child link='c'/>";
+  expect_silence(two_links("revolute", "<mimic joint='k' multiplier=' 2 '/>")
+                     .insert(std::string("<?xml version='1.0'?>\n<robot name='r'>\n").size(), turning + "</joint>"));
+  expect_silence(one_shape("<box size=' 1\t2\n3 '/>"));
+  expect_silence(one_shape("<sphere radius=' 1e-1 '/>"));
+  expect_silence("<!-- above -->\n" + one_shape("<sphere radius='1'/>"));
+  expect_silence(
+      "\xEF\xBB\xBF<?xml version='1.0' encoding='UTF-8'?>\r\n<robot name='r'>\r\n<link name='a'/>\r\n</robot>");
+}
+
+/// A file with meshes that are absent, empty and of another format, and a shape that nobody reads; b is whole.
+TEST(ReadUrdf, SkipsMissingMeshesWhenAsked) {
+  const test::TemporaryFolder folder;
+  folder.write("empty.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+  folder.write("a.wrl", "#VRML");
+  const auto collision = [](const std::string& shape) {
+    return "<collision><geometry>" + shape + "</geometry></collision>\n";
+  };
+  const std::string urdf = robot_of(
+      "<link name='a'>\n" + collision("<mesh filename='gone.stl'/>") + collision("<mesh filename='empty.obj'/>") +
+      collision("<mesh filename='a.wrl'/>") + collision("<plane/>") + collision("<box size='1 1 1'/>") +
+      "</link>\n<link name='b'>" + collision("<sphere radius='1'/>") +
+      "</link><joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>\n");
+  UrdfOptions skip;
+  skip.skip_missing_meshes = true;
+  const RobotDescription robot = read_in(folder, urdf, skip);
+  EXPECT_EQ(robot.incomplete, (std::vector<std::string>{"a"}));
+  EXPECT_EQ(robot.links.at(0).geometry.size(), 1U);
+  EXPECT_EQ(robot.notes, (Notes{"r.urdf:4: link 'a': 4 of 5 <collision> left out: mesh 'gone.stl': there is no file "
+                                "gone.stl"}));
+  // A damaged mesh is not a missing one.
+  folder.write("empty.obj", "v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n");
+  EXPECT_NE(test::refusal(folder, [&] { read_in(folder, urdf, skip); }), "");
+}
+
+TEST(ReadUrdf, FindsPackagesAroundTheFile) {
+  const test::TemporaryFolder folder;
+  folder.write("src/arm_description/package.xml", "<?xml version='1.0'?><package><name>arm</name></package>");
+  folder.write("src/arm_description/meshes/a.stl", one_facet);
+  folder.write("src/hand/package.xml", "<package/>");
+  folder.write("src/hand/b.stl", one_facet);
+  for (const std::string name : {"package://arm/meshes/a.stl", "package:///arm/meshes/a.stl", "package://hand/b.stl",
+                                 "package://arm_description/meshes/a.stl"}) {
+    const auto file = folder.write("src/arm_description/urdf/r.urdf", one_shape("<mesh filename='" + name + "'/>"));
+    EXPECT_EQ(test::refusal(folder, [&] { read_urdf(file); }), "") << name;
+  }
 }
 
 TEST(ReadUrdf, RefusesMimicsOfNothing) {

@@ -114,14 +114,15 @@ TEST(RobocdUrdf, IsRefusedNamingLineAndElement) {
   expect_words(urdf_refusal("<child link=\"mast\"/>", "<child link=\"fore\"/>"),
                {"arm.urdf:11: ", "'follower'", "'fore'"});
   expect_words(urdf_refusal("<child link=\"mast\"/>", "<child link=\"mars\"/>"), {"arm.urdf:11: ", "'mars'"});
-  expect_words(urdf_refusal("radius=\"0.0625\"", "radius=\"0\""), {"arm.urdf:5: ", "'camera'", "radius 0"});
+  expect_words(urdf_refusal("radius=\"0.0625\"", "radius=\"-1\""), {"arm.urdf:5: ", "'camera'", "radius -1"});
   expect_words(urdf_refusal("joint=\"elbow\" mult", "joint=\"knee\" mult"), {"arm.urdf:11: ", "'follower'", "'knee'"});
   expect_words(urdf_refusal("</robot>", ""), {"arm.urdf:", "is no XML"});
   expect_words(urdf_refusal("type=\"continuous\"", "type=\"floating\""), {"arm.urdf:7: ", "'shoulder'", "floating"});
 }
 
 TEST(RobocdUrdf, AsksForXacroToBeRunFirst) {
-  expect_words(urdf_refusal("<link name=\"upper\">", "<xacro:arm/><link name=\"upper\">"), {"arm.urdf:3: ", "xacro"});
+  expect_words(urdf_refusal("<link name=\"upper\">", "<xacro:include/><link name=\"upper\">"),
+               {"arm.urdf:3: ", "xacro"});
   expect_words(urdf_refusal("0.0625", "${r}"), {"arm.urdf:5: ", "xacro"});
   const ArmFolder arm;
   arm.write("arm.urdf.xacro", test::arm_urdf);
@@ -160,6 +161,43 @@ TEST(RobocdFiles, ThatAreMissingOrDamagedAreRefused) {
   }
 }
 
+TEST(RobocdFiles, ThatAreMissingMayBeSkippedAndAreSaidToBe) {
+  const ArmFolder arm;
+  std::string text = test::arm_urdf;
+  arm.write("arm.urdf", text.replace(text.find("cube.stl"), 8, "gone.stl"));
+  expect_words(refusal(arm, "info" + arm.urdf()), {"gone.stl", "--missing-meshes skip"});
+  const std::string skip = arm.urdf() + " --missing-meshes skip";
+  const Said said = run_robocd("check" + skip + " --zero 2>&1");
+  EXPECT_EQ(said.status, 0) << said.out;
+  expect_words(said.out, {"note: ", "link 'base': 1 of 1 <collision> left out: mesh 'gone.stl'",
+                          "configuration 0: free (incomplete model: 1 link lacks geometry)",
+                          "0 of 1 configurations collide (incomplete model: 1 link lacks geometry)",
+                          "note: incomplete model: geometry is missing, and was not tested, of base"});
+  expect_words(run_robocd("check" + skip + " --zero --json").out, {"\"incomplete_links\": [\n   \"base\"\n  ]"});
+  expect_words(run_robocd("path" + skip + " --from zero --to zero").out, {"(incomplete model: 1 link lacks geometry)"});
+  expect_words(run_robocd("matrix" + skip + " --samples 1 --cells 0").out,
+               {"<!-- incomplete model: link base lacks geometry -->"});
+}
+
+TEST(RobocdUrdf, AsksWhereAFloatingBaseStandsInAnEnvironment) {
+  const ArmFolder arm;
+  std::string text = test::arm_urdf;
+  const std::string world =
+      "<link name=\"world\"/><joint name=\"free\" type=\"floating\"><parent link=\"world\"/><child link=\"base\"/>"
+      "</joint></robot>";
+  arm.write("arm.urdf", text.replace(text.find("</robot>"), 8, world));
+  const std::string zero = "check" + arm.urdf() + " --zero";
+  const Said self = run_robocd(zero + " 2>&1 >/dev/null");
+  EXPECT_EQ(self.status, 0) << self.out;
+  expect_words(self.out, {"note: ", "joint 'free' is floating and carries all the geometry: taken as fixed"});
+  const std::string env = zero + " --env" + arm.file("cube.stl");
+  const Said asked = run_robocd(env + " 2>&1");
+  EXPECT_EQ(asked.status, 2);
+  expect_words(asked.out, {"joint 'free'", "--floating-base fixed"});
+  EXPECT_EQ(run_robocd(env + " --floating-base fixed").status, 1);  // the cube is that of the base
+  EXPECT_EQ(run_robocd(env + " --floating-base free").status, 2);
+}
+
 TEST(RobocdFiles, AreFoundInPackages) {
   const ArmFolder arm;
   arm.write("share/arm_meshes/stl/cube.stl", test::cube_stl(Vec3::Zero(), 0.125));
@@ -169,6 +207,7 @@ TEST(RobocdFiles, AreFoundInPackages) {
   EXPECT_EQ(run_robocd("info" + arm.urdf() + " --package-path /nonexistent --package-path" + arm.file("share")).status,
             0);
   EXPECT_EQ(run_robocd("info" + arm.urdf(), "ROS_PACKAGE_PATH=" + (arm.path() / "share").string()).status, 0);
+  EXPECT_EQ(run_robocd("info" + arm.urdf(), "AMENT_PREFIX_PATH=" + arm.path().string()).status, 0);
 }
 
 }  // namespace

@@ -172,12 +172,37 @@ TEST(Tessellate, HoldsTheCapsuleAndStaysWithinTheTolerance) {
   EXPECT_LE(largest(rough, from_axis), 0.3 * (1 + 1e-14));
 }
 
+// No triangle twice, none without area but for a point and a segment.
+TEST(Tessellate, MakesFlatShapesOfTheFewestTriangles) {
+  const auto count = [](const Shape& shape) { return triangles_of(shape, {}).size(); };
+  const auto area = [](const Shape& shape) {
+    double twice = 0.0;
+    for (const Triangle& t : triangles_of(shape, inscribed)) twice += cross(Vec3(t.b - t.a), Vec3(t.c - t.a)).norm();
+    return twice / 2;
+  };
+  for (const Shape& line : {Shape(SphereShape{0}), Shape(BoxShape{{0, 0, 0}}), Shape(BoxShape{{0, 2, 0}}),
+                            Shape(CylinderShape{0, 2}), Shape(CylinderShape{0, 0}), Shape(CapsuleShape{0, 2})}) {
+    EXPECT_EQ(count(line), 1U);
+    EXPECT_EQ(area(line), 0.0);
+  }
+  const Aabb line = triangles_of(CylinderShape{0, 2}, {})[0].bounds();
+  EXPECT_EQ(line.lower, Vec3(0, 0, -1));
+  EXPECT_EQ(line.upper, Vec3(0, 0, 1));
+  for (const Vec3& size : {Vec3(0, 2, 3), Vec3(2, 0, 3), Vec3(3, 2, 0)}) {
+    EXPECT_EQ(count(BoxShape{size}), 2U);
+    EXPECT_DOUBLE_EQ(area(BoxShape{size}), 6.0);
+  }
+  EXPECT_EQ(triangles_of(CylinderShape{1, 0}, inscribed).size(), 32U);
+  EXPECT_NEAR(area(CylinderShape{1, 0}), 3.14159, 0.03);
+  EXPECT_EQ(triangles_of(CapsuleShape{1, 0}, inscribed).size(), 320U);
+}
+
 TEST(Tessellate, RefusesShapesAndTolerancesThatAreNone) {
-  EXPECT_THROW(tessellate(BoxShape{{1, 0, 1}}), ModelError);
+  EXPECT_THROW(tessellate(BoxShape{{1, -1, 1}}), ModelError);
   EXPECT_THROW(tessellate(SphereShape{-1.0}), ModelError);
   EXPECT_THROW(tessellate(CylinderShape{1.0, std::nan("")}), ModelError);
-  EXPECT_THROW(tessellate(CapsuleShape{1.0, 0.0}), ModelError);
-  EXPECT_THROW(tessellate(CapsuleShape{0.0, 1.0}), ModelError);
+  EXPECT_THROW(tessellate(CapsuleShape{1.0, -1.0}), ModelError);
+  EXPECT_THROW(tessellate(CapsuleShape{-1.0, 1.0}), ModelError);
   EXPECT_THROW(tessellate(MeshShape{}), ModelError);
   for (const double tolerance : {0.0, -1.0, std::nan(""), 1e-300})
     EXPECT_THROW(tessellate(SphereShape{1.0}, within(tolerance)), ModelError) << tolerance;

@@ -23,8 +23,11 @@ struct JointGroup {
 /// Values (rad or m) of independent joints; followers follow.
 struct NamedConfiguration {
   std::string name;
-  std::string group;
+  std::string group;                                   ///< empty: the file names none
   std::vector<std::pair<std::size_t, double>> values;  ///< position in independent_joints(), value
+
+  /// GROUP/NAME; NAME alone when the file gives it no group.
+  std::string full_name() const { return group.empty() ? name : group + "/" + name; }
 
   /// Puts its values into a configuration of the independent joints, leaving the others.
   void apply(std::span<double> independent) const noexcept {
@@ -42,9 +45,10 @@ struct Srdf {
 /// What to do when a pair names a link the robot does not have. SRDF files of several variants of a robot do.
 enum class UnknownLinks : std::uint8_t { refused, noted };
 
-/// Virtual joints, end effectors and passive joints have no part in collisions and are passed over; so are joints of
-/// groups and configurations that the robot does not have (the virtual joint, mostly), with a note.
-/// LoadError, one line naming file, line and element: bad XML, an unknown link (unless noted) or subgroup, a
+/// Virtual joints, end effectors and passive joints have no part in collisions and are passed over. So are, with a
+/// note, joints, links, chains and subgroups in groups and configurations that the robot or the file does not have:
+/// they change no verdict. Of a joint that a configuration names twice the last value counts. LoadError, one line
+/// naming file, line and element: bad XML, a pair with an unknown link (unless noted), a group that contains itself, a
 /// value that is not a finite number.
 Srdf read_srdf(const std::filesystem::path& path, const Robot& robot, UnknownLinks unknown = UnknownLinks::refused);
 

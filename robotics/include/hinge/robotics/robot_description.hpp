@@ -53,6 +53,9 @@ struct RobotDescription {
   std::string name;
   std::vector<LinkDescription> links;
   std::vector<JointDescription> joints;
+  std::vector<std::string> notes{};       ///< what reading left out or had to interpret, one sentence each
+  std::vector<std::string> incomplete{};  ///< links that lack geometry: see UrdfOptions::skip_missing_meshes
+  std::string floating_base{};            ///< the floating or planar joint that was taken as fixed; empty: none
 };
 
 }  // namespace hinge::robotics

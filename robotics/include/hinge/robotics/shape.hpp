@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shapes of links as URDF knows them, in metres, centred on their own frame; cylinders and capsules stand along z.
 // Boxes, spheres, cylinders and capsules are solid: what lies inside them collides.
+// Sizes are 0 or above: a sphere of radius 0 is a point, a box with one side of 0 is flat.
 #pragma once
 
 #include <cstddef>

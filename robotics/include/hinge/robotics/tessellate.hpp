@@ -32,8 +32,9 @@ struct Surface {
   double radius = 0.0;  ///< m
 };
 
-/// A shape in its own frame, mesh scale applied. ModelError: sizes, scale or tolerance that are not finite or not above
-/// 0 (scale: are 0), or a tolerance so small that it would take more than 10^6 triangles.
+/// A shape in its own frame, mesh scale applied. Sizes of 0 give a point or a segment (one triangle without area) or a
+/// flat solid (no triangle twice). ModelError: sizes below 0, a scale of 0, a tolerance not above 0, any of them not
+/// finite, or a tolerance so small that it would take more than 10^6 triangles.
 Surface tessellate(const Shape& shape, const Tessellation& tessellation = {});
 
 }  // namespace hinge::robotics

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Shapes of size 0: points, segments and flat solids are judged as what they are, by every engine.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hinge/robotics/environment.hpp"
+#include "hinge/robotics/path_checker.hpp"
+#include "hinge/robotics/robot_checker.hpp"
+#include "hinge/robotics/tested_pairs.hpp"
+
+namespace hinge::robotics {
+namespace {
+
+/// A link with the shape on a slide along x, before a ball of radius 0.5 in the origin.
+std::shared_ptr<const Robot> slider(const Shape& shape) {
+  RobotDescription robot{"slider", {{"ball", {{SphereShape{0.5}}}}, {"between"}, {"shape", {{shape}}}}, {}};
+  JointDescription still;
+  still.name = "still";
+  still.parent = "ball";
+  still.child = "between";
+  still.type = JointType::prismatic;
+  robot.joints.push_back(still);
+  JointDescription slide = still;
+  slide.name = "slide";
+  slide.parent = "between";
+  slide.child = "shape";
+  slide.lower = -4;
+  slide.upper = 4;
+  robot.joints.push_back(slide);
+  return std::make_shared<const Robot>(robot);
+}
+
+struct Case {
+  Shape shape;
+  double reach;  ///< from the slide's position back to the shape's nearest point
+};
+
+/// The disc is a prism of height 0 around the circle, at most 1 mm away from it.
+const std::vector<Case>& cases() {
+  static const std::vector<Case> all = {
+      {SphereShape{0}, 0},      {BoxShape{{0, 0, 0}}, 0},      {BoxShape{{0, 1, 0}}, 0}, {BoxShape{{0.5, 0, 0}}, 0.25},
+      {BoxShape{{0, 1, 1}}, 0}, {BoxShape{{0.5, 1, 0}}, 0.25}, {CylinderShape{0, 1}, 0}, {CylinderShape{0, 0}, 0},
+      {CapsuleShape{0, 1}, 0},  {CapsuleShape{0.25, 0}, 0.25}};
+  return all;
+}
+
+RobotChecker checker_of(const std::shared_ptr<const Robot>& robot, const std::string& engine) {
+  return {robot, tested_pairs(*robot, LinkPairs(robot->link_count())), LinkMargins(*robot, 0.0), CheckOptions{engine}};
+}
+
+TEST(FlatShapes, AreJudgedRightByEveryEngine) {
+  for (const std::string engine : {"wide", "lazy", "brute"})
+    for (const Case& c : cases()) {
+      RobotChecker checker = checker_of(slider(c.shape), engine);
+      for (const double x : {0.0, 0.125, 0.5, 1.0, 2.0, -2.0}) {
+        checker.update(std::vector<double>{0, x});
+        const double expected = std::max(0.0, std::abs(x) - 0.5 - c.reach);
+        EXPECT_EQ(checker.collides(), expected == 0.0) << engine << " case " << &c - cases().data() << " at " << x;
+        const auto closest = checker.closest();
+        ASSERT_TRUE(closest);
+        EXPECT_NEAR(closest->distance, expected, 1e-15) << engine << " case " << &c - cases().data() << " at " << x;
+      }
+    }
+}
+
+TEST(FlatShapes, CollideWithBodiesAndOnPaths) {
+  TriangleMesh wall;
+  wall.triangles.push_back({{-3, -4, -4}, {-3, 4, -4}, {-3, 0, 4}});
+  const auto mesh = std::make_shared<const TriangleMesh>(wall);
+  for (const Case& c : cases()) {
+    RobotChecker checker = checker_of(slider(c.shape), "wide");
+    Environment environment(0.0, "wide");
+    environment.add(mesh, {}, "wall");
+    checker.update(std::vector<double>{0, -2.5});
+    EXPECT_EQ(checker.collides(environment), false);
+    EXPECT_NEAR(checker.closest(environment)->distance, 0.5 - c.reach, 1e-15);
+    checker.update(std::vector<double>{0, -3});
+    EXPECT_TRUE(checker.collides(environment));
+
+    PathChecker paths(checker);
+    using Values = std::vector<double>;
+    EXPECT_TRUE(paths.certify(Values{0, 1}, Values{0, 4}).is_free());
+    EXPECT_EQ(paths.certify(Values{0, 1}, Values{0, -4}).verdict, PathVerdict::colliding);
+  }
+}
+
+}  // namespace
+}  // namespace hinge::robotics
