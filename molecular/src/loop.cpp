@@ -71,7 +71,7 @@ std::vector<Loop> find_loops(const Structure& structure, std::string_view words)
   const auto next = residues_behind(structure);
   std::vector<Loop> loops;
   ResidueWords meaning(structure, ResidueNames::only);
-  for (const SelectionTerm& term : read_terms(words, meaning)) {
+  for (const SelectionTerm& term : read_terms(words, words_of(meaning))) {
     const std::string_view word = term.text;
     const Loop range = stretch_of(structure, term);
     for (std::uint32_t r = range.first; r <= range.last; ++r) check_backbone(structure, r, word);

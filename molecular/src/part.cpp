@@ -13,7 +13,7 @@ namespace hinge::molecular {
 Part find_part(const Structure& structure, std::string_view words, ResidueNames names) {
   ResidueWords meaning(structure, names);
   std::vector<bool> in(structure.residues.size(), false);
-  for (const SelectionTerm& term : read_terms(words, meaning))
+  for (const SelectionTerm& term : read_terms(words, words_of(meaning)))
     for (std::size_t r = 0; r < in.size(); ++r) in[r] = in[r] || term.selected[r];
   Part part;
   part.name = words;

@@ -16,13 +16,13 @@
 namespace hinge::molecular {
 
 /// The residues that a word stands for. Sets have one value per residue.
-class ResidueWords : public SelectionWords {
+class ResidueWords {
  public:
   explicit ResidueWords(const Structure& structure, ResidueNames names = ResidueNames::all)
       : s_(structure), names_(names) {}
 
-  bool binds(std::string_view, std::string_view) const override { return false; }
-  std::vector<bool> select(const SelectionWord& word, std::span<const SelectionWord> bound) override;
+  static bool binds(std::string_view, std::string_view) { return false; }
+  std::vector<bool> select(const SelectionWord& word, std::span<const SelectionWord> bound);
 
   /// As `text`, the whole of `word` or its beginning, says; none when it has no form that residues have. ModelError: a
   /// chain, residue or file that is not there.

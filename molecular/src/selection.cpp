@@ -28,16 +28,16 @@ bool is_torsion_word(std::string_view word) {
   return is_torsion_name(word) || word == "all" || word == "backbone" || word == "chi" || word == "delta";
 }
 
-class TorsionWords : public SelectionWords {
+class TorsionWords {
  public:
   TorsionWords(const Molecule& molecule, std::vector<std::string>& notes)
       : m_(molecule), s_(molecule.structure()), residues_(s_), named_omega_(m_.torsions().size()), notes_(notes) {}
 
   /// omega that a word names.
   const std::vector<bool>& named_omega() const { return named_omega_; }
-  bool asked_for_none() const { return asked_for_none_; }
+  bool may_be_empty() const { return may_be_empty_; }
 
-  bool binds(std::string_view word, std::string_view next) const override {
+  bool binds(std::string_view word, std::string_view next) const {
     if (!is_torsion_word(next) && !(is_bond_name(next) && next.find(':') == std::string_view::npos)) return false;
     const std::size_t colon = word.rfind(':');
     if (colon == std::string_view::npos) return false;
@@ -45,7 +45,7 @@ class TorsionWords : public SelectionWords {
     return is_torsion_word(last) || (is_bond_name(last) && !ResidueWords::is_range(last));
   }
 
-  std::vector<bool> select(const SelectionWord& word, std::span<const SelectionWord> bound) override {
+  std::vector<bool> select(const SelectionWord& word, std::span<const SelectionWord> bound) {
     const std::string_view text = word.text;
     const std::size_t colon = text.find(':'), last = text.rfind(':');
     const std::string before(last_residues_);
@@ -95,7 +95,7 @@ class TorsionWords : public SelectionWords {
     const std::string_view text = word.text;
     const Set everywhere(s_.residues.size(), true);
     if (text == "none") {
-      asked_for_none_ = true;
+      may_be_empty_ = true;
       return Set(m_.torsions().size(), false);
     }
     if (is_torsion_word(text) && text != "all") {
@@ -112,7 +112,10 @@ class TorsionWords : public SelectionWords {
     if (const auto in = residues_.find(word, text)) {
       Set chosen = choose(*in, "all");
       if (text == "all" || text == "loops" || text == "ligands") {
-        if (!any(chosen)) notes_.push_back(about(word) + "selects nothing");
+        if (text == "all")
+          may_be_empty_ = true;  // the default, also of molecules in which nothing turns
+        else if (!any(chosen))
+          notes_.push_back(about(word) + "selects nothing");
         return chosen;
       }
       last_residues_ = text;
@@ -187,7 +190,7 @@ class TorsionWords : public SelectionWords {
   const Structure& s_;
   ResidueWords residues_;
   Set named_omega_;
-  bool asked_for_none_ = false;
+  bool may_be_empty_ = false;
   std::vector<std::string>& notes_;
   std::string_view last_residues_;  // of the word before; empty when that was about no residues of its own
 };
@@ -198,7 +201,7 @@ SelectedTorsions read_selection(const Molecule& molecule, std::string_view expre
   SelectedTorsions result;
   TorsionWords words(molecule, result.notes);
   const auto torsions = molecule.torsions();
-  std::vector<SelectionTerm> terms = read_terms(expression, words);
+  std::vector<SelectionTerm> terms = read_terms(expression, words_of(words));
   const auto turns = [&](std::size_t k) { return omega || torsions[k].name != "omega" || words.named_omega()[k]; };
   std::vector<bool> chosen(torsions.size(), false);
   for (SelectionTerm& term : terms) {
@@ -215,7 +218,7 @@ SelectedTorsions read_selection(const Molecule& molecule, std::string_view expre
     if (chosen[k]) result.torsions.push_back(k);
     if (omega || torsions[k].name != "omega") ++all;
   }
-  if (result.torsions.empty() && !words.asked_for_none())
+  if (result.torsions.empty() && !words.may_be_empty())
     refuse({expression, expression}, "torsions to free; it selects nothing" +
                                          (result.notes.empty() ? std::string() : " (" + result.notes.front() + ")"));
   if (result.words.size() > 1)

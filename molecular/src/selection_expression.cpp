@@ -3,6 +3,7 @@
 #include "selection_expression.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include "hinge/core/error.hpp"
@@ -16,7 +17,7 @@ constexpr std::string_view signs = "(),+";
 
 class Reader {
  public:
-  Reader(std::string_view expression, SelectionWords& words) : all_(expression), words_(words) { advance(); }
+  Reader(std::string_view expression, const SelectionWords& words) : all_(expression), words_(words) { advance(); }
 
   std::vector<SelectionTerm> read() {
     std::vector<SelectionTerm> terms = alternatives();
@@ -112,7 +113,7 @@ class Reader {
   }
 
   std::string_view all_;
-  SelectionWords& words_;
+  const SelectionWords& words_;
   std::string_view token_;
   std::size_t next_ = 0, last_end_ = 0;  // behind token_, and behind the one before it
   bool alternative_ = false;             // token_ stands right behind a sign that joins
@@ -131,7 +132,7 @@ void refuse(const SelectionWord& word, const std::string& expected) {
   throw ModelError(text + ": expected " + expected);
 }
 
-std::vector<SelectionTerm> read_terms(std::string_view expression, SelectionWords& words) {
+std::vector<SelectionTerm> read_terms(std::string_view expression, const SelectionWords& words) {
   return Reader(expression, words).read();
 }
 

@@ -2,7 +2,7 @@
 // Expressions of words joined by ',', '+', or, and, not and parentheses, as every selection on a command line is.
 #pragma once
 
-#include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,18 +21,20 @@ struct SelectionWord {
 [[noreturn]] void refuse(const SelectionWord& word, const std::string& expected);
 
 /// What the words of an expression select, each from the same elements.
-class SelectionWords {
- public:
-  SelectionWords() = default;
-  SelectionWords(const SelectionWords&) = delete;
-  SelectionWords& operator=(const SelectionWords&) = delete;
-  virtual ~SelectionWords() = default;
-
+struct SelectionWords {
   /// Does `next`, which follows `word` behind a comma, belong to `word`, as psi does in A:1-5:phi,psi?
-  virtual bool binds(std::string_view word, std::string_view next) const = 0;
+  std::function<bool(std::string_view word, std::string_view next)> binds;
   /// Per element: is it selected by `word` and the words that belong to it? ModelError: not a word.
-  virtual std::vector<bool> select(const SelectionWord& word, std::span<const SelectionWord> bound) = 0;
+  std::function<std::vector<bool>(const SelectionWord& word, std::span<const SelectionWord> bound)> select;
 };
+
+/// The words that an object's members binds() and select() know; the object must outlive the result.
+template <class Words>
+SelectionWords words_of(Words& words) {
+  return {
+      [&words](std::string_view word, std::string_view next) { return words.binds(word, next); },
+      [&words](const SelectionWord& word, std::span<const SelectionWord> bound) { return words.select(word, bound); }};
+}
 
 /// One of the alternatives that ',', '+' or `or` join outside of parentheses.
 struct SelectionTerm {
@@ -42,6 +44,6 @@ struct SelectionTerm {
 
 /// From the loosest: ',' '+' or; and; not; parentheses. Blanks separate words. ModelError: an expression of another
 /// form, more than 100 levels deep, or with something that is no word.
-std::vector<SelectionTerm> read_terms(std::string_view expression, SelectionWords& words);
+std::vector<SelectionTerm> read_terms(std::string_view expression, const SelectionWords& words);
 
 }  // namespace hinge::molecular
