@@ -173,8 +173,7 @@ TEST(ReadLinkPairs, AddsTwoNamesALine) {
   EXPECT_EQ(test::refusal(folder, [&] { read_link_pairs(bad, robot, pairs); }),
             "bad.txt:2: link 'ghost' is none of robot 'hand robot'");
   const auto three = folder.write("three.txt", "l r t\n");
-  EXPECT_EQ(test::refusal(folder, [&] { read_link_pairs(three, robot, pairs); }),
-            "three.txt:1: 3 names, expected two");
+  EXPECT_EQ(test::refusal(folder, [&] { read_link_pairs(three, robot, pairs); }), "three.txt:1: 3 names, expected two");
 }
 
 }  // namespace

@@ -13,9 +13,9 @@
 
 namespace hinge::robotics {
 
-/// All but `mesh` enclose the link's surfaces, by 10^-10 m at least, so that none of them misses a contact that the exact
-/// surfaces have, whatever is mixed. Hulls and capsules are solid, so that they also hold what lies inside a solid shape.
-/// Spheres cover the surface alone: what lies deep inside a solid shape, touching no sphere, is missed.
+/// All but `mesh` enclose the link's surfaces, by 10^-10 m at least, so that none of them misses a contact that the
+/// exact surfaces have, whatever is mixed. Hulls and capsules are solid, so that they also hold what lies inside a
+/// solid shape. Spheres cover the surface alone: what lies deep inside a solid shape, touching no sphere, is missed.
 enum class Tier : std::uint8_t {
   mesh,  ///< the shapes as they are
   hull,  ///< the convex hull of all shapes of the link, at most 10^-5 m too large (rounded shapes: the tolerance more)
