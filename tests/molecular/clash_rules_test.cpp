@@ -281,7 +281,9 @@ void expect_definition(const std::shared_ptr<const Molecule>& molecule, const ch
       Pairs found;
       for (const Contact& pair : verdict.pairs) {
         const Severity severity = severity_of(t, pair.hit, pair.collides);
-        if (std::string(rules) != "severe") EXPECT_EQ(pair.collides, severity.kind == "clash");
+        if (std::string(rules) != "severe") {
+          EXPECT_EQ(pair.collides, severity.kind == "clash");
+        }
         if (pair.collides)
           found.emplace(static_cast<std::uint32_t>(index(pair.hit.first)),
                         static_cast<std::uint32_t>(index(pair.hit.second)));
