@@ -292,7 +292,7 @@ void print_notes(const Job& job) {
   constexpr std::size_t most = 8;
   std::string text;
   for (std::size_t k = 0; k < std::min(most, job.kept.held.size()); ++k)
-    text += " " + torsion_label(job.molecule->structure(), job.molecule->torsions()[job.kept.held[k]]);
+    text += fmt::format(" {}", torsion_label(job.molecule->structure(), job.molecule->torsions()[job.kept.held[k]]));
   std::fprintf(stderr, "note: %zu torsions are held by closed cycles and stay at their reference:%s%s\n",
                job.kept.held.size(), text.c_str(), job.kept.held.size() > most ? " ..." : "");
 }
