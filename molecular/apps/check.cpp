@@ -146,6 +146,7 @@ Exit run_check(const Options& options) {
   Summary summary(closure_names(job), false, options.output == Output::json);
   BondDeviation worst;  // of all bonds and conformations
   std::string worst_name;
+  std::size_t others = 0;  // models with other atoms than the first
   hinge::tool::ProgressBar bar(end - begin);
   const auto judge = [&, begin = begin](Checker& checker, std::size_t n) {
     Checked checked;
@@ -181,7 +182,7 @@ Exit run_check(const Options& options) {
     const auto k = static_cast<std::size_t>(begin) + n;
     const Job& of = checked.own ? *checked.own : job;
     if (checked.own) {  // its pairs are no pairs of the first model's atoms, whose offenders are counted
-      fmt::print(stderr, "note: {}: checked as the molecule it is\n", checked.difference);
+      if (++others == 1) fmt::print(stderr, "note: {}: checked as the molecule it is\n", checked.difference);
       Verdict counted = checked.verdict;
       counted.pairs.clear();
       summary.add(s, counted);
@@ -211,6 +212,8 @@ Exit run_check(const Options& options) {
     bar.show(n + 1);
   };
   const auto finish = [&](const std::string& error) {
+    if (others > 1)
+      fmt::print(stderr, "note: so are {} more models; `other_atoms` of --json says how each differs\n", others - 1);
     results.finish(summary.json(has_closures), error);
     if (options.output != Output::table) return;
     if (worst.residual >= 0.0005)
