@@ -35,7 +35,7 @@ class TorsionWords {
 
   /// omega that a word names.
   const std::vector<bool>& named_omega() const { return named_omega_; }
-  bool may_be_empty() const { return may_be_empty_; }
+  bool asked_for_none() const { return asked_for_none_; }
 
   bool binds(std::string_view word, std::string_view next) const {
     if (!is_torsion_word(next) && !(is_bond_name(next) && next.find(':') == std::string_view::npos)) return false;
@@ -95,7 +95,7 @@ class TorsionWords {
     const std::string_view text = word.text;
     const Set everywhere(s_.residues.size(), true);
     if (text == "none") {
-      may_be_empty_ = true;
+      asked_for_none_ = true;
       return Set(m_.torsions().size(), false);
     }
     if (is_torsion_word(text) && text != "all") {
@@ -112,10 +112,7 @@ class TorsionWords {
     if (const auto in = residues_.find(word, text)) {
       Set chosen = choose(*in, "all");
       if (text == "all" || text == "loops" || text == "ligands") {
-        if (text == "all")
-          may_be_empty_ = true;  // the default, also of molecules in which nothing turns
-        else if (!any(chosen))
-          notes_.push_back(about(word) + "selects nothing");
+        if (!any(chosen) && text != word.expression) notes_.push_back(about(word) + "selects nothing");
         return chosen;
       }
       last_residues_ = text;
@@ -190,7 +187,7 @@ class TorsionWords {
   const Structure& s_;
   ResidueWords residues_;
   Set named_omega_;
-  bool may_be_empty_ = false;
+  bool asked_for_none_ = false;
   std::vector<std::string>& notes_;
   std::string_view last_residues_;  // of the word before; empty when that was about no residues of its own
 };
@@ -218,7 +215,8 @@ SelectedTorsions read_selection(const Molecule& molecule, std::string_view expre
     if (chosen[k]) result.torsions.push_back(k);
     if (omega || torsions[k].name != "omega") ++all;
   }
-  if (result.torsions.empty() && !words.may_be_empty())
+  // "all" is the default, also of molecules in which nothing turns.
+  if (result.torsions.empty() && !words.asked_for_none() && expression != "all")
     refuse({expression, expression}, "torsions to free; it selects nothing" +
                                          (result.notes.empty() ? std::string() : " (" + result.notes.front() + ")"));
   if (result.words.size() > 1)
