@@ -316,6 +316,15 @@ TEST_F(BiocdFiles, SaysWhatWasLeftOut) {
   EXPECT_EQ(run_biocd("check --hetero=salt" + file("wet.pdb") + " 2>&1").status, 2);
 }
 
+TEST_F(BiocdFiles, OfWatersAloneAreCheckedThoughNothingTurns) {
+  std::ofstream(folder / "waters.pdb") << pdb_atom(1, "O", "HOH", 1, 0, 0, 0, "O", "HETATM")
+                                       << pdb_atom(2, "O", "HOH", 2, 2, 0, 0, "O", "HETATM");
+  const test::Said said = run_biocd("check" + file("waters.pdb") + " 2>&1");
+  EXPECT_EQ(said.status, 1) << said.out;  // 2.000 < 0.8 * (1.52 + 1.52)
+  EXPECT_NE(said.out.find("nothing but waters"), std::string::npos) << said.out;
+  EXPECT_EQ(run_biocd("check --free phi" + file("waters.pdb") + " 2>&1").status, 2);
+}
+
 TEST_F(BiocdFiles, SamplesSayTheTorsionsTheyDrew) {
   const std::string command = "sample" + in + " --free A:20-22:phi -n 6 --seed 4 --mode any --torsions";
   const test::Said csv = run_biocd(command + " --csv --torsions-out" + file("t.npy") + " 2>/dev/null"),
