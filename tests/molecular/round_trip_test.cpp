@@ -62,7 +62,9 @@ void expect_same_molecule(const Structure& a, const Structure& b) {
     const Bond &p = a.bonds[k], &q = b.bonds[k];
     const std::string name = label(a, p.first) + " - " + label(a, p.second);
     ASSERT_EQ(std::pair(p.first, p.second), std::pair(q.first, q.second)) << name;
-    if (p.order != BondOrder::unknown) ASSERT_EQ(p.order, q.order) << name;
+    if (p.order != BondOrder::unknown) {
+      ASSERT_EQ(p.order, q.order) << name;
+    }
     const auto is_backbone = [](const Bond& bond) {
       return bond.origin == BondOrigin::peptide || bond.origin == BondOrigin::phosphodiester;
     };
