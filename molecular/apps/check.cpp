@@ -88,6 +88,7 @@ void print_table_row(const Job& job, const std::string& name, const Checked& che
 Checked check_alone(const Options& options, int model, const Mode& mode, const std::string& difference) {
   Options alone = options;
   alone.read.model = model;
+  alone.rigid_from.clear();  // of the first model's atoms; what is rigid has no say over coordinates of a file
   Checked checked;
   checked.difference = difference;
   checked.own = std::make_shared<const Job>(load(alone));

@@ -267,7 +267,7 @@ TEST(BiocdEnsemble, FindsRigidGroups) {
     EXPECT_NE(said.out.find(message), std::string::npos) << said.out;
   };
   refused(file() + " --rigid-from " + file(), "1 conformations, expected at least two", 2);
-  refused(from + " --rigid-tolerance 0", "tolerance 0.0", 2);
+  refused(from + " --rigid-tolerance 0", "--rigid-tolerance '0': expected a number above 0", 2);
   refused(from + " --loop A:7-11", "--rigid-from with --loop", 2);
   refused(file() + " --rigid-from /nonexistent", "/nonexistent", 3);
   Frame bad = read_structure(test::ubiquitin()).models[0];

@@ -82,7 +82,7 @@ TEST_F(BiocdFiles, ResultsAndConformationsDoNotMix) {
             "biocd: standard output: cannot be written: Bad file descriptor; what was written is cut short\n");
   EXPECT_FALSE(fs::exists(folder / "x.pdb"));
   EXPECT_EQ(run_biocd(sample + " --out" + file("x.pdb") + " >/dev/null 2>&- <&-").status, 1);
-  EXPECT_TRUE(content(folder / "x.pdb").starts_with("MODEL"));
+  EXPECT_NE(content(folder / "x.pdb").find("\nMODEL"), std::string::npos);
 }
 
 TEST_F(BiocdFiles, RunsToOneNameDoNotMeet) {
@@ -331,7 +331,7 @@ TEST_F(BiocdFiles, SamplesSayTheTorsionsTheyDrew) {
                    json = run_biocd(command + " --json --threads 2 2>/dev/null");
   ASSERT_LE(csv.status, 1);
   const std::string head = csv.out.substr(0, csv.out.find('\n'));
-  EXPECT_NE(head.find(",A:SER20:phi,A:ASP21:phi,A:THR22:phi"), std::string::npos) << head;
+  EXPECT_NE(head.find(",A:THR22:phi,A:ASP21:phi,A:SER20:phi"), std::string::npos) << head;
   const std::size_t row = csv.out.find('\n') + 1;
   std::string last = csv.out.substr(row, csv.out.find('\n', row) - row);
   for (int k = 0; k < 7; ++k) last.erase(0, last.find(',') + 1);

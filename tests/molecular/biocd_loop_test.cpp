@@ -105,7 +105,7 @@ TEST(BiocdLoop, GivesCollisionFreeOnesOnRequest) {
 }
 
 TEST(BiocdLoop, IsNotNeededForCollisionFreeSamples) {
-  const auto said = run_biocd("sample " + file() + " --free A:72-76 --collision-free -n 5 --exempt-reference --json" +
+  const auto said = run_biocd("sample " + file() + " --free A:74-76 --collision-free -n 5 --exempt-reference --json" +
                               " 2>/dev/null");
   EXPECT_EQ(said.status, 0);
   const Json json = Json::parse(said.out);

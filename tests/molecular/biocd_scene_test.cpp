@@ -157,7 +157,8 @@ TEST(BiocdScene, RefusesWhatDoesNotFit) {
   };
   const std::string chains = "expected a chain (A), the name of a residue, CHAIN:RESIDUES or file:N";
   expect("--place Q", "selection 'Q': " + chains);
-  const std::string range = ": expected PART=DISTANCE,DEGREES, a distance >= 0 in angstrom and a turn from 0 to 180";
+  const std::string range =
+      ": expected PART=DISTANCE,DEGREES, a distance from 0 to 1e+09 angstrom and a turn from 0 to 180";
   for (const char* bad : {"A=", "A=x", "A=-1", "A=nan", "A=inf", "A=3,", "A=3,181", "A=3,-1", "A=3,4,5", "A=3,nan"})
     expect(std::string("--place ") + bad, "--place '" + std::string(bad) + "'" + range);
   expect("--place A --place A", "placing 'A': A:MET1:N is placed with 'A' already");

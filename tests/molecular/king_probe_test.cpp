@@ -587,7 +587,7 @@ TEST(BesideKingProbe, SevereOverlapsAreAllFound) {
         const auto find = [&](const std::string& name) {
           return atoms.at(trimmed(name, 2, 4) + '/' + trimmed(name, 11, 4));
         };
-        const auto [i, j] = std::minmax(find(fields[3]), find(fields[4]));
+        const auto [i, j] = std::minmax({find(fields[3]), find(fields[4])});
         const std::size_t pair =
             t.matrix.type(id<PrimitiveId>(i)) * t.type_names.size() + t.matrix.type(id<PrimitiveId>(j));
         if (-std::stod(fields[6]) - t.allowance[pair] < severe + printed) continue;

@@ -251,7 +251,7 @@ TEST(ReadStructure, TakesTheAtomsThatAllModelsHave) {
   EXPECT_EQ(read_structure(ions.path(), hetero).atoms.size(), 5U);
   EXPECT_TRUE(has_note(read_structure(ions.path(), hetero), "models differ: 2 atoms"));
   std::string other = alanine();
-  for (std::size_t at = 0; (at = other.find("A   1", at)) != std::string::npos;) other[at] = 'B';
+  for (std::size_t at = 0; (at = other.find("A   1", at)) != std::string::npos;) other[at + 4] = '7';
   EXPECT_NE(refusal("MODEL        1\n" + alanine() + "ENDMDL\nMODEL        2\n" + other + "ENDMDL\n")
                 .find("its models share no atom"),
             std::string::npos);
