@@ -36,7 +36,7 @@ class ClosureSolver {
   ClosureSolver(const KinematicTree& tree, const DofSelection& selection, const ClosureOptions& options = {})
       : ClosureSolver(tree, selection, all_closures(tree), options) {}
   /// Closes some closures of the tree, positions in tree.closures(), and leaves the others as they come.
-  ClosureSolver(const KinematicTree& tree, const DofSelection& selection, const std::vector<std::size_t>& closures,
+  ClosureSolver(const KinematicTree& tree, const DofSelection& selection, std::span<const std::size_t> closures,
                 const ClosureOptions& options = {})
       : equations_(tree, selection, closures), options_(options) {
     if (!(options.tolerance > 0.0) || !is_length(options.tolerance))
