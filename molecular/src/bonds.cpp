@@ -45,6 +45,12 @@ class Perception {
   }
 
  private:
+  struct Candidate {
+    std::uint32_t first, second;
+    BondOrigin origin;
+    double misfit;  ///< by how much its length differs from the sum of covalent radii, angstrom
+  };
+
   bool in_polymer(std::uint32_t r) const {
     const Residue& residue = s_.residues[r];
     return residue.kind == ResidueKind::amino_acid || residue.kind == ResidueKind::nucleotide || is_cap(residue.name);
@@ -106,7 +112,7 @@ class Perception {
         }
         continue;
       }
-      bonds_.add(link.first, link.second, link.disulphide ? BondOrigin::disulphide : BondOrigin::record, link.order);
+      bonds_.add(link.first, link.second, origin_of(link), link.order);
     }
     if (ignored > 0)
       s_.notes.push_back("recorded bonds too long to hold, ignored: " + std::to_string(ignored) +
@@ -119,12 +125,8 @@ class Perception {
     const std::size_t told = s_.bonds.size();
     BondJudge judge(s_);
     std::vector<Candidate> found = disulphides();
-    for (const auto& [last, first] : ends_)
-      for (const auto& [a, b, origin] :
-           {std::tuple("C", "N", BondOrigin::peptide), std::tuple("O3'", "P", BondOrigin::phosphodiester)}) {
-        const auto i = bonds_.find(last, a), j = bonds_.find(first, b);
-        if (i && j && bonds_.within_radii(*i, *j)) found.push_back(candidate(*i, *j, origin));
-      }
+    const std::vector<Candidate> closing = closing_bonds();
+    found.insert(found.end(), closing.begin(), closing.end());
     const std::vector<Candidate> others = of_unknown_residues();
     found.insert(found.end(), others.begin(), others.end());
     // Those come first whose length is nearest to a bond's.
@@ -152,11 +154,25 @@ class Perception {
                          " pairs (first: " + first_refused + ")");
   }
 
-  struct Candidate {
-    std::uint32_t first, second;
-    BondOrigin origin;
-    double misfit;  ///< by how much its length differs from the sum of covalent radii, angstrom
-  };
+  /// Bonds of the backbone, close enough, from the last residue of a chain to its first.
+  std::vector<Candidate> closing_bonds() const {
+    std::vector<Candidate> found;
+    for (const auto& [last, first] : ends_)
+      for (const auto& [a, b, origin] :
+           {std::tuple("C", "N", BondOrigin::peptide), std::tuple("O3'", "P", BondOrigin::phosphodiester)}) {
+        const auto i = bonds_.find(last, a), j = bonds_.find(first, b);
+        if (i && j && bonds_.within_radii(*i, *j)) found.push_back(candidate(*i, *j, origin));
+      }
+    return found;
+  }
+  /// A cyclic backbone is one, recorded or not.
+  BondOrigin origin_of(const Link& link) const {
+    if (link.disulphide) return BondOrigin::disulphide;
+    for (const Candidate& bond : closing_bonds())
+      if (std::minmax(link.first, link.second) == std::minmax(bond.first, bond.second)) return bond.origin;
+    return BondOrigin::record;
+  }
+
   Candidate candidate(std::uint32_t i, std::uint32_t j, BondOrigin origin) const {
     const double radii = covalent_radius(s_.atoms[i].element) + covalent_radius(s_.atoms[j].element);
     return {std::min(i, j), std::max(i, j), origin, std::abs(bonds_.distance(i, j) - radii)};
