@@ -44,13 +44,15 @@ std::vector<PolymerPair> polymer_pairs(const Structure& s) {
     return i < s.residues[r].last_atom ? std::optional(i) : std::nullopt;
   };
   const auto add = [&](std::uint32_t r, std::uint32_t t, bool closes) {
-    for (const bool nucleotides : {false, true}) {
-      if ((s.residues[r].kind == ResidueKind::nucleotide) != nucleotides ||
-          (s.residues[t].kind == ResidueKind::nucleotide) != nucleotides)
+    for (const bool of_nucleotides : {false, true}) {
+      if ((s.residues[r].kind == ResidueKind::nucleotide) != of_nucleotides ||
+          (s.residues[t].kind == ResidueKind::nucleotide) != of_nucleotides)
         continue;
-      const auto i = find(r, nucleotides ? "O3'" : "C", nucleotides), j = find(t, nucleotides ? "P" : "N", nucleotides);
+      const auto i = find(r, of_nucleotides ? "O3'" : "C", of_nucleotides),
+                 j = find(t, of_nucleotides ? "P" : "N", of_nucleotides);
       if (i && j)
-        pairs.push_back({std::minmax(*i, *j), nucleotides ? BondOrigin::phosphodiester : BondOrigin::peptide, closes});
+        pairs.push_back(
+            {std::minmax(*i, *j), of_nucleotides ? BondOrigin::phosphodiester : BondOrigin::peptide, closes});
     }
   };
   for (const Chain& chain : s.chains) {
