@@ -33,7 +33,7 @@ std::vector<std::uint32_t> vertex_numbers(std::span<const Triangle> mesh) {
   return number;
 }
 
-std::string text_of(const Vec3& v) {
+std::string coordinates_text(const Vec3& v) {
   std::string text = "(";
   for (int k = 0; k < 3; ++k) {
     std::array<char, 32> buffer;
@@ -55,7 +55,7 @@ int pushed_side(const Vec3& a, const Vec3& b, const Vec3& p) noexcept {
 }  // namespace
 
 std::string OpenEdge::text() const {
-  return "edge " + text_of(from) + " - " + text_of(to) + " of triangle " + std::to_string(triangle);
+  return "edge " + coordinates_text(from) + " - " + coordinates_text(to) + " of triangle " + std::to_string(triangle);
 }
 
 std::optional<OpenEdge> open_edge(std::span<const Triangle> mesh) {

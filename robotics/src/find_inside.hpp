@@ -95,7 +95,7 @@ class SolidPairs {
         if (robot.triangle_count(link) == 0 || !tested.contains(solid.link, link)) continue;
         if (!solids.may_hold_any(solid, link)) continue;
         if (ball_of[l] == 0) {
-          const Ball points = solids.points(link);
+          const BoundingBall points = solids.points(link);
           ball_of[l] = add_ball(link, points.centre, points.radius);
         }
         const double reach = (solid.radius + balls_[ball_of[l]].radius) * (1.0 + 1e-6);

@@ -40,14 +40,14 @@ Pose origin_of(const XmlFile& file, const XMLElement& parent) {
   return {product(yaw, product(pitch, roll)), vector_of(file, *origin, "xyz")};
 }
 
-bool is_xacro(const XMLElement& element) { return std::string_view(element.Name()).starts_with("xacro:"); }
+bool is_xacro_element(const XMLElement& element) { return std::string_view(element.Name()).starts_with("xacro:"); }
 
 /// The children of other names are deleted; xacro, which could stand for one that is kept, is refused.
 void keep_only(const XmlFile& file, XMLElement& parent, std::initializer_list<std::string_view> kept) {
   XMLElement* next = nullptr;
   for (XMLElement* child = parent.FirstChildElement(); child != nullptr; child = next) {
     next = child->NextSiblingElement();
-    if (is_xacro(*child)) file.refuse_xacro(*child);
+    if (is_xacro_element(*child)) file.refuse_xacro(*child);
     if (std::find(kept.begin(), kept.end(), child->Name()) == kept.end()) parent.DeleteChild(child);
   }
 }
@@ -125,7 +125,7 @@ XMLElement* first_shape(const XmlFile& file, XMLElement& collision, const std::s
     outline.notes.push_back(file.at(geometry->GetLineNum()) + "link '" + link +
                             "': a <geometry> of several shapes, of which the first, " + tag(*shape) + ", is read");
   while (XMLElement* other = shape->NextSiblingElement()) geometry->DeleteChild(other);
-  if (is_xacro(*shape)) file.refuse_xacro(*shape);
+  if (is_xacro_element(*shape)) file.refuse_xacro(*shape);
   tidy_numbers(*shape, {"size", "radius", "length", "scale"});
   return shape;
 }
@@ -180,7 +180,7 @@ UrdfOutline outline_urdf(const std::filesystem::path& path) {
     } else if (name == "link") {
       outline.links.push_back(outline_link(file, *element, outline));
     } else {
-      if (is_xacro(*element)) note_xacro(file, *element, outline);
+      if (is_xacro_element(*element)) note_xacro(file, *element, outline);
       file.root().DeleteChild(element);
     }
   }

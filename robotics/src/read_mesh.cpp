@@ -82,9 +82,9 @@ void for_each_face(const aiScene& scene, const aiNode& node, const Transform& ab
   for (unsigned k = 0; k < node.mNumChildren; ++k) for_each_face(scene, *node.mChildren[k], here, visit);
 }
 
-class Collector {
+class TriangleCollector {
  public:
-  explicit Collector(const std::string& path) : path_(path) {}
+  explicit TriangleCollector(const std::string& path) : path_(path) {}
 
   void operator()(const aiMesh& mesh, const aiFace& face, const Transform& transform) {
     if (face.mNumIndices < 3) {
@@ -142,7 +142,7 @@ TriangleMesh read_mesh(const std::filesystem::path& path, std::vector<std::strin
     std::replace(why.begin(), why.end(), '\n', ' ');
     throw LoadError(name + ": " + (why.empty() ? "is no mesh that assimp understands" : why));
   }
-  Collector collector(name);
+  TriangleCollector collector(name);
   for_each_face(*scene, *scene->mRootNode, {}, [&](const aiMesh& mesh, const aiFace& face, const Transform& transform) {
     collector(mesh, face, transform);
   });

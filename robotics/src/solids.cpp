@@ -13,7 +13,7 @@ namespace hinge::robotics {
 
 namespace {
 
-Ball around(const Aabb& box) {
+BoundingBall around(const Aabb& box) {
   if (box.is_empty()) return {};
   const Vec3 centre(box.middle(0), box.middle(1), box.middle(2));
   return {centre, norm(Vec3(box.upper - centre)) * (1.0 + 1e-9)};
@@ -69,7 +69,7 @@ bool Solids::may_hold_any(const Solid& solid, LinkId link) const {
   return std::any_of(all.begin(), all.end(), [&](const SolidPart& part) { return may_hold(solid, part); });
 }
 
-Ball Solids::points(LinkId link) const {
+BoundingBall Solids::points(LinkId link) const {
   const std::span<const Triangle> mesh = triangles(link);
   Aabb box;
   if (has_many_triangles(link)) {

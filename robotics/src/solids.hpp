@@ -40,7 +40,7 @@ inline bool may_hold(const Solid& solid, const SolidPart& part) noexcept {
   return !(part.diameter > 2.0 * solid.radius * slack);
 }
 
-struct Ball {
+struct BoundingBall {
   Vec3 centre = Vec3::Zero();
   double radius = 0.0;
 };
@@ -58,7 +58,7 @@ class Solids {
   /// Found when first asked for.
   std::span<const SolidPart> parts(LinkId link) const;
   /// Around the point of each part, link frame; around all vertices where the link has many triangles.
-  Ball points(LinkId link) const;
+  BoundingBall points(LinkId link) const;
   /// False only when no part of the link fits into the solid.
   bool may_hold_any(const Solid& solid, LinkId link) const;
 
