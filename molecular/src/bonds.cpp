@@ -38,6 +38,7 @@ class Perception {
     ResidueBonds inside(s_, bonds_, components);
     for (std::uint32_t r = 0; r < s_.residues.size(); ++r) inside.add(r);
     for (const Chain& chain : s_.chains) bond_chain(chain);
+    closing_ = closing_bonds();
     bond_recorded();
     if (between_ == BondSearch::geometry) bond_by_distance();
     inside.say();
@@ -125,8 +126,7 @@ class Perception {
     const std::size_t told = s_.bonds.size();
     BondJudge judge(s_);
     std::vector<Candidate> found = disulphides();
-    const std::vector<Candidate> closing = closing_bonds();
-    found.insert(found.end(), closing.begin(), closing.end());
+    found.insert(found.end(), closing_.begin(), closing_.end());
     const std::vector<Candidate> others = of_unknown_residues();
     found.insert(found.end(), others.begin(), others.end());
     // Those come first whose length is nearest to a bond's.
@@ -168,7 +168,7 @@ class Perception {
   /// A cyclic backbone is one, recorded or not.
   BondOrigin origin_of(const Link& link) const {
     if (link.disulphide) return BondOrigin::disulphide;
-    for (const Candidate& bond : closing_bonds())
+    for (const Candidate& bond : closing_)
       if (std::minmax(link.first, link.second) == std::minmax(bond.first, bond.second)) return bond.origin;
     return BondOrigin::record;
   }
@@ -229,6 +229,7 @@ class Perception {
   BondSearch between_;
   BondList bonds_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> ends_;  // last and first residue of each polymer
+  std::vector<Candidate> closing_;
 };
 
 }  // namespace
