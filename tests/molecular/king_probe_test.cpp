@@ -53,6 +53,14 @@ std::string trimmed(const std::string& text, std::size_t at, std::size_t size) {
   return first == std::string::npos ? "" : field.substr(first, field.find_last_not_of(' ') - first + 1);
 }
 
+/// Of a line of Probe's -unformated output, which colons separate.
+std::vector<std::string> fields_of(const std::string& line) {
+  std::vector<std::string> fields;
+  std::istringstream parts(line);
+  for (std::string field; std::getline(parts, field, ':');) fields.push_back(field);
+  return fields;
+}
+
 /// What Probe says of a pair in contact, from either side.
 struct ProbeContact {
   double gap = 0.0;            ///< distance less both radii, angstrom
@@ -143,9 +151,7 @@ void Subject::read_contacts(const std::string& arguments, const Use& use) {
   std::istringstream said(
       test::run_tool("king-probe", "-quiet -mc -unformated -condense " + arguments + " 2>/dev/null").out);
   for (std::string line; std::getline(said, line);) {
-    std::vector<std::string> fields;
-    std::istringstream parts(line);
-    for (std::string field; std::getline(parts, field, ':');) fields.push_back(field);
+    const std::vector<std::string> fields = fields_of(line);
     ASSERT_GT(fields.size(), 6U) << line;
     // " A   1 ASN  CA "
     const std::uint32_t i = atom(fields[3], 0, 2, 7, 11), j = atom(fields[4], 0, 2, 7, 11);
@@ -519,9 +525,7 @@ TEST(BesideKingProbe, NucleotidesSugarsAndLigandsAreWhatProbeSees) {
   std::istringstream lines(said.out);
   std::size_t contacts = 0;
   for (std::string line; std::getline(lines, line);) {
-    std::vector<std::string> fields;
-    std::istringstream parts(line);
-    for (std::string field; std::getline(parts, field, ':');) fields.push_back(field);
+    const std::vector<std::string> fields = fields_of(line);
     ASSERT_GT(fields.size(), 6U) << line;
     const auto find = [&](const std::string& name) {
       return atoms.at(trimmed(name, 0, 2) + '/' + trimmed(name, 7, 3) + '/' + trimmed(name, 11, 4));
@@ -580,9 +584,7 @@ TEST(BesideKingProbe, SevereOverlapsAreAllFound) {
       std::set<Pair> probes;
       std::istringstream lines(said.out);
       for (std::string line; std::getline(lines, line);) {
-        std::vector<std::string> fields;
-        std::istringstream parts(line);
-        for (std::string field; std::getline(parts, field, ':');) fields.push_back(field);
+        const std::vector<std::string> fields = fields_of(line);
         ASSERT_GT(fields.size(), 6U) << line;
         const auto find = [&](const std::string& name) {
           return atoms.at(trimmed(name, 2, 4) + '/' + trimmed(name, 11, 4));
