@@ -39,9 +39,9 @@ constexpr const char* footer =
     "A:chi,\n"
     "a ligand's bond B:401:C5-C6; joined by ',' or 'or', and, not, parentheses: 'A and not (A:10-20 or omega)'.\n"
     "omega stays at its reference unless --omega is given or it is named.\n"
-    "Parts (--place, --between, --inside): a chain (A), a ligand (KNI), residues (A:10-20), a file (file:2), joined in "
-    "the\n"
-    "same way; '+' is ',' here and there.";
+    "Parts (--place, --between, --inside): a chain (A), a ligand (KNI), residues (A:10-20), a file (file:2), joined "
+    "in\n"
+    "the same way; '+' means the same as ','.";
 
 /// Arguments with a value behind each --hetero, which needs none: it stands for --hetero ligands.
 std::vector<std::string> with_hetero_words(int argc, char** argv) {

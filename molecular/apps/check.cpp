@@ -183,7 +183,8 @@ Exit run_check(const Options& options) {
     const auto k = static_cast<std::size_t>(begin) + n;
     const Job& of = checked.own ? *checked.own : job;
     if (checked.own) {  // its pairs are no pairs of the first model's atoms, whose offenders are counted
-      if (++others == 1) fmt::print(stderr, "note: {}: checked as the molecule it is\n", checked.difference);
+      if (++others == 1)
+        fmt::print(stderr, "note: {}; it is checked with its own atoms and bonds\n", checked.difference);
       Verdict counted = checked.verdict;
       counted.pairs.clear();
       summary.add(s, counted);
@@ -214,7 +215,8 @@ Exit run_check(const Options& options) {
   };
   const auto finish = [&](const std::string& error) {
     if (others > 1)
-      fmt::print(stderr, "note: so are {} more models; `other_atoms` of --json says how each differs\n", others - 1);
+      fmt::print(stderr, "note: {} more models have other atoms than the first; `other_atoms` of --json says which\n",
+                 others - 1);
     results.finish(summary.json(has_closures), error);
     if (options.output != Output::table) return;
     if (worst.residual >= 0.0005)
