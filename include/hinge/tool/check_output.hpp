@@ -23,8 +23,7 @@ inline bool is_same_file(const struct stat& a, const struct stat& b) {
 /// regular file that standard output or standard error goes to.
 inline void check_output(const std::string& option, const std::filesystem::path& path,
                          const std::vector<std::filesystem::path>& inputs) {
-  struct stat output {
-  }, other{};
+  struct stat output = {}, other = {};
   if (path.empty() || ::stat(path.c_str(), &output) != 0) return;
   const auto refuse = [&](const std::string& what) { throw ModelError(option + " " + path.string() + ": " + what); };
   if (S_ISDIR(output.st_mode)) refuse("is a directory, expected a file to write");
