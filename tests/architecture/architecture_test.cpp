@@ -14,7 +14,7 @@
 #include "architecture/floors.hpp"
 #include "architecture/source_tree.hpp"
 
-namespace {
+namespace architecture_test {
 
 using architecture::SourceTree;
 
@@ -144,4 +144,4 @@ TEST(PlantedBreach, IsCaught) {
   EXPECT_EQ(architecture::convention_violations({{path, {}}}).size(), 3U);
 }
 
-}  // namespace
+}  // namespace architecture_test

@@ -10,7 +10,7 @@
 #include "hinge/primitive/point.hpp"
 
 namespace hinge {
-namespace {
+namespace aabb_test {
 
 using test::Random;
 
@@ -85,5 +85,5 @@ TEST(Separation, IsAtMostZeroExactlyWhenBoxesOverlap) {
   EXPECT_TRUE(overlap(Aabb(Vec3(0, 0, 0), Vec3(1, 1, 1)), Aabb(Vec3(1, 1, 1), Vec3(2, 2, 2)))) << "boxes are closed";
 }
 
-}  // namespace
+}  // namespace aabb_test
 }  // namespace hinge

@@ -8,7 +8,7 @@
 #include "hinge/bounds/float_box.hpp"
 
 namespace hinge {
-namespace {
+namespace widened_test {
 
 [[gnu::noinline]] std::array<double, 3> through_floats(const double* x) {
   return {widened(static_cast<float>(x[0])), widened(static_cast<float>(x[1])), widened(static_cast<float>(x[2]))};
@@ -25,5 +25,5 @@ TEST(Widened, IsTheRoundedNumberWhereTwoAreConvertedAtOnce) {
   }
 }
 
-}  // namespace
+}  // namespace widened_test
 }  // namespace hinge

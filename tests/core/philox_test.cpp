@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace hinge {
-namespace {
+namespace philox_test {
 
 TEST(Philox, GivesThePublishedAnswers) {
   // Known-answer vectors of the Random123 distribution for philox4x32-10.
@@ -33,5 +33,5 @@ TEST(SampleStream, IsNormalToTheKolmogorovSmirnovTest) {
   EXPECT_LT(worst, 1.95 / std::sqrt(static_cast<double>(x.size()))) << "0.1 % level, seed 3";
 }
 
-}  // namespace
+}  // namespace philox_test
 }  // namespace hinge

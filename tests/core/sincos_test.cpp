@@ -11,7 +11,7 @@
 #include <random>
 
 namespace hinge {
-namespace {
+namespace sincos_test {
 
 /// libm is within one ulp here, and so are we: 3 ulp apart at most.
 void expect_close(double x) {
@@ -61,5 +61,5 @@ TEST(SinCos, HasTheseBitsEverywhere) {
   EXPECT_EQ(hash, 2513492045643707280ULL);
 }
 
-}  // namespace
+}  // namespace sincos_test
 }  // namespace hinge

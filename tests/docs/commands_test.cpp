@@ -19,7 +19,7 @@
 #include "tool/run_tool.hpp"
 
 namespace hinge::test {
-namespace {
+namespace commands_test {
 
 namespace fs = std::filesystem;
 
@@ -117,5 +117,5 @@ TEST(ConsoleBlocks, AreReadAndCompared) {
   EXPECT_FALSE(output_matches({"a", "...", "d"}, {"a", "b", "c"}));
 }
 
-}  // namespace
+}  // namespace commands_test
 }  // namespace hinge::test

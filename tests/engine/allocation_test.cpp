@@ -13,7 +13,7 @@
 #include "hinge/query/link_pair_hits.hpp"
 
 namespace hinge {
-namespace {
+namespace allocation_test {
 
 using test::allocations;
 
@@ -54,5 +54,5 @@ TEST(TreeQueries, AllocateNothing) {
   EXPECT_LT(hits, 300U);
 }
 
-}  // namespace
+}  // namespace allocation_test
 }  // namespace hinge

@@ -12,7 +12,7 @@
 #include "hinge/primitive/point.hpp"
 
 namespace hinge {
-namespace {
+namespace equality_test {
 
 using test::compare_with_brute;
 using test::ExcludedPairs;
@@ -85,5 +85,5 @@ TEST(Hierarchy, KeepsNoHistory) {
   }
 }
 
-}  // namespace
+}  // namespace equality_test
 }  // namespace hinge

@@ -14,7 +14,7 @@
 #include "hinge/policy/pair_filter.hpp"
 
 namespace hinge {
-namespace {
+namespace extremes_test {
 
 template <template <class, class, class> class EngineOf>
 using PointsOn = Hierarchy<Point, AdmitAll, UniformClearance, EngineOf>;
@@ -189,5 +189,5 @@ TEST(WideExtremes, LeaveNothingUndecidedWhereFloatsDoNotHoldThem) {
   }
 }
 
-}  // namespace
+}  // namespace extremes_test
 }  // namespace hinge

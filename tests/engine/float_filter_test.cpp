@@ -22,7 +22,7 @@
 #include "hinge/policy/pair_filter.hpp"
 
 namespace hinge {
-namespace {
+namespace float_filter_test {
 
 using test::Random;
 constexpr std::size_t n = simd::width;
@@ -343,5 +343,5 @@ TEST(FloatFilter, BandCoversMeasuredDistances) {
   }
 }
 
-}  // namespace
+}  // namespace float_filter_test
 }  // namespace hinge

@@ -15,7 +15,7 @@
 #include "hinge/engine/traversal.hpp"
 
 namespace hinge {
-namespace {
+namespace lazy_tree_test {
 
 using test::Random;
 
@@ -114,5 +114,5 @@ TEST(Traversal, VisitsEveryOverlappingPairOnceAndNoLeafWithItself) {
   }
 }
 
-}  // namespace
+}  // namespace lazy_tree_test
 }  // namespace hinge

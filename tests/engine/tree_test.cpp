@@ -24,7 +24,7 @@
 #include "hinge/query/link_pair_hits.hpp"
 
 namespace hinge {
-namespace {
+namespace tree_test {
 
 using test::Random;
 
@@ -323,5 +323,5 @@ TEST(TreeQueries, EqualBruteForceBetweenModelsOfDifferentSizes) {
   }
 }
 
-}  // namespace
+}  // namespace tree_test
 }  // namespace hinge

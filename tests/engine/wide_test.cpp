@@ -13,7 +13,7 @@
 #include "engine/side_by_side.hpp"
 
 namespace hinge {
-namespace {
+namespace wide_test {
 
 using test::compare_with_brute;
 using test::ExcludedPairs;
@@ -111,5 +111,5 @@ TEST(WideInFloat, NeverHitsAtAThresholdOfZero) {
   EXPECT_EQ(counts.undecided, 0U);
 }
 
-}  // namespace
+}  // namespace wide_test
 }  // namespace hinge

@@ -14,7 +14,7 @@
 #include "hinge/primitive/point.hpp"
 
 namespace hinge {
-namespace {
+namespace ensemble_test {
 
 using test::Random;
 
@@ -119,5 +119,5 @@ TEST(Ensemble, RefusesBadInput) {
   EXPECT_THROW(self_collides(hierarchy, q, 2), ConfigurationError);
 }
 
-}  // namespace
+}  // namespace ensemble_test
 }  // namespace hinge

@@ -22,7 +22,7 @@
 #include "hinge/policy/different_links.hpp"
 
 namespace hinge {
-namespace {
+namespace sphere_batch_test {
 
 using test::Random;
 
@@ -292,5 +292,5 @@ TEST(SphereBatch, MayBeCopied) {
   EXPECT_FALSE(batch.any({{0.0}}));
 }
 
-}  // namespace
+}  // namespace sphere_batch_test
 }  // namespace hinge

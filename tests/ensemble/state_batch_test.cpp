@@ -24,7 +24,7 @@
 #include "hinge/primitive/sphere.hpp"
 
 namespace hinge {
-namespace {
+namespace state_batch_test {
 
 using test::Random;
 
@@ -234,5 +234,5 @@ TEST(StateBatch, RefusesWhatASingleQueryRefusesAndGoesOn) {
   EXPECT_EQ(batch.collides(good), before);
 }
 
-}  // namespace
+}  // namespace state_batch_test
 }  // namespace hinge

@@ -19,7 +19,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 
 namespace hinge::exact {
-namespace {
+namespace orient_test {
 
 using test::Random;
 using Big = boost::multiprecision::cpp_int;
@@ -208,7 +208,7 @@ TEST(Orient, IsRightWhereDoublesEnd) {
   EXPECT_EQ(orient3d(Vec3(smallest, 0, 0), Vec3(0, smallest, 0), Vec3(0, 0, smallest), Vec3(0, 0, 0)), 1);
 }
 
-}  // namespace
+}  // namespace orient_test
 }  // namespace hinge::exact
 
 #else

@@ -12,7 +12,7 @@
 #include "extremes/three_engines.hpp"
 
 namespace hinge {
-namespace {
+namespace atoms_test {
 
 using test::AnyEngine;
 using test::atoms_on_three_engines;
@@ -207,5 +207,5 @@ TEST(Atoms, FarAwayHugeTinyAndDenormalEqualTheExactAnswer) {
   for (const int e : {-1070, -1030, -600, -500, -100, 100, 500, 600, 900}) expect(std::ldexp(1.0, e), 0.0);
 }
 
-}  // namespace
+}  // namespace atoms_test
 }  // namespace hinge

@@ -16,7 +16,7 @@
 #include "extremes/three_engines.hpp"
 
 namespace hinge {
-namespace {
+namespace chains_test {
 
 using test::AnyEngine;
 using test::one_type;
@@ -223,5 +223,5 @@ TEST(Chains, AfterAHundredThousandUpdatesEqualAFreshModelBitForBit) {
   }
 }
 
-}  // namespace
+}  // namespace chains_test
 }  // namespace hinge

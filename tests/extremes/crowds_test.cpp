@@ -19,7 +19,7 @@
 #include "extremes/three_engines.hpp"
 
 namespace hinge {
-namespace {
+namespace crowds_test {
 
 using test::AnyEngine;
 using test::one_type;
@@ -330,5 +330,5 @@ TEST(Crowds, OnManyAxesAreConstantExactlyWhenTheyNeverMoveApart) {
   EXPECT_GT(constant, 1000U);
 }
 
-}  // namespace
+}  // namespace crowds_test
 }  // namespace hinge

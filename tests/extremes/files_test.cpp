@@ -25,7 +25,7 @@
 #include "molecular/test_files.hpp"
 
 namespace hinge {
-namespace {
+namespace files_test {
 
 using test::Random;
 using test::TemporaryFile;
@@ -164,5 +164,5 @@ TEST(Files, ThatClaimGigabytesAreRefusedInBoundedMemory) {
   EXPECT_LT(peak_memory() - before, 256.0);
 }
 
-}  // namespace
+}  // namespace files_test
 }  // namespace hinge

@@ -17,7 +17,7 @@
 #include "hinge/primitive/triangle.hpp"
 
 namespace hinge {
-namespace {
+namespace meshes_test {
 
 using test::AnyEngine;
 
@@ -185,5 +185,5 @@ TEST(Meshes, OfCoincidentTrianglesHitOnABoundedStack) {
   }
 }
 
-}  // namespace
+}  // namespace meshes_test
 }  // namespace hinge

@@ -16,7 +16,7 @@
 #include "hinge/primitive/triangle.hpp"
 
 namespace hinge {
-namespace {
+namespace refused_test {
 
 using test::AnyEngine;
 using test::refusal;
@@ -232,5 +232,5 @@ TEST(Refused, APlacementThatIsScaledShearedMirroredOrZero) {
   }
 }
 
-}  // namespace
+}  // namespace refused_test
 }  // namespace hinge

@@ -12,7 +12,7 @@ std::vector<AnyEngine<Point>> atoms_on_three_engines(const Model<Point>& model, 
   return on_three_engines(model, AdmitAll{}, matrix);
 }
 
-namespace {
+namespace three_engines_test {
 
 TEST(ThreeEngines, AgreeOnRandomAtoms) {
   Random random(1);
@@ -24,5 +24,5 @@ TEST(ThreeEngines, AgreeOnRandomAtoms) {
   for (const AnyEngine<Point>& engine : engines) EXPECT_EQ(engine.within(0.0, {}), expected) << engine.name;
 }
 
-}  // namespace
+}  // namespace three_engines_test
 }  // namespace hinge::test

@@ -18,7 +18,7 @@
 #include "hinge/primitive/sphere.hpp"
 
 namespace hinge {
-namespace {
+namespace hierarchy_test {
 
 using test::Random;
 
@@ -230,5 +230,5 @@ TEST(Hierarchy, KeepsTheTreesOfGroupsThatStandStill) {
   EXPECT_LT(again.nodes_split, 10U) << "only the moved group and the upper tree are built again";
 }
 
-}  // namespace
+}  // namespace hierarchy_test
 }  // namespace hinge

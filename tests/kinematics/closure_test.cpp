@@ -16,7 +16,7 @@
 #include "hinge/kinematics/rigid_cycles.hpp"
 
 namespace hinge {
-namespace {
+namespace closure_test {
 
 using test::Random;
 
@@ -281,5 +281,5 @@ TEST(RigidCycles, AreNoneWhereTheReferenceIsOpen) {
   EXPECT_EQ(held(open), 0U);
 }
 
-}  // namespace
+}  // namespace closure_test
 }  // namespace hinge

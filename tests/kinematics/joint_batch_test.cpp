@@ -20,7 +20,7 @@
 #include "hinge/kinematics/rigid_groups.hpp"
 
 namespace hinge {
-namespace {
+namespace joint_batch_test {
 
 using test::Random;
 using Bits = std::array<std::uint64_t, 12>;
@@ -264,5 +264,5 @@ TEST(PoseSource, KeepsItsBitsWhenAConfigurationIsRefused) {
   m.expect_poses(random);
 }
 
-}  // namespace
+}  // namespace joint_batch_test
 }  // namespace hinge

@@ -13,7 +13,7 @@
 #include "hinge/primitive/point.hpp"
 
 namespace hinge {
-namespace {
+namespace kinematics_test {
 
 using test::Random;
 
@@ -180,5 +180,5 @@ TEST(PoseSource, IsDoubleAndWithoutRecursionOnAHundredThousandJoints) {
   EXPECT_TRUE(is_rigid(source.pose(id<GroupId>(n))));
 }
 
-}  // namespace
+}  // namespace kinematics_test
 }  // namespace hinge

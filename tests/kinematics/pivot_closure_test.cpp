@@ -15,7 +15,7 @@
 #include "hinge/kinematics/pivot_closure.hpp"
 
 namespace hinge {
-namespace {
+namespace pivot_closure_test {
 
 using test::Random;
 
@@ -154,5 +154,5 @@ TEST(PivotClosures, AreNoneWhereTheEndIsOutOfReach) {
   EXPECT_TRUE(close_pivots(chain).empty());
 }
 
-}  // namespace
+}  // namespace pivot_closure_test
 }  // namespace hinge

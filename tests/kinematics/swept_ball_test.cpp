@@ -10,7 +10,7 @@
 #include "hinge/kinematics/joint.hpp"
 
 namespace hinge {
-namespace {
+namespace swept_ball_test {
 
 constexpr std::uint64_t seed = 20'250'611;
 
@@ -121,5 +121,5 @@ TEST(SweptBall, SharesAddUpToTheExtent) {
   EXPECT_NEAR(sum, ball.growth() + ball.generators_along(n), 1e-12);
 }
 
-}  // namespace
+}  // namespace swept_ball_test
 }  // namespace hinge

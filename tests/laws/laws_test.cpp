@@ -19,7 +19,7 @@
 #include "hinge/query/collectors.hpp"
 
 namespace hinge {
-namespace {
+namespace laws_test {
 
 using test::Random;
 
@@ -175,5 +175,5 @@ TEST(Laws, CatchCollectorsThatGoBack) {
   EXPECT_EQ(broken.size(), 3U);  // twice the cutoff, once what is done
 }
 
-}  // namespace
+}  // namespace laws_test
 }  // namespace hinge

@@ -14,7 +14,7 @@
 #include "tool/foreign_programs.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace biocd_bytes_test {
 
 using simd::InstructionSet;
 using test::run_biocd;
@@ -106,5 +106,5 @@ TEST(BiocdBytes, AreTheSameForEveryEngineAndThreadCount) {
     expect_same(question, {" --threads 2", " --threads 8", " --engine lazy", " --engine brute --threads 2"}, "");
 }
 
-}  // namespace
+}  // namespace biocd_bytes_test
 }  // namespace hinge::molecular

@@ -28,7 +28,7 @@
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace biocd_closures_test {
 
 using Json = nlohmann::json;
 using test::run_biocd;
@@ -227,5 +227,5 @@ TEST(KeptClosures, LeaveOpenWhatDoesNotClose) {
   EXPECT_TRUE(find_kept_closures(m, torsions, Closures::of_loops).closures.empty());
 }
 
-}  // namespace
+}  // namespace biocd_closures_test
 }  // namespace hinge::molecular

@@ -21,7 +21,7 @@
 #include "molecular/trajectory_files.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace biocd_ensemble_test {
 
 using Json = nlohmann::json;
 using test::Frame;
@@ -276,5 +276,5 @@ TEST(BiocdEnsemble, FindsRigidGroups) {
   refused(from + " --rigid-from " + nan.path().string(), "frame 0: atom 7", 3);
 }
 
-}  // namespace
+}  // namespace biocd_ensemble_test
 }  // namespace hinge::molecular

@@ -17,7 +17,7 @@
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace biocd_files_test {
 
 namespace fs = std::filesystem;
 using test::run_biocd;
@@ -357,5 +357,5 @@ TEST_F(BiocdFiles, SamplesSayTheTorsionsTheyDrew) {
   EXPECT_EQ(run_biocd(command + " 2>&1").status, 2);
 }
 
-}  // namespace
+}  // namespace biocd_files_test
 }  // namespace hinge::molecular

@@ -15,7 +15,7 @@
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace biocd_loop_test {
 
 using Json = nlohmann::json;
 using test::run_biocd;
@@ -164,5 +164,5 @@ TEST(BiocdLoop, KeepsDisulphidesAndHydrogenBonds) {
   EXPECT_LE(bonded.at("summary").at("worst_closure_residual").get<double>(), 1e-6);
 }
 
-}  // namespace
+}  // namespace biocd_loop_test
 }  // namespace hinge::molecular

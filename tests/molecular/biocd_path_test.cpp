@@ -27,7 +27,7 @@
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace biocd_path_test {
 
 using Json = nlohmann::json;
 using test::Said;
@@ -299,5 +299,5 @@ TEST_P(PathCheckerSlice, AgreesWithBruteForce) {
   RecordProperty("colliding", colliding);
 }
 
-}  // namespace
+}  // namespace biocd_path_test
 }  // namespace hinge::molecular

@@ -14,7 +14,7 @@
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace biocd_rules_test {
 
 using Json = nlohmann::json;
 using test::run_biocd;
@@ -130,5 +130,5 @@ TEST(BiocdRules, ExplainPairsInsideResiduesAndWithHydrogens) {
   EXPECT_NE(names.out.find("(probe v5, rules molprobity v2, hydrogen-bond rule on)"), std::string::npos) << names.out;
 }
 
-}  // namespace
+}  // namespace biocd_rules_test
 }  // namespace hinge::molecular

@@ -15,7 +15,7 @@
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace biocd_scene_test {
 
 using Json = nlohmann::json;
 using test::run_biocd;
@@ -169,5 +169,5 @@ TEST(BiocdScene, RefusesWhatDoesNotFit) {
   EXPECT_NE(said("--place A:1-10").out.find("is bonded to"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace biocd_scene_test
 }  // namespace hinge::molecular

@@ -19,7 +19,7 @@
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace biocd_test {
 
 using Json = nlohmann::json;
 
@@ -274,5 +274,5 @@ TEST(Biocd, ExplainsAPair) {
   EXPECT_EQ(biocd("check " + file() + " --explain 4,4 2>&1").status, 2);
 }
 
-}  // namespace
+}  // namespace biocd_test
 }  // namespace hinge::molecular

@@ -10,7 +10,7 @@
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace biocd_walk_test {
 
 using Json = nlohmann::json;
 using test::run_biocd;
@@ -54,5 +54,5 @@ TEST(BiocdWalk, RefusesWhatCannotWalk) {
   EXPECT_EQ(run_biocd("walk " + file() + " --exempt-reference --steps 10 --out /nonexistent/x.pdb 2>&1").status, 3);
 }
 
-}  // namespace
+}  // namespace biocd_walk_test
 }  // namespace hinge::molecular

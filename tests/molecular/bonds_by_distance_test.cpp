@@ -18,7 +18,7 @@
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace bonds_by_distance_test {
 
 struct Placed {
   const char* name;
@@ -232,5 +232,5 @@ TEST(BondsByDistance, AFoldedLigandCollidesWithItself) {
   EXPECT_TRUE(has(collisions(s), "A:LIG1:C4 - A:LIG1:O1"));
 }
 
-}  // namespace
+}  // namespace bonds_by_distance_test
 }  // namespace hinge::molecular

@@ -27,7 +27,7 @@
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace checker_test {
 
 constexpr std::uint64_t seed = 1;
 
@@ -436,5 +436,5 @@ TEST(Sampler, IsAPureFunctionOfSeedAndIndex) {
   for (const double value : sample_configuration(full, 0, 1000)) EXPECT_LE(std::abs(value), std::numbers::pi);
 }
 
-}  // namespace
+}  // namespace checker_test
 }  // namespace hinge::molecular

@@ -25,7 +25,7 @@
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace clash_rules_test {
 
 CheckOptions by(const char* rules) {
   CheckOptions options;
@@ -318,5 +318,5 @@ TEST(ClashRules, AreWhatEveryEngineAnswersWithHydrogens) {
   for (const char* rules : {"severe", "molprobity", "chimerax", "posebusters"}) expect_definition(molecule, rules);
 }
 
-}  // namespace
+}  // namespace clash_rules_test
 }  // namespace hinge::molecular

@@ -22,7 +22,7 @@
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace ensemble_groups_test {
 
 constexpr double degree = std::numbers::pi / 180.0;
 
@@ -216,5 +216,5 @@ TEST(EnsembleGroups, OfAdenylateKinaseAreItsDomains) {
   EXPECT_GE(core, 70);
 }
 
-}  // namespace
+}  // namespace ensemble_groups_test
 }  // namespace hinge::molecular

@@ -24,7 +24,7 @@
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace identify_test {
 
 using test::TemporaryFile;
 
@@ -205,5 +205,5 @@ TEST(IdealProtein, HasNoCloseContactsWhateverTheSideChain) {
     }
 }
 
-}  // namespace
+}  // namespace identify_test
 }  // namespace hinge::molecular

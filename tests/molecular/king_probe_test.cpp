@@ -33,7 +33,7 @@
 #include "tool/run_tool.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace king_probe_test {
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
@@ -636,5 +636,5 @@ constexpr std::array<Case, 6> proteins{{{"1l2y.pdb", {0, 0, 0, 0}},
 INSTANTIATE_TEST_SUITE_P(Proteins, ProteinBesideKingProbe, testing::ValuesIn(proteins),
                          [](const auto& parameter) { return "n" + std::to_string(parameter.index); });
 
-}  // namespace
+}  // namespace king_probe_test
 }  // namespace hinge::molecular

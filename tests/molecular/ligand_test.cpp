@@ -30,7 +30,7 @@
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace ligand_test {
 
 using Counts = std::map<std::string, std::size_t>;
 using test::TemporaryFile;
@@ -454,5 +454,5 @@ TEST(Ligands, InARibosomeGiveEqualAnswersOnWideAndLazy) {
   EXPECT_EQ(wide.check(q, Mode::parse("all")).pairs, lazy.check(q, Mode::parse("all")).pairs);
 }
 
-}  // namespace
+}  // namespace ligand_test
 }  // namespace hinge::molecular

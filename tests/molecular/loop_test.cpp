@@ -27,7 +27,7 @@
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace loop_test {
 
 constexpr double promised = 1e-6;  // angstrom
 
@@ -342,5 +342,5 @@ TEST(HydrogenBonds, AreKeptOnRequestAndHoldAHelix) {
   EXPECT_FALSE(held.contains(11));
 }
 
-}  // namespace
+}  // namespace loop_test
 }  // namespace hinge::molecular

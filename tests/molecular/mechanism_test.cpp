@@ -23,7 +23,7 @@
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace mechanism_test {
 
 Molecule ubiquitin() { return Molecule(read_structure(test::ubiquitin())); }
 
@@ -205,5 +205,5 @@ TEST(IdealProtein, RefusesBadInputNamingThePosition) {
   EXPECT_THROW(build_ideal_protein("AAA", "HQH"), ModelError);
 }
 
-}  // namespace
+}  // namespace mechanism_test
 }  // namespace hinge::molecular

@@ -30,7 +30,7 @@
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace nucleic_acid_test {
 
 using test::TemporaryFile;
 using Counts = std::map<std::string, std::size_t>;
@@ -326,5 +326,5 @@ TEST(NucleotideTable, HasTheBondsOfTheMonomerDictionary) {
   }
 }
 
-}  // namespace
+}  // namespace nucleic_acid_test
 }  // namespace hinge::molecular

@@ -21,7 +21,7 @@
 #include "hinge/motion/certified_path.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace placed_path_test {
 
 /// A chain and a shorter one that is placed, some of their torsions free; pairs between the two count.
 struct Scene {
@@ -103,5 +103,5 @@ TEST(PlacedPart, IsCertifiedOnItsWay) {
   EXPECT_GE(proved + hit, 58);
 }
 
-}  // namespace
+}  // namespace placed_path_test
 }  // namespace hinge::molecular

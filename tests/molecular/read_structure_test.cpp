@@ -17,7 +17,7 @@
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace read_structure_test {
 
 using test::TemporaryFile;
 
@@ -418,5 +418,5 @@ TEST(ReadStructure, GivesTheSameMoleculeFromPdbAndMmcif) {
   }
 }
 
-}  // namespace
+}  // namespace read_structure_test
 }  // namespace hinge::molecular

@@ -25,7 +25,7 @@
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace round_trip_test {
 
 using test::TemporaryFile;
 
@@ -260,5 +260,5 @@ TEST(RoundTrip, NamesTheFormatThatHoldsWhatDoesNotFit) {
   EXPECT_EQ(rounded.residues.size(), 2U);
 }
 
-}  // namespace
+}  // namespace round_trip_test
 }  // namespace hinge::molecular

@@ -24,7 +24,7 @@
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace selection_test {
 
 using Set = std::set<std::size_t>;
 
@@ -312,5 +312,5 @@ TEST(SelectionGrammar, IsThatOfPartsAndLoops) {
   EXPECT_THROW(find_loops(ubiquitin, "A:7-20 and not A:12"), ModelError);
 }
 
-}  // namespace
+}  // namespace selection_test
 }  // namespace hinge::molecular

@@ -28,7 +28,7 @@
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace several_molecules_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -618,5 +618,5 @@ TEST(SeveralMolecules, RealChainsThatABondHolds) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace several_molecules_test
 }  // namespace hinge::molecular

@@ -23,7 +23,7 @@
 #include "molecular/trajectory_files.hpp"
 
 namespace hinge::molecular {
-namespace {
+namespace trajectory_test {
 
 using test::dcd_file;
 using test::DcdStyle;
@@ -463,5 +463,5 @@ TEST(TrajectoryWriter, WritesWhatIsReadAgain) {
   EXPECT_THROW(writer.add(s.models[0], 1), ModelError);
 }
 
-}  // namespace
+}  // namespace trajectory_test
 }  // namespace hinge::molecular

@@ -33,7 +33,7 @@
 #include "hinge/primitive/triangle.hpp"
 
 namespace hinge {
-namespace {
+namespace certified_path_test {
 
 using std::numbers::pi;
 using test::Random;
@@ -603,5 +603,5 @@ TEST(Paths, RefuseWhatIsNoPath) {
               std::string::npos);
 }
 
-}  // namespace
+}  // namespace certified_path_test
 }  // namespace hinge

@@ -13,7 +13,7 @@
 #include "engine/random_mechanism.hpp"
 
 namespace hinge {
-namespace {
+namespace outline_test {
 
 using test::Random;
 
@@ -58,5 +58,5 @@ TEST(Outline, IsLeftOutForFewPoints) {
   EXPECT_TRUE(Outline(three, Vec3::Zero(), 0.0, 1.0).is_empty());
 }
 
-}  // namespace
+}  // namespace outline_test
 }  // namespace hinge

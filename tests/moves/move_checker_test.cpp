@@ -23,7 +23,7 @@
 #include "hinge/hierarchy.hpp"
 
 namespace hinge {
-namespace {
+namespace move_checker_test {
 
 using test::allocations;
 using test::ExcludedPairs;
@@ -389,5 +389,5 @@ TEST(MoveChecker, TakesModelsWithoutPrimitivesOrDof) {
   empty.accept();
 }
 
-}  // namespace
+}  // namespace move_checker_test
 }  // namespace hinge

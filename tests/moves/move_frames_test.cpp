@@ -18,7 +18,7 @@
 #include "hinge/primitive/point.hpp"
 
 namespace hinge {
-namespace {
+namespace move_frames_test {
 
 constexpr std::uint64_t seed = 2006;
 
@@ -85,5 +85,5 @@ TEST(MoveFrames, StayWithinTheirBound) {
   EXPECT_GT(settled, 0U);
 }
 
-}  // namespace
+}  // namespace move_frames_test
 }  // namespace hinge

@@ -21,7 +21,7 @@
 #include "oracle/cross_check.hpp"
 
 namespace hinge {
-namespace {
+namespace oracle_test {
 
 using test::Random;
 
@@ -136,5 +136,5 @@ TEST(FclOracle, AgreesOnAProteinOfOneType) {
   EXPECT_LT(colliding, 1000U);
 }
 
-}  // namespace
+}  // namespace oracle_test
 }  // namespace hinge

@@ -33,7 +33,7 @@
 #include "robotics/robots.hpp"
 
 namespace hinge {
-namespace {
+namespace robots_test {
 
 constexpr std::uint64_t seed = 2005;
 
@@ -273,5 +273,5 @@ TEST(FclRobots, AreSettledExactlyAtContactsOfPanda) {
   settle_at_contact(robot, disabled, tries_all() ? 1'000 : 10);
 }
 
-}  // namespace
+}  // namespace robots_test
 }  // namespace hinge

@@ -18,7 +18,7 @@
 #include "oracle/placement.hpp"
 
 namespace hinge {
-namespace {
+namespace shapes_test {
 
 constexpr std::uint64_t seed = 2005;
 
@@ -79,5 +79,5 @@ TEST(FclShapes, BoxesAreAsFarApart) {
   }
 }
 
-}  // namespace
+}  // namespace shapes_test
 }  // namespace hinge

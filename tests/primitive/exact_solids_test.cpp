@@ -27,7 +27,7 @@
 #include "primitive/solid_oracle.hpp"
 
 namespace hinge {
-namespace {
+namespace exact_solids_test {
 
 using test::Random;
 using test::SolidOracle;
@@ -378,7 +378,7 @@ TEST_P(CapsuleFamilies, EqualExactVerdictsAndDistances) {
 INSTANTIATE_TEST_SUITE_P(Solids, CapsuleFamilies, testing::ValuesIn(capsule_families()),
                          [](const auto& family) { return family.param.name; });
 
-}  // namespace
+}  // namespace exact_solids_test
 }  // namespace hinge
 
 #else

@@ -21,7 +21,7 @@
 #endif
 
 namespace hinge {
-namespace {
+namespace grid_point_test {
 
 using test::Random;
 using Whole3 = std::array<std::int64_t, 3>;
@@ -159,5 +159,5 @@ TEST(GridPoint, TakesOtherThresholdsForWhatTheyAre) {
 }
 #endif
 
-}  // namespace
+}  // namespace grid_point_test
 }  // namespace hinge

@@ -16,7 +16,7 @@
 #include "hinge/primitive/triangle_leaf.hpp"
 
 namespace hinge {
-namespace {
+namespace leaf_test {
 
 using test::Random;
 
@@ -157,5 +157,5 @@ TEST(TriangleLeaf, BoundsDistancesFromBothSides) {
   }
 }
 
-}  // namespace
+}  // namespace leaf_test
 }  // namespace hinge

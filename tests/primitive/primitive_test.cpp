@@ -15,7 +15,7 @@
 #include "hinge/primitive/triangle.hpp"
 
 namespace hinge {
-namespace {
+namespace primitive_test {
 
 using test::Random;
 
@@ -177,5 +177,5 @@ TEST(Triangle, DistanceIsNeverAboveAnIndependentSearch) {
   EXPECT_GE(close, 50) << "the search converges for most";
 }
 
-}  // namespace
+}  // namespace primitive_test
 }  // namespace hinge

@@ -24,7 +24,7 @@
 #include "primitive/triangle_oracle.hpp"
 
 namespace hinge {
-namespace {
+namespace triangle_test {
 
 using test::OracleDistance;
 using test::Random;
@@ -242,7 +242,7 @@ TEST(GrownTriangles, MeetAsTheSolidsTheyAreDo) {
   EXPECT_LT(hits, cases - cases / 5);
 }
 
-}  // namespace
+}  // namespace triangle_test
 }  // namespace hinge
 
 #else

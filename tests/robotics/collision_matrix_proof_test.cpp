@@ -17,7 +17,7 @@
 #include "robotics/robots.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace collision_matrix_proof_test {
 
 using test::Builder;
 using test::few_samples;
@@ -162,5 +162,5 @@ TEST_P(SharedMatrix, NothingRefutesWhatItProved) {
 INSTANTIATE_TEST_SUITE_P(Robots, SharedMatrix, testing::Values("panda", "ur5_robotiq"),
                          [](const auto& robot) { return std::string(robot.param); });
 
-}  // namespace
+}  // namespace collision_matrix_proof_test
 }  // namespace hinge::robotics

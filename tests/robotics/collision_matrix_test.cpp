@@ -14,7 +14,7 @@
 #include "robotics/built_robots.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace collision_matrix_test {
 
 using test::Builder;
 using test::few_samples;
@@ -317,5 +317,5 @@ TEST(CollisionMatrix, KeepsToItsBudget) {
   EXPECT_GT(entry.cells, 0U);
 }
 
-}  // namespace
+}  // namespace collision_matrix_test
 }  // namespace hinge::robotics

@@ -13,7 +13,7 @@
 #include "robotics/random_robot.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace containment_test {
 
 constexpr std::uint64_t seed = 4096;
 using Mesh = std::vector<Triangle>;
@@ -201,5 +201,5 @@ TEST(Contains, TellsWholeFromParts) {
   EXPECT_EQ(contains(outer, Mesh{}), Containment::none);
 }
 
-}  // namespace
+}  // namespace containment_test
 }  // namespace hinge::robotics

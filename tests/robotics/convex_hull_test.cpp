@@ -13,7 +13,7 @@
 #include "robotics/tiered.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace convex_hull_test {
 
 /// Least depth of the points behind the planes of the triangles, m.
 long double least_depth(std::span<const Triangle> hull, std::span<const Vec3> points) {
@@ -120,5 +120,5 @@ TEST(ConvexHull, RefusesCoordinatesTooLargeForItsMargin) {
   }
 }
 
-}  // namespace
+}  // namespace convex_hull_test
 }  // namespace hinge::robotics

@@ -22,7 +22,7 @@
 #include "robotics/robots.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace environment_test {
 
 constexpr std::uint64_t seed = 90210;
 using Key = std::tuple<std::optional<BodyId>, LinkId, BodyId>;
@@ -366,5 +366,5 @@ TEST(Containment, IsNotLookedForInOpenBodies) {
   EXPECT_FALSE(environment.open_edge(environment.add(cube(1.0))).has_value());
 }
 
-}  // namespace
+}  // namespace environment_test
 }  // namespace hinge::robotics

@@ -13,7 +13,7 @@
 #include "robotics/tiered.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace fit_capsule_test {
 
 struct Fitted {
   Vec3 a, b;
@@ -110,5 +110,5 @@ TEST(FitCapsule, GivesASphereWhereASegmentWouldNotHelp) {
   EXPECT_LE(point.radius, 2e-10);
 }
 
-}  // namespace
+}  // namespace fit_capsule_test
 }  // namespace hinge::robotics

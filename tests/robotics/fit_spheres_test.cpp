@@ -14,7 +14,7 @@
 #include "robotics/tiered.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace fit_spheres_test {
 
 /// How far the point farthest out is from the union of the balls, over a grid on each triangle; below 0: inside.
 double excess(std::span<const PlacedShape> spheres, std::span<const Triangle> triangles) {
@@ -95,5 +95,5 @@ TEST(FitSpheres, FollowASlenderLink) {
   EXPECT_LT(largest_radius(spheres), 0.04);  // a twentieth of the rod has half a diagonal of 0.029
 }
 
-}  // namespace
+}  // namespace fit_spheres_test
 }  // namespace hinge::robotics

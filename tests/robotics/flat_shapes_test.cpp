@@ -14,7 +14,7 @@
 #include "hinge/robotics/tested_pairs.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace flat_shapes_test {
 
 /// A link with the shape on a slide along x, before a ball of radius 0.5 in the origin.
 std::shared_ptr<const Robot> slider(const Shape& shape) {
@@ -89,5 +89,5 @@ TEST(FlatShapes, CollideWithBodiesAndOnPaths) {
   }
 }
 
-}  // namespace
+}  // namespace flat_shapes_test
 }  // namespace hinge::robotics

@@ -26,7 +26,7 @@
 #include "robotics/robots.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace forward_kinematics_test {
 
 KDL::Frame frame(const urdf::Pose& pose) {
   const urdf::Rotation& r = pose.rotation;
@@ -99,5 +99,5 @@ TEST_P(ForwardKinematics, EqualsOrocosKdl) {
 INSTANTIATE_TEST_SUITE_P(All, ForwardKinematics, testing::ValuesIn(test::shared_robots()),
                          [](const auto& robot) { return robot.param.name; });
 
-}  // namespace
+}  // namespace forward_kinematics_test
 }  // namespace hinge::robotics

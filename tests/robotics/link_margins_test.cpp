@@ -13,7 +13,7 @@
 #include "robotics/random_robot.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace link_margins_test {
 
 constexpr std::uint64_t seed = 20251;
 
@@ -120,5 +120,5 @@ TEST(LinkMargins, RefusePairsThatAreNone) {
   EXPECT_NE(refusal(robot, 0.0, {{world, a, 0.1}}), "");
 }
 
-}  // namespace
+}  // namespace link_margins_test
 }  // namespace hinge::robotics

@@ -18,7 +18,7 @@
 #include "robotics/robots.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace read_mesh_test {
 
 using Facet = std::array<float, 9>;
 
@@ -398,5 +398,5 @@ TEST(ReadMesh, RefusesOtherFormatsAndRubbish) {
             "none.stl: cannot be opened: No such file or directory");
 }
 
-}  // namespace
+}  // namespace read_mesh_test
 }  // namespace hinge::robotics

@@ -10,7 +10,7 @@
 #include "robotics/robots.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace read_srdf_test {
 
 /// Two fingers on a turning hand: root -turn- hand -left- l, hand -right- r (a follower); l -tip- t is fixed.
 Robot hand() {
@@ -176,5 +176,5 @@ TEST(ReadLinkPairs, AddsTwoNamesALine) {
   EXPECT_EQ(test::refusal(folder, [&] { read_link_pairs(three, robot, pairs); }), "three.txt:1: 3 names, expected two");
 }
 
-}  // namespace
+}  // namespace read_srdf_test
 }  // namespace hinge::robotics

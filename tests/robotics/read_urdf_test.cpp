@@ -14,7 +14,7 @@
 #include "robotics/robots.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace read_urdf_test {
 
 const std::string one_facet =
     "solid one\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
@@ -450,5 +450,5 @@ TEST(ReadUrdf, RefusesMimicsOfNothing) {
       std::string::npos);
 }
 
-}  // namespace
+}  // namespace read_urdf_test
 }  // namespace hinge::robotics

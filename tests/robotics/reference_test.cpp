@@ -21,7 +21,7 @@
 #include "robotics/robots.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace reference_test {
 
 using NamedPairs = std::set<std::pair<std::string, std::string>>;
 
@@ -169,5 +169,5 @@ TEST_P(SharedRobots, AreAsFarFromThemselvesAsTheReferenceSays) {
 INSTANTIATE_TEST_SUITE_P(All, SharedRobots, testing::ValuesIn(test::shared_robots()),
                          [](const auto& robot) { return robot.param.name; });
 
-}  // namespace
+}  // namespace reference_test
 }  // namespace hinge::robotics

@@ -9,7 +9,7 @@
 #include "tool/foreign_programs.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace robocd_bytes_test {
 
 using test::ArmFolder;
 using test::run_robocd;
@@ -53,5 +53,5 @@ TEST(RobocdBytes, AreTheSameOnEveryInstructionSet) {
   if (compared.empty()) GTEST_SKIP() << "robocd comes for the baseline only, or the CPU has no more";
 }
 
-}  // namespace
+}  // namespace robocd_bytes_test
 }  // namespace hinge::robotics

@@ -13,7 +13,7 @@
 #include "robotics/run_robocd.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace robocd_files_test {
 
 using test::run_robocd;
 
@@ -133,5 +133,5 @@ TEST(RobocdFiles, NamesNeedNotBeText) {
   }
 }
 
-}  // namespace
+}  // namespace robocd_files_test
 }  // namespace hinge::robotics

@@ -18,7 +18,7 @@
 #include "robotics/run_robocd.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace robocd_path_test {
 
 using Json = nlohmann::json;
 using test::ArmFolder;
@@ -224,5 +224,5 @@ TEST_P(RobotPathCheckerSlice, AgreesWithBruteForce) {
   EXPECT_LE(undecided, static_cast<int>(robots * paths_each / 4000));
 }
 
-}  // namespace
+}  // namespace robocd_path_test
 }  // namespace hinge::robotics

@@ -16,7 +16,7 @@
 #include "robotics/run_robocd.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace robocd_reference_test {
 
 using Json = nlohmann::json;
 using test::run_robocd;
@@ -93,5 +93,5 @@ TEST_P(RobocdReplay, AgreesWithTheReference) {
 INSTANTIATE_TEST_SUITE_P(All, RobocdReplay, testing::ValuesIn(test::shared_robots()),
                          [](const auto& robot) { return robot.param.name; });
 
-}  // namespace
+}  // namespace robocd_reference_test
 }  // namespace hinge::robotics

@@ -11,7 +11,7 @@
 #include "robotics/run_robocd.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace robocd_refusals_test {
 
 using test::ArmFolder;
 using test::run_robocd;
@@ -210,5 +210,5 @@ TEST(RobocdFiles, AreFoundInPackages) {
   EXPECT_EQ(run_robocd("info" + arm.urdf(), "AMENT_PREFIX_PATH=" + arm.path().string()).status, 0);
 }
 
-}  // namespace
+}  // namespace robocd_refusals_test
 }  // namespace hinge::robotics

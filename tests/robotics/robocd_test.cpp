@@ -17,7 +17,7 @@
 #include "robotics/run_robocd.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace robocd_test {
 
 using Json = nlohmann::json;
 using test::ArmFolder;
@@ -375,5 +375,5 @@ TEST(Robocd, LeavesNothingHalfWritten) {
   EXPECT_EQ(run_robocd("check" + arm.urdf() + " --zero --json >/dev/full 2>/dev/null").status, 3);
 }
 
-}  // namespace
+}  // namespace robocd_test
 }  // namespace hinge::robotics

@@ -18,7 +18,7 @@
 #include "robotics/robots.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace robot_checker_test {
 
 constexpr std::uint64_t seed = 7781;
 using Pairs = std::set<std::pair<LinkId, LinkId>>;
@@ -431,5 +431,5 @@ TEST(Containment, IsNotLookedForInOpenLinksWhichAreNamed) {
   EXPECT_NE(checker.not_closed()[0].edge.from, checker.not_closed()[0].edge.to);
 }
 
-}  // namespace
+}  // namespace robot_checker_test
 }  // namespace hinge::robotics

@@ -16,7 +16,7 @@
 #include "hinge/robotics/tested_pairs.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace robot_test {
 
 const double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -210,5 +210,5 @@ TEST(Robot, GivesSpheresAndCapsulesTheirRadius) {
   EXPECT_TRUE(Robot(robot, {Tessellation::Manner::inscribed}).radii().empty());
 }
 
-}  // namespace
+}  // namespace robot_test
 }  // namespace hinge::robotics

@@ -24,7 +24,7 @@
 #include "hinge/robotics/tiers.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace solids_test {
 
 constexpr std::uint64_t seed = 8489;
 using test::Random;
@@ -309,5 +309,5 @@ TEST(EnvironmentBodies, HaveFiniteDistancesHoweverFar) {
   EXPECT_FALSE(checker.collides(environment));
 }
 
-}  // namespace
+}  // namespace solids_test
 }  // namespace hinge::robotics

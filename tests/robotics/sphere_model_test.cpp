@@ -21,7 +21,7 @@
 #include "hinge/robotics/tested_pairs.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace sphere_model_test {
 
 /// Three links one above the other; the third turns twice as far as the second.
 RobotDescription three_links() {
@@ -99,5 +99,5 @@ TEST(SphereModel, BatchesOfPandaAgreeWithSingleQueries) {
   EXPECT_GT(hits, 200U);
 }
 
-}  // namespace
+}  // namespace sphere_model_test
 }  // namespace hinge::robotics

@@ -18,7 +18,7 @@
 #include "robotics/robots.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace spherized_test {
 
 struct Spherized {
   std::string folder, file;
@@ -129,5 +129,5 @@ TEST(RoundedRobot, IsAsFarFromItselfAsPointsAndSegmentsGrown) {
   }
 }
 
-}  // namespace
+}  // namespace spherized_test
 }  // namespace hinge::robotics

@@ -17,7 +17,7 @@
 #include "hinge/primitive/triangle.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace tessellate_test {
 
 constexpr Tessellation inscribed{Tessellation::Manner::inscribed, 1e-3};
 
@@ -208,5 +208,5 @@ TEST(Tessellate, RefusesShapesAndTolerancesThatAreNone) {
     EXPECT_THROW(tessellate(SphereShape{1.0}, within(tolerance)), ModelError) << tolerance;
 }
 
-}  // namespace
+}  // namespace tessellate_test
 }  // namespace hinge::robotics

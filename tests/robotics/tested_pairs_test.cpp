@@ -12,7 +12,7 @@
 #include "hinge/robotics/robot.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace tested_pairs_test {
 
 /// Chain a -r- b -f- c -r- d -r- e; d has no geometry.
 Robot chain() {
@@ -92,5 +92,5 @@ TEST(LinkPairs, AreASymmetricSet) {
   EXPECT_THROW(pairs.insert(a, id<LinkId>(130)), ModelError);
 }
 
-}  // namespace
+}  // namespace tested_pairs_test
 }  // namespace hinge::robotics

@@ -30,7 +30,7 @@
 #include "robotics/tiered.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace tiers_test {
 
 constexpr std::array<Tier, 4> every_tier = {Tier::mesh, Tier::hull, Tier::capsule, Tier::spheres};
 
@@ -297,5 +297,5 @@ TEST(Tiers, HaveNames) {
   EXPECT_THROW(tier_named(""), ModelError);
 }
 
-}  // namespace
+}  // namespace tiers_test
 }  // namespace hinge::robotics

@@ -11,7 +11,7 @@
 #include "robotics/robots.hpp"
 
 namespace hinge::robotics {
-namespace {
+namespace write_srdf_test {
 
 /// Seven links in a chain, with names that XML has to be told about; every kind of pair among the entries.
 Robot awkward_robot() {
@@ -105,5 +105,5 @@ TEST(WriteSrdf, SaysHowOftenAPairWasSeen) {
     EXPECT_EQ(count(text, expected), 1U) << expected << " in\n" << text;
 }
 
-}  // namespace
+}  // namespace write_srdf_test
 }  // namespace hinge::robotics

@@ -21,7 +21,7 @@
 #include "robustness/run_mesh.hpp"
 
 namespace hinge::robustness {
-namespace {
+namespace generated_bodies_test {
 
 using test::ChainFamily;
 using test::MeshFamily;
@@ -186,7 +186,7 @@ TEST_P(ChainFamilies, EqualExactAnswers) {
 INSTANTIATE_TEST_SUITE_P(Generated, ChainFamilies, testing::ValuesIn(test::chain_families()),
                          [](const auto& family) { return std::string(family.param.name); });
 
-}  // namespace
+}  // namespace generated_bodies_test
 }  // namespace hinge::robustness
 
 #else

@@ -19,7 +19,7 @@
 #include "robustness/expect_right.hpp"
 
 namespace hinge::robustness {
-namespace {
+namespace generated_pairs_test {
 
 using test::AtomFamily;
 using test::OracleDistance;
@@ -63,7 +63,7 @@ TEST_P(TriangleFamilies, EqualExactAnswers) {
 INSTANTIATE_TEST_SUITE_P(Generated, TriangleFamilies, testing::ValuesIn(test::triangle_families()),
                          [](const auto& family) { return family.param.name; });
 
-}  // namespace
+}  // namespace generated_pairs_test
 }  // namespace hinge::robustness
 
 #else

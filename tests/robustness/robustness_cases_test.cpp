@@ -11,7 +11,7 @@
 
 #include "tool/run_tool.hpp"
 
-namespace {
+namespace robustness_cases_test {
 
 using hinge::test::Said;
 
@@ -150,4 +150,4 @@ TEST(RobustnessCases, RefusesWhatIsNoFolderOfCases) {
   EXPECT_EQ(hinge::test::run_tool(HINGE_ROBUSTNESS_CASES, "2>&1").status, 2);
 }
 
-}  // namespace
+}  // namespace robustness_cases_test

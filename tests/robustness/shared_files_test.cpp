@@ -13,7 +13,7 @@
 #include "robustness/read_cases.hpp"
 
 namespace hinge::robustness {
-namespace {
+namespace shared_files_test {
 
 TEST(SharedFiles, AgreeWithStoredExactAnswers) {
   const std::filesystem::path folder = std::string(HINGE_SHARED_DATA) + "/robustness";
@@ -27,5 +27,5 @@ TEST(SharedFiles, AgreeWithStoredExactAnswers) {
   for (const auto& [kind, count] : cases) std::cout << count << " cases of " << kind << "\n";
 }
 
-}  // namespace
+}  // namespace shared_files_test
 }  // namespace hinge::robustness

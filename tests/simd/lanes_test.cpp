@@ -17,7 +17,7 @@
 #include "hinge/simd/sincos.hpp"
 
 namespace hinge::simd {
-namespace {
+namespace lanes_test {
 
 using test::Random;
 
@@ -109,5 +109,5 @@ TEST(VectorSinCos, HasTheBitsOfTheScalarOne) {
   }
 }
 
-}  // namespace
+}  // namespace lanes_test
 }  // namespace hinge::simd

@@ -19,7 +19,7 @@
 #include "hinge/tool/number_option.hpp"
 
 namespace hinge::tool {
-namespace {
+namespace number_option_test {
 
 template <class Number>
 std::string refusal(const std::string& text, const NumberRange<Number>& range) {
@@ -113,5 +113,5 @@ TEST(InputFile, SaysWhyItCannotBeRead) {
   EXPECT_EQ(unreadable("/proc/self/mem"), "/proc/self/mem: cannot be read to its end: Input/output error");
 }
 
-}  // namespace
+}  // namespace number_option_test
 }  // namespace hinge::tool

@@ -20,7 +20,7 @@
 #include "hinge/tool/run_tool.hpp"
 
 namespace hinge::tool {
-namespace {
+namespace output_files_test {
 
 namespace fs = std::filesystem;
 
@@ -220,5 +220,5 @@ TEST(RunTool, RefusesInOneLine) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "x: a\\nb\\x1b c\\x7f\n");
 }
 
-}  // namespace
+}  // namespace output_files_test
 }  // namespace hinge::tool

@@ -15,7 +15,7 @@
 #include "hinge/tool/run_tool.hpp"
 
 namespace hinge::tool {
-namespace {
+namespace tool_test {
 
 TEST(CsvField, IsQuotedWhereItMustBe) {
   EXPECT_EQ(csv_field("link 7"), "link 7");
@@ -58,5 +58,5 @@ TEST(CompleteFile, TakesItsNameOnlyWhenComplete) {
   EXPECT_FALSE(CompleteFile("").wanted());
 }
 
-}  // namespace
+}  // namespace tool_test
 }  // namespace hinge::tool
