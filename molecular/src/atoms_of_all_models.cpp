@@ -148,7 +148,8 @@ Structure assemble_common(RawFile raw, const std::string& path, const ReadOption
   std::vector<bool> keep(first.atoms.size());
   for (std::uint32_t m = 0; m < each.size(); ++m)
     for (const auto& [key, i] : atoms[m]) {
-      const bool common = std::all_of(atoms.begin(), atoms.end(), [&](const auto& of) { return of.count(key) > 0; });
+      const auto has_atom = [&wanted = key](const auto& of) { return of.contains(wanted); };
+      const bool common = std::all_of(atoms.begin(), atoms.end(), has_atom);
       if (common && m == 0) keep[i] = true;
       if (!common) left_out.emplace(key, m);
     }
