@@ -16,17 +16,16 @@ namespace hinge::molecular {
 namespace {
 
 constexpr double open_from = 1e-6;                              // angstrom: residuals above are open
-constexpr std::size_t starts = 16;                              // that are tried
+constexpr std::size_t start_count = 16;                         // that are tried
 constexpr std::uint64_t first_start = std::uint64_t{1} << 63U;  // no sample's stream
 
 bool ends_loop(const Molecule& molecule, std::size_t closure) {
-  const auto [a, b] = molecule.closure_atoms()[closure];
+  const auto [i, j] = molecule.closure_atoms()[closure];
   const Structure& s = molecule.structure();
-  const std::uint32_t residue = s.atoms[a].residue;
-  const auto named = [&](const char* first, const char* second) {
-    return s.atoms[a].name == first && s.atoms[b].name == second;
-  };
-  return residue == s.atoms[b].residue && (named("CA", "C") || named("C", "CA")) &&
+  const Atom &a = s.atoms[i], &b = s.atoms[j];
+  const std::uint32_t residue = a.residue;
+  const auto named = [&](const char* first, const char* second) { return a.name == first && b.name == second; };
+  return residue == b.residue && (named("CA", "C") || named("C", "CA")) &&
          std::ranges::any_of(molecule.loops(), [&](const Loop& loop) { return loop.last == residue; });
 }
 
@@ -82,7 +81,7 @@ std::vector<std::size_t> find_unclosable(const Molecule& molecule, const DofSele
   while (!kept.empty()) {
     ClosureSolver solver(molecule.model().tree(), selection, kept);
     std::vector<std::size_t> failures(kept.size(), 0);
-    for (std::uint64_t k = 0; k < starts; ++k) {
+    for (std::uint64_t k = 0; k < start_count; ++k) {
       std::vector<double> q = StartStream(sampling, first_start + k, molecule, selection, ranges).next(true);
       if (solver.close(q)) {
         std::ranges::sort(dropped);

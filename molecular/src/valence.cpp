@@ -12,7 +12,7 @@ namespace hinge::molecular {
 
 namespace {
 
-constexpr int tetrahedral = 4, planar = 3, linear = 2, end = 1;
+constexpr int tetrahedral = 4, planar = 3, linear = 2, terminal = 1;
 
 class Valences {
  public:
@@ -40,7 +40,7 @@ class Valences {
     else if (element == "P")
       v = {4, tetrahedral};
     else if (element == "H" || element == "F" || element == "Cl" || element == "Br" || element == "I")
-      v = {1, end};
+      v = {1, terminal};
     v.present = static_cast<int>(near_[i].size());
     return v;
   }

@@ -54,10 +54,10 @@ class Bridge {
   }
   double opened(const std::vector<Vec3>& x) const {
     double worst = 0.0;
-    for (const auto& [a, b] : {std::pair(1, 3), std::pair(0, 3), std::pair(1, 2)}) {
-      const auto length = [&](const std::vector<Vec3>& at) {
-        return norm(Vec3(at[atoms_[static_cast<std::size_t>(a)]] - at[atoms_[static_cast<std::size_t>(b)]]));
-      };
+    for (const auto& ends : {std::pair(1, 3), std::pair(0, 3), std::pair(1, 2)}) {
+      const std::uint32_t a = atoms_[static_cast<std::size_t>(ends.first)];
+      const std::uint32_t b = atoms_[static_cast<std::size_t>(ends.second)];
+      const auto length = [a, b](const std::vector<Vec3>& at) { return norm(Vec3(at[a] - at[b])); };
       worst = std::max(worst, std::abs(length(x) - length(s_.models.front())));
     }
     return worst;
