@@ -23,7 +23,8 @@ function(hinge_add_tool tool library)
   # Programs of other instruction sets are run only when they were built from the same sources.
   set(build_id ${CMAKE_CURRENT_BINARY_DIR}/build_id.cpp)
   set(write_build_id ${PROJECT_SOURCE_DIR}/.cmake/write_build_id.cmake)
-  file(GLOB_RECURSE hashed CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/*.hpp include/*.hpp src/*.[hc]pp apps/*.[hc]pp)
+  file(GLOB_RECURSE hashed CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/*.hpp include/*.hpp src/*.[hc]pp
+       apps/*.[hc]pp)
   add_custom_command(OUTPUT ${build_id} DEPENDS ${hashed} ${write_build_id} VERBATIM
                      COMMAND ${CMAKE_COMMAND} -DOUT=${build_id} -DTOOL=${tool} -DVERSION=${PROJECT_VERSION}
                              -DROOT=${PROJECT_SOURCE_DIR} -DFOLDER=${CMAKE_CURRENT_SOURCE_DIR} -P ${write_build_id})
@@ -52,7 +53,7 @@ function(hinge_add_tool tool library)
       add_executable(${tool}-${name} ${sources} ${library_sources})
       set_target_properties(${tool}-${name} PROPERTIES UNITY_BUILD_BATCH_SIZE 0)
       target_compile_options(${tool}-${name} PRIVATE -march=${level})
-      target_include_directories(${tool}-${name} PRIVATE include)
+      target_include_directories(${tool}-${name} PRIVATE include src)
       target_include_directories(${tool}-${name} SYSTEM PRIVATE ${needs_SYSTEM_INCLUDES})
       target_link_libraries(${tool}-${name} PRIVATE ${libraries} ${needs_LIBRARIES})
       add_dependencies(${tool} ${tool}-${name})

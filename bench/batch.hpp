@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "hinge/ensemble/state_batch.hpp"
+#include "hinge/batch/state_batch.hpp"
 #include "scene.hpp"
 #include "timing.hpp"
 

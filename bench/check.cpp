@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "contestant.hpp"
-#include "hinge/engine/brute/brute.hpp"
+#include "hinge/engine/brute.hpp"
 #include "reference.hpp"
 #include "results.hpp"
 #include "scene.hpp"

@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "hinge/engine/lazy/lazy.hpp"
-#include "hinge/engine/wide/wide.hpp"
+#include "hinge/engine/lazy.hpp"
+#include "hinge/engine/wide.hpp"
 #include "oracle/fcl_oracle.hpp"
 #include "peers/brute_simd.hpp"
 #include "peers/chain_tree.hpp"

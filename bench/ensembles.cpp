@@ -23,8 +23,8 @@
 #include <utility>
 #include <vector>
 
+#include "hinge/batch/ensemble.hpp"
 #include "hinge/core/philox.hpp"
-#include "hinge/ensemble/ensemble.hpp"
 #include "hinge/molecular/checker.hpp"
 #include "hinge/molecular/ideal_protein.hpp"
 #include "hinge/molecular/sampler.hpp"

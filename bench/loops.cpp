@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "hinge/core/philox.hpp"
+#include "hinge/detail/kinematics/pivot_closure.hpp"
 #include "hinge/kinematics/closure_solver.hpp"
-#include "hinge/kinematics/pivot_closure.hpp"
 #include "hinge/molecular/closed_sampler.hpp"
 #include "hinge/molecular/loop.hpp"
 #include "hinge/molecular/molecule.hpp"

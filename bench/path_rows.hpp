@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "hinge/core/philox.hpp"
-#include "hinge/motion/certified_path.hpp"
-#include "hinge/motion/check_sampled.hpp"
+#include "hinge/path/certified_path.hpp"
+#include "hinge/path/check_sampled.hpp"
 #include "results.hpp"
 #include "scene.hpp"
 #include "timing.hpp"

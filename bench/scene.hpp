@@ -16,9 +16,9 @@
 #include <utility>
 #include <vector>
 
-#include "hinge/engine/lazy/lazy.hpp"
-#include "hinge/engine/wide/wide.hpp"
-#include "hinge/ensemble/state_batch.hpp"
+#include "hinge/batch/state_batch.hpp"
+#include "hinge/engine/lazy.hpp"
+#include "hinge/engine/wide.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/molecule.hpp"

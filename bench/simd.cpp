@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "hinge/bounds/float_box.hpp"
-#include "hinge/simd/instruction_set.hpp"
+#include "hinge/detail/bounds/float_box.hpp"
+#include "hinge/detail/simd/instruction_set.hpp"
 #include "simd/kernels.hpp"
 
 namespace {

@@ -13,16 +13,16 @@
 #include <utility>
 #include <vector>
 
+#include "hinge/batch/sphere_batch.hpp"
 #include "hinge/core/philox.hpp"
-#include "hinge/engine/brute/brute.hpp"
-#include "hinge/ensemble/sphere_batch.hpp"
+#include "hinge/detail/simd/instruction_set.hpp"
+#include "hinge/engine/brute.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/robotics/read_srdf.hpp"
 #include "hinge/robotics/read_urdf.hpp"
 #include "hinge/robotics/robot.hpp"
 #include "hinge/robotics/sphere_model.hpp"
 #include "hinge/robotics/tested_pairs.hpp"
-#include "hinge/simd/instruction_set.hpp"
 #include "robots/robot_timing.hpp"
 
 namespace {

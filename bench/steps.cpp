@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hinge/engine/wide/wide.hpp"
+#include "hinge/engine/wide.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/ideal_protein.hpp"

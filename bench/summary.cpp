@@ -12,7 +12,7 @@
 
 #include "batch.hpp"
 #include "contestant.hpp"
-#include "hinge/engine/brute/brute.hpp"
+#include "hinge/engine/brute.hpp"
 #include "moves.hpp"
 #include "path_rows.hpp"
 #include "reference.hpp"

@@ -11,7 +11,7 @@
 #include "hinge/bounds/aabb.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/core/vec3.hpp"
-#include "hinge/primitive/batch.hpp"
+#include "hinge/detail/primitive/batch.hpp"
 #include "hinge/primitive/point.hpp"
 
 namespace hinge::bench {

@@ -12,11 +12,11 @@
 #include "hinge/bounds/aabb.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/core/vec3.hpp"
-#include "hinge/primitive/pair_queue.hpp"
+#include "hinge/detail/primitive/pair_queue.hpp"
+#include "hinge/detail/primitive/triangle_corners.hpp"
+#include "hinge/detail/primitive/triangle_distance.hpp"
+#include "hinge/detail/primitive/triangle_leaf.hpp"
 #include "hinge/primitive/triangle.hpp"
-#include "hinge/primitive/triangle_corners.hpp"
-#include "hinge/primitive/triangle_distance.hpp"
-#include "hinge/primitive/triangle_leaf.hpp"
 
 namespace hinge::bench {
 

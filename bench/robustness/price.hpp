@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "hinge/core/id.hpp"
-#include "hinge/engine/wide/wide.hpp"
+#include "hinge/engine/wide.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/policy/distance_matrix.hpp"
 #include "hinge/robotics/tested_pairs.hpp"

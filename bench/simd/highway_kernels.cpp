@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "hinge/bounds/float_box.hpp"
-#include "hinge/simd/instruction_set.hpp"
+#include "hinge/detail/bounds/float_box.hpp"
+#include "hinge/detail/simd/instruction_set.hpp"
 #include "simd/kernels.hpp"
 
 namespace hinge::bench {

@@ -3,10 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "hinge/bounds/float_box.hpp"
-#include "hinge/simd/gather_bits.hpp"
-#include "hinge/simd/instruction_set.hpp"
-#include "hinge/simd/lanes.hpp"
+#include "hinge/detail/bounds/float_box.hpp"
+#include "hinge/detail/simd/gather_bits.hpp"
+#include "hinge/detail/simd/instruction_set.hpp"
+#include "hinge/detail/simd/lanes.hpp"
 #include "simd/kernels.hpp"
 
 namespace hinge::bench {

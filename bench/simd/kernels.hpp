@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "hinge/bounds/float_box.hpp"
-#include "hinge/simd/instruction_set.hpp"
+#include "hinge/detail/bounds/float_box.hpp"
+#include "hinge/detail/simd/instruction_set.hpp"
 
 namespace hinge::bench {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A path that sampling calls free, proved, and one that sampling calls free although it is not.
 #include <hinge/hierarchy.hpp>
-#include <hinge/motion/certified_path.hpp>
-#include <hinge/motion/check_sampled.hpp>
+#include <hinge/path/certified_path.hpp>
+#include <hinge/path/check_sampled.hpp>
 #include <hinge/policy/different_links.hpp>
 #include <hinge/primitive/sphere.hpp>
 #include <vector>

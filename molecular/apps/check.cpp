@@ -13,11 +13,11 @@
 
 #include "conformation_file.hpp"
 #include "frames.hpp"
+#include "hinge/batch/ensemble.hpp"
 #include "hinge/core/error.hpp"
-#include "hinge/ensemble/ensemble.hpp"
 #include "hinge/molecular/bond_gauge.hpp"
 #include "hinge/molecular/severity.hpp"
-#include "hinge/tool/progress_bar.hpp"
+#include "hinge_tools/progress_bar.hpp"
 #include "options.hpp"
 #include "report.hpp"
 #include "results.hpp"

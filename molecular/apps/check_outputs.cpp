@@ -7,7 +7,7 @@
 
 #include "conformation_file.hpp"
 #include "hinge/core/error.hpp"
-#include "hinge/tool/check_output.hpp"
+#include "hinge_tools/check_output.hpp"
 #include "options.hpp"
 
 namespace biocd {

@@ -15,7 +15,7 @@
 #include "hinge/core/vec3.hpp"
 #include "hinge/molecular/write_structure.hpp"
 #include "hinge/molecular/write_trajectory.hpp"
-#include "hinge/tool/complete_file.hpp"
+#include "hinge_tools/complete_file.hpp"
 #include "options.hpp"
 
 namespace biocd {

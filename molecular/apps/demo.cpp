@@ -16,12 +16,12 @@
 #include <utility>
 #include <vector>
 
+#include "hinge/batch/ensemble.hpp"
 #include "hinge/core/error.hpp"
-#include "hinge/ensemble/ensemble.hpp"
 #include "hinge/molecular/sampler.hpp"
 #include "hinge/molecular/selection.hpp"
 #include "hinge/molecular/write_structure.hpp"
-#include "hinge/tool/complete_file.hpp"
+#include "hinge_tools/complete_file.hpp"
 #include "options.hpp"
 #include "plot_svg.hpp"
 

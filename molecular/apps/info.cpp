@@ -8,7 +8,7 @@
 #include <string>
 
 #include "hinge/molecular/summary.hpp"
-#include "hinge/tool/json_text.hpp"
+#include "hinge_tools/json_text.hpp"
 #include "options.hpp"
 #include "report.hpp"
 #include "rigid_ensemble.hpp"

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
+#include "hinge/detail/primitive/grid_point.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/loop.hpp"
 #include "hinge/molecular/selection.hpp"
-#include "hinge/primitive/grid_point.hpp"
 #include "hinge/primitive/point.hpp"
 #include "options.hpp"
 #include "rigid_ensemble.hpp"

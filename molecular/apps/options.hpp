@@ -17,8 +17,8 @@
 #include "hinge/molecular/read_structure.hpp"
 #include "hinge/molecular/sampler.hpp"
 #include "hinge/molecular/selection.hpp"
-#include "hinge/motion/path_answer.hpp"
-#include "hinge/tool/run_tool.hpp"
+#include "hinge/path/path_answer.hpp"
+#include "hinge_tools/run_tool.hpp"
 
 namespace biocd {
 

@@ -13,8 +13,8 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/path_checker.hpp"
-#include "hinge/motion/path_answer.hpp"
-#include "hinge/tool/json_text.hpp"
+#include "hinge/path/path_answer.hpp"
+#include "hinge_tools/json_text.hpp"
 #include "options.hpp"
 #include "path_end.hpp"
 #include "report.hpp"

@@ -12,7 +12,7 @@
 
 #include "hinge/core/id.hpp"
 #include "hinge/molecular/severity.hpp"
-#include "hinge/tool/csv_field.hpp"
+#include "hinge_tools/csv_field.hpp"
 #include "scene.hpp"
 
 namespace biocd {

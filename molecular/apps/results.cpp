@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "hinge/core/error.hpp"
-#include "hinge/tool/json_text.hpp"
+#include "hinge_tools/json_text.hpp"
 
 namespace biocd {
 

@@ -12,13 +12,13 @@
 #include <vector>
 
 #include "conformation_file.hpp"
+#include "hinge/batch/ensemble.hpp"
 #include "hinge/core/error.hpp"
-#include "hinge/ensemble/ensemble.hpp"
 #include "hinge/molecular/closed_sampler.hpp"
 #include "hinge/molecular/sampler.hpp"
-#include "hinge/tool/complete_file.hpp"
-#include "hinge/tool/csv_field.hpp"
-#include "hinge/tool/progress_bar.hpp"
+#include "hinge_tools/complete_file.hpp"
+#include "hinge_tools/csv_field.hpp"
+#include "hinge_tools/progress_bar.hpp"
 #include "options.hpp"
 #include "report.hpp"
 #include "results.hpp"

@@ -14,8 +14,8 @@
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/join_structures.hpp"
 #include "hinge/molecular/part.hpp"
-#include "hinge/tool/csv_field.hpp"
-#include "hinge/tool/number_option.hpp"
+#include "hinge_tools/csv_field.hpp"
+#include "hinge_tools/number_option.hpp"
 
 namespace biocd {
 

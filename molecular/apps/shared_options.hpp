@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "hinge/tool/number_option.hpp"
+#include "hinge_tools/number_option.hpp"
 #include "options.hpp"
 
 namespace biocd {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "hinge/molecular/checker.hpp"
-#include "hinge/tool/frequent_keys.hpp"
+#include "hinge_tools/frequent_keys.hpp"
 #include "report.hpp"
 
 namespace biocd {

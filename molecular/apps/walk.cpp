@@ -13,8 +13,8 @@
 #include "hinge/moves/move_checker.hpp"
 #include "hinge/moves/move_closer.hpp"
 #include "hinge/moves/random_move.hpp"
-#include "hinge/tool/json_text.hpp"
-#include "hinge/tool/progress_bar.hpp"
+#include "hinge_tools/json_text.hpp"
+#include "hinge_tools/progress_bar.hpp"
 #include "options.hpp"
 #include "report.hpp"
 

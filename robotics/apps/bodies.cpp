@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
-#include "hinge/core/sincos.hpp"
+#include "hinge/detail/core/sincos.hpp"
 #include "hinge/robotics/read_mesh.hpp"
-#include "hinge/tool/number_option.hpp"
+#include "hinge_tools/number_option.hpp"
 
 namespace robocd {
 

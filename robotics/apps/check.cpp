@@ -14,11 +14,11 @@
 
 #include "answer.hpp"
 #include "configurations.hpp"
-#include "hinge/ensemble/ensemble.hpp"
-#include "hinge/tool/complete_file.hpp"
-#include "hinge/tool/csv_field.hpp"
-#include "hinge/tool/json_text.hpp"
-#include "hinge/tool/progress_bar.hpp"
+#include "hinge/batch/ensemble.hpp"
+#include "hinge_tools/complete_file.hpp"
+#include "hinge_tools/csv_field.hpp"
+#include "hinge_tools/json_text.hpp"
+#include "hinge_tools/progress_bar.hpp"
 #include "report.hpp"
 
 namespace robocd {

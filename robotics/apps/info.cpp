@@ -12,7 +12,7 @@
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 #include "hinge/robotics/containment.hpp"
-#include "hinge/tool/json_text.hpp"
+#include "hinge_tools/json_text.hpp"
 #include "options.hpp"
 #include "report.hpp"
 

@@ -15,7 +15,7 @@
 #include "hinge/robotics/read_urdf.hpp"
 #include "hinge/robotics/tessellate.hpp"
 #include "hinge/robotics/tested_pairs.hpp"
-#include "hinge/tool/check_output.hpp"
+#include "hinge_tools/check_output.hpp"
 #include "options.hpp"
 
 namespace robocd {

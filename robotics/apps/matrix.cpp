@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "hinge/robotics/write_srdf.hpp"
-#include "hinge/tool/complete_file.hpp"
-#include "hinge/tool/progress_bar.hpp"
+#include "hinge_tools/complete_file.hpp"
+#include "hinge_tools/progress_bar.hpp"
 #include "options.hpp"
 
 namespace robocd {

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "bodies.hpp"
-#include "hinge/motion/path_answer.hpp"
+#include "hinge/path/path_answer.hpp"
 #include "hinge/robotics/collision_matrix.hpp"
 #include "hinge/robotics/link_pairs.hpp"
 #include "hinge/robotics/read_srdf.hpp"
 #include "hinge/robotics/robot.hpp"
-#include "hinge/tool/run_tool.hpp"
+#include "hinge_tools/run_tool.hpp"
 
 namespace robocd {
 

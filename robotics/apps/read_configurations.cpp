@@ -12,8 +12,8 @@
 #include <system_error>
 
 #include "hinge/core/error.hpp"
-#include "hinge/tool/input_file.hpp"
-#include "hinge/tool/number_option.hpp"
+#include "hinge_tools/input_file.hpp"
+#include "hinge_tools/number_option.hpp"
 
 namespace robocd {
 

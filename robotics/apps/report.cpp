@@ -11,7 +11,7 @@
 #include "hinge/core/vec3.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
-#include "hinge/tool/csv_field.hpp"
+#include "hinge_tools/csv_field.hpp"
 
 namespace robocd {
 

@@ -8,12 +8,12 @@
 #include <string>
 
 #include "hinge/core/error.hpp"
-#include "hinge/query/mode.hpp"
-#include "hinge/simd/instruction_set.hpp"
-#include "hinge/tool/number_option.hpp"
-#include "hinge/tool/pick_instruction_set.hpp"
-#include "hinge/tool/run_tool.hpp"
+#include "hinge/detail/simd/instruction_set.hpp"
 #include "hinge/version.hpp"
+#include "hinge_tools/mode.hpp"
+#include "hinge_tools/number_option.hpp"
+#include "hinge_tools/pick_instruction_set.hpp"
+#include "hinge_tools/run_tool.hpp"
 #include "options.hpp"
 
 namespace {

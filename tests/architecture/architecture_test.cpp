@@ -70,9 +70,9 @@ TEST(Presets, HaveAFolderEach) {
 std::size_t floor_breaches(const std::string& path, const std::string& line) {
   SourceTree tree = {{"include/hinge/version.hpp", {}},          {"include/hinge/core/vec3.hpp", {}},
                      {"include/hinge/policy/primitive.hpp", {}}, {"include/hinge/kinematics/joint.hpp", {}},
-                     {"include/hinge/engine/engine.hpp", {}},    {"include/hinge/engine/lazy/lazy.hpp", {}},
+                     {"include/hinge/engine/engine.hpp", {}},    {"include/hinge/engine/lazy.hpp", {}},
                      {"include/hinge/hierarchy.hpp", {}},        {"molecular/include/hinge/molecular/atom.hpp", {}},
-                     {"molecular/src/read_file.hpp", {}},        {"robotics/include/hinge/robotics/link.hpp", {}}};
+                     {"molecular/src/io/read_file.hpp", {}},     {"robotics/include/hinge/robotics/link.hpp", {}}};
   tree[path] = {line};
   return architecture::floor_violations(tree).size();
 }
@@ -81,24 +81,24 @@ TEST(PlantedInclude, DownwardIsFine) {
   EXPECT_EQ(floor_breaches("include/hinge/policy/x.hpp", "#include \"hinge/core/vec3.hpp\""), 0U);
   EXPECT_EQ(floor_breaches("include/hinge/core/x.hpp", "#include \"hinge/version.hpp\""), 0U);
   EXPECT_EQ(floor_breaches("include/hinge/policy/x.hpp", "#include \"hinge/policy/primitive.hpp\""), 0U);
-  EXPECT_EQ(floor_breaches("include/hinge/engine/brute/x.hpp", "#include \"hinge/engine/engine.hpp\""), 0U);
+  EXPECT_EQ(floor_breaches("include/hinge/engine/brute.hpp", "#include \"hinge/engine/engine.hpp\""), 0U);
   EXPECT_EQ(floor_breaches("include/hinge/core/x.hpp", "#include <Eigen/Core>"), 0U);
-  EXPECT_EQ(floor_breaches("include/hinge/simd/x.hpp", "#include <immintrin.h>"), 0U);
-  EXPECT_EQ(floor_breaches("molecular/src/x.cpp", "#include \"read_file.hpp\""), 0U);
-  EXPECT_EQ(floor_breaches("molecular/src/x.cpp", "#include \"hinge/hierarchy.hpp\""), 0U);
+  EXPECT_EQ(floor_breaches("include/hinge/detail/simd/x.hpp", "#include <immintrin.h>"), 0U);
+  EXPECT_EQ(floor_breaches("molecular/src/clash/x.cpp", "#include \"io/read_file.hpp\""), 0U);
+  EXPECT_EQ(floor_breaches("molecular/src/io/x.cpp", "#include \"hinge/hierarchy.hpp\""), 0U);
 }
 
 TEST(PlantedInclude, UpwardIsCaught) {
   EXPECT_EQ(floor_breaches("include/hinge/core/x.hpp", "#include \"hinge/policy/primitive.hpp\""), 1U);
-  EXPECT_EQ(floor_breaches("include/hinge/engine/x.hpp", "#include \"hinge/engine/lazy/lazy.hpp\""), 1U);
+  EXPECT_EQ(floor_breaches("include/hinge/engine/x.hpp", "#include \"hinge/engine/lazy.hpp\""), 1U);
   EXPECT_EQ(floor_breaches("include/hinge/query/x.hpp", "  #  include \"hinge/hierarchy.hpp\"  // why not"), 1U);
   EXPECT_EQ(floor_breaches("include/hinge/hierarchy.hpp", "#include \"hinge/molecular/atom.hpp\""), 1U);
 }
 
 TEST(PlantedInclude, SidewaysIsCaught) {
   EXPECT_EQ(floor_breaches("include/hinge/policy/x.hpp", "#include \"hinge/kinematics/joint.hpp\""), 1U);
-  EXPECT_EQ(floor_breaches("include/hinge/engine/wide/x.hpp", "#include \"hinge/engine/lazy/lazy.hpp\""), 1U);
-  EXPECT_EQ(floor_breaches("molecular/src/x.cpp", "#include \"hinge/robotics/link.hpp\""), 1U);
+  EXPECT_EQ(floor_breaches("include/hinge/detail/engine/wide/x.hpp", "#include \"hinge/engine/lazy.hpp\""), 1U);
+  EXPECT_EQ(floor_breaches("molecular/src/io/x.cpp", "#include \"hinge/robotics/link.hpp\""), 1U);
 }
 
 TEST(PlantedInclude, StrangersAreCaught) {
@@ -135,7 +135,7 @@ TEST(PlantedBreach, IsCaught) {
   EXPECT_EQ(convention_breaches(path, {"#define HINGE_ASSERT(x)", "// virtual, in words", "#include <cmath>"}), 0U);
   EXPECT_EQ(convention_breaches(path, {"#define PIN 1"}), 1U);
   EXPECT_EQ(convention_breaches(path, {"#ifdef __AVX2__"}), 1U);
-  EXPECT_EQ(convention_breaches("include/hinge/simd/pin.hpp", {"#ifdef __AVX2__"}), 0U);
+  EXPECT_EQ(convention_breaches("include/hinge/detail/simd/pin.hpp", {"#ifdef __AVX2__"}), 0U);
   EXPECT_EQ(convention_breaches(path, {"using namespace hinge;"}), 1U);
   EXPECT_EQ(convention_breaches(path, {"  virtual ~Pin();"}), 1U);
   EXPECT_EQ(convention_breaches(path, std::vector<std::string>(architecture::longest_file, "")), 1U);

@@ -28,7 +28,7 @@ inline std::vector<std::string> convention_violations(const SourceTree& tree) {
       violations.push_back(path + ": " + what);
     };
     const bool is_header = path.ends_with(".hpp");
-    const bool is_simd = path.starts_with("include/hinge/simd/");
+    const bool is_simd = path.starts_with("include/hinge/detail/simd/");
     if (std::regex_search(path, vague)) report("names nothing: what verb or noun lives there?");
     if (lines.size() > longest_file) report("has " + std::to_string(lines.size()) + " lines, more than 300");
     if (lines.empty() || lines[0] != "// SPDX-License-Identifier: BSD-3-Clause")

@@ -12,19 +12,23 @@
 namespace architecture {
 
 /// Folder or file under include/hinge, or module beside it, to its floor. Folders on one floor are blind to each other;
-/// the engines see what they share in engine/ itself. version.hpp is free: seen by all, seeing none.
+/// the engines see what they share in engine/ itself. version.hpp is free: seen by all, seeing none. What stands under
+/// include/hinge/detail is on the floor of its public folder. The core is below hinge_tools, which serves the tools and
+/// is not installed.
 inline const std::map<std::string, int>& floors() {
   static const std::map<std::string, int> table = [] {
     const std::vector<std::vector<std::string>> by_floor = {{"core"},
                                                             {"simd", "exact"},
-                                                            {"bounds", "tool"},
+                                                            {"bounds"},
                                                             {"policy", "kinematics"},
                                                             {"primitive"},
                                                             {"model"},
                                                             {"query"},
                                                             {"engine", "engine/brute", "engine/lazy", "engine/wide"},
                                                             {"hierarchy.hpp"},
-                                                            {"motion", "ensemble", "moves"},
+                                                            {"path", "batch", "moves"},
+                                                            {"hinge.hpp"},
+                                                            {"hinge_tools"},
                                                             {"molecular", "robotics"}};
     std::map<std::string, int> rows = {{"version.hpp", -1}};
     for (std::size_t floor = 0; floor < by_floor.size(); ++floor) {
@@ -40,9 +44,14 @@ inline std::string row_of(const std::string& path) {
   for (const char* module : {"molecular", "robotics"}) {
     if (path.starts_with(std::string(module) + "/")) return module;
   }
+  if (path.starts_with("include/hinge_tools/")) return "hinge_tools";
   static const std::string root = "include/hinge/";
   if (!path.starts_with(root)) return "";
   std::string row = path.substr(root.size());
+  if (row.starts_with("detail/")) row = row.substr(std::string("detail/").size());
+  // The public header engine/x.hpp and the folder detail/engine/x are one row.
+  if (row.starts_with("engine/") && row.ends_with(".hpp") && floors().contains(row.substr(0, row.size() - 4)))
+    return row.substr(0, row.size() - 4);
   // A folder without a row of its own belongs to the one it is in.
   while (!floors().contains(row)) {
     const std::size_t slash = row.rfind('/');
@@ -54,7 +63,11 @@ inline std::string row_of(const std::string& path) {
 
 /// The path from the root of the repository that a quoted include names, or "" when no such file is in the tree.
 inline std::string resolve(const SourceTree& tree, const std::string& from, const std::string& name) {
-  for (const char* root : {"include/", "molecular/include/", "robotics/include/"}) {
+  std::vector<std::string> roots = {"include/", "molecular/include/", "robotics/include/"};
+  for (const char* module : {"molecular/", "robotics/"}) {  // src is a root for its own module alone
+    if (from.starts_with(module)) roots.push_back(std::string(module) + "src/");
+  }
+  for (const std::string& root : roots) {
     if (tree.contains(root + name)) return root + name;
   }
   const std::string beside = from.substr(0, from.rfind('/') + 1) + name;
@@ -78,9 +91,9 @@ inline std::vector<std::string> floor_violations(const SourceTree& tree) {
         const bool is_standard = include.name.find_first_of("/.") == std::string::npos;
         const bool is_isa =
             row == "simd" && (include.name.ends_with("intrin.h") || include.name == "experimental/simd");
-        const bool is_process =
-            row == "tool" && (include.name == "unistd.h" || include.name == "fcntl.h" || include.name == "sys/stat.h");
-        const bool is_threads = row == "ensemble" && include.name.starts_with("tbb/");
+        const bool is_process = row == "hinge_tools" && (include.name == "unistd.h" || include.name == "fcntl.h" ||
+                                                         include.name == "sys/stat.h");
+        const bool is_threads = row == "batch" && include.name.starts_with("tbb/");
         if (is_core && !is_standard && !is_isa && !is_process && !is_threads && !include.name.starts_with("Eigen/")) {
           violations.push_back(path + " includes <" + include.name +
                                ">: the core knows the standard library and Eigen");

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-#include "hinge/bounds/float_box.hpp"
+#include "hinge/detail/bounds/float_box.hpp"
 
 namespace hinge {
 namespace widened_test {

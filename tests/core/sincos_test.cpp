@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "hinge/core/sincos.hpp"
+#include "hinge/detail/core/sincos.hpp"
 
 #include <gtest/gtest.h>
 

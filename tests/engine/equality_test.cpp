@@ -7,7 +7,7 @@
 
 #include "engine/random_mechanism.hpp"
 #include "engine/side_by_side.hpp"
-#include "hinge/engine/lazy/lazy.hpp"
+#include "hinge/engine/lazy.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/primitive/point.hpp"
 

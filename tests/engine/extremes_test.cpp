@@ -9,7 +9,7 @@
 
 #include "engine/fast_sides.hpp"
 #include "engine/random_mechanism.hpp"
-#include "hinge/engine/brute/brute.hpp"
+#include "hinge/engine/brute.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/policy/pair_filter.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "hinge/engine/lazy_tree.hpp"
+#include "hinge/detail/engine/lazy_tree.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "engine/random_mechanism.hpp"
-#include "hinge/engine/traversal.hpp"
+#include "hinge/detail/engine/traversal.hpp"
 
 namespace hinge {
 namespace lazy_tree_test {

@@ -10,7 +10,7 @@
 
 #include "engine/fast_sides.hpp"
 #include "engine/random_mechanism.hpp"
-#include "hinge/engine/brute/brute.hpp"
+#include "hinge/engine/brute.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/primitive/capsule.hpp"
 #include "hinge/primitive/point.hpp"

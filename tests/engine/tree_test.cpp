@@ -13,9 +13,9 @@
 
 #include "engine/random_mechanism.hpp"
 #include "engine/side_by_side.hpp"
-#include "hinge/engine/wide/tree/earlier_parts.hpp"
-#include "hinge/engine/wide/tree/static_tree.hpp"
-#include "hinge/engine/wide/tree/tree_parts.hpp"
+#include "hinge/detail/engine/wide/tree/earlier_parts.hpp"
+#include "hinge/detail/engine/wide/tree/static_tree.hpp"
+#include "hinge/detail/engine/wide/tree/tree_parts.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"

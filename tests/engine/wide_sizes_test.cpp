@@ -13,12 +13,12 @@
 
 #include "engine/random_mechanism.hpp"
 #include "engine/sized_models.hpp"
-#include "hinge/engine/brute/brute.hpp"
-#include "hinge/engine/wide/block_layout.hpp"
-#include "hinge/engine/wide/wide.hpp"
+#include "hinge/detail/engine/wide/block_layout.hpp"
+#include "hinge/detail/simd/lanes.hpp"
+#include "hinge/engine/brute.hpp"
+#include "hinge/engine/wide.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/primitive/point.hpp"
-#include "hinge/simd/lanes.hpp"
 
 namespace hinge {
 namespace wide_sizes_test {

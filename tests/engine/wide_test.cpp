@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // engine/wide against brute force: random mechanisms with small, large and very large groups.
-#include "hinge/engine/wide/wide.hpp"
+#include "hinge/engine/wide.hpp"
 
 #include <gtest/gtest.h>
 

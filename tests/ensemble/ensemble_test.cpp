@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Many configurations: the same results in the same order on any number of threads, and nothing lost when one fails.
-#include "hinge/ensemble/ensemble.hpp"
+#include "hinge/batch/ensemble.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sphere models in lanes: the verdicts of single queries, lane by lane, also where spheres touch within an ulp.
-#include "hinge/ensemble/sphere_batch.hpp"
+#include "hinge/batch/sphere_batch.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 
 #include "engine/own_filters.hpp"
 #include "engine/random_mechanism.hpp"
-#include "hinge/engine/brute/brute.hpp"
+#include "hinge/engine/brute.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/policy/different_links.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Neighbouring configurations from one list: frames, verdicts and pairs of single queries, to the last bit.
-#include "hinge/ensemble/state_batch.hpp"
+#include "hinge/batch/state_batch.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,9 +18,9 @@
 
 #include "engine/own_filters.hpp"
 #include "engine/random_mechanism.hpp"
-#include "hinge/engine/brute/brute.hpp"
+#include "hinge/detail/kinematics/pose_source.hpp"
+#include "hinge/engine/brute.hpp"
 #include "hinge/hierarchy.hpp"
-#include "hinge/kinematics/pose_source.hpp"
 #include "hinge/primitive/sphere.hpp"
 
 namespace hinge {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Error-free transforms, whole numbers and orientations against Boost.Multiprecision.
-#include "hinge/exact/orient.hpp"
+#include "hinge/detail/exact/orient.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "engine/random_mechanism.hpp"
-#include "hinge/exact/error_free.hpp"
-#include "hinge/exact/integer.hpp"
+#include "hinge/detail/exact/error_free.hpp"
+#include "hinge/detail/exact/integer.hpp"
 
 #if __has_include(<boost/multiprecision/cpp_int.hpp>)
 #include <boost/multiprecision/cpp_int.hpp>

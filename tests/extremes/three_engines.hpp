@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "hinge/engine/brute/brute.hpp"
-#include "hinge/engine/lazy/lazy.hpp"
+#include "hinge/engine/brute.hpp"
+#include "hinge/engine/lazy.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/primitive/point.hpp"
 

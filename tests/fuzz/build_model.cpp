@@ -14,9 +14,9 @@
 #include "fuzz/numbers.hpp"
 #include "fuzz/require.hpp"
 #include "fuzz/scene.hpp"
-#include "hinge/core/finite.hpp"
-#include "hinge/engine/brute/brute.hpp"
-#include "hinge/engine/wide/wide.hpp"
+#include "hinge/detail/core/finite.hpp"
+#include "hinge/engine/brute.hpp"
+#include "hinge/engine/wide.hpp"
 #include "hinge/hierarchy.hpp"
 
 namespace {

@@ -18,9 +18,9 @@
 #include "fuzz/numbers.hpp"
 #include "fuzz/require.hpp"
 #include "fuzz/scene.hpp"
-#include "hinge/engine/brute/brute.hpp"
-#include "hinge/engine/lazy/lazy.hpp"
-#include "hinge/engine/wide/wide.hpp"
+#include "hinge/engine/brute.hpp"
+#include "hinge/engine/lazy.hpp"
+#include "hinge/engine/wide.hpp"
 #include "hinge/hierarchy.hpp"
 
 namespace fuzz {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Target: the check of STL files that stands before assimp; what it lets pass has the size it announces.
-#include "check_stl.hpp"
+#include "mesh/check_stl.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Target: polygons cut into triangles, flat or not, with repeated vertices and extreme coordinates.
-#include "cut_polygon.hpp"
+#include "mesh/cut_polygon.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
-#include "hinge/engine/brute/brute.hpp"
+#include "hinge/engine/brute.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/policy/different_links.hpp"
 #include "hinge/primitive/point.hpp"

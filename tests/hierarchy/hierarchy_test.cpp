@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "engine/random_mechanism.hpp"
-#include "hinge/engine/brute/brute.hpp"
-#include "hinge/engine/lazy/lazy.hpp"
-#include "hinge/engine/wide/wide.hpp"
+#include "hinge/engine/brute.hpp"
+#include "hinge/engine/lazy.hpp"
+#include "hinge/engine/wide.hpp"
 #include "hinge/primitive/point.hpp"
 #include "hinge/primitive/sphere.hpp"
 

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <cstdio>
 
-#include "hinge/engine/brute/brute.hpp"
-#include "hinge/engine/wide/wide.hpp"
-#include "hinge/simd/instruction_set.hpp"
+#include "hinge/detail/simd/instruction_set.hpp"
+#include "hinge/engine/brute.hpp"
+#include "hinge/engine/wide.hpp"
 #include "isa/mechanism.hpp"
 #include "isa/ties.hpp"
 

@@ -8,11 +8,11 @@
 #include <cstdio>
 #include <vector>
 
-#include "hinge/engine/brute/brute.hpp"
-#include "hinge/engine/lazy/lazy.hpp"
-#include "hinge/engine/wide/wide.hpp"
-#include "hinge/ensemble/ensemble.hpp"
-#include "hinge/simd/instruction_set.hpp"
+#include "hinge/batch/ensemble.hpp"
+#include "hinge/detail/simd/instruction_set.hpp"
+#include "hinge/engine/brute.hpp"
+#include "hinge/engine/lazy.hpp"
+#include "hinge/engine/wide.hpp"
 #include "isa/answers.hpp"
 #include "isa/mechanism.hpp"
 #include "isa/ties.hpp"

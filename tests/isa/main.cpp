@@ -3,7 +3,7 @@
 // take the copy of answers.cpp. Exit status 0: the same answers; 1: others; 77: this CPU cannot tell.
 #include <cstdio>
 
-#include "hinge/simd/instruction_set.hpp"
+#include "hinge/detail/simd/instruction_set.hpp"
 #include "isa/answers.hpp"
 
 int main() {

@@ -12,8 +12,8 @@
 
 #include "engine/random_mechanism.hpp"
 #include "hinge/core/error.hpp"
+#include "hinge/detail/kinematics/rigid_cycles.hpp"
 #include "hinge/kinematics/closure_solver.hpp"
-#include "hinge/kinematics/rigid_cycles.hpp"
 
 namespace hinge {
 namespace closure_test {

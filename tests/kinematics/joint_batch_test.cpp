@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Joints computed eight at a time: the bits of one joint at a time, whatever the angles and whatever was asked before.
-#include "hinge/kinematics/joint_batch.hpp"
+#include "hinge/detail/kinematics/joint_batch.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "engine/random_mechanism.hpp"
-#include "hinge/kinematics/pose_source.hpp"
+#include "hinge/detail/kinematics/pose_source.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 
 namespace hinge {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/random_mechanism.hpp"
-#include "hinge/kinematics/pose_source.hpp"
+#include "hinge/detail/kinematics/pose_source.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 #include "hinge/primitive/point.hpp"
 

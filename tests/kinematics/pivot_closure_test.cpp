@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "engine/random_mechanism.hpp"
+#include "hinge/detail/kinematics/pivot_closure.hpp"
 #include "hinge/kinematics/closure_solver.hpp"
-#include "hinge/kinematics/pivot_closure.hpp"
 
 namespace hinge {
 namespace pivot_closure_test {

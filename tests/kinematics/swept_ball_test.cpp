@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "hinge/kinematics/swept_ball.hpp"
+#include "hinge/detail/kinematics/swept_ball.hpp"
 
 #include <gtest/gtest.h>
 

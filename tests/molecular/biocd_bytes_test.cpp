@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "hinge/detail/simd/instruction_set.hpp"
 #include "hinge/molecular/read_structure.hpp"
-#include "hinge/simd/instruction_set.hpp"
 #include "molecular/run_biocd.hpp"
 #include "molecular/test_files.hpp"
 #include "tool/foreign_programs.hpp"

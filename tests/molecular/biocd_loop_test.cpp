@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "hinge/simd/instruction_set.hpp"
+#include "hinge/detail/simd/instruction_set.hpp"
 #include "molecular/run_biocd.hpp"
 #include "molecular/test_files.hpp"
 

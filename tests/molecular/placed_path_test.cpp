@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "hinge/ensemble/state_batch.hpp"
+#include "hinge/batch/state_batch.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/ideal_protein.hpp"
@@ -18,7 +18,7 @@
 #include "hinge/molecular/radii.hpp"
 #include "hinge/molecular/sampler.hpp"
 #include "hinge/molecular/selection.hpp"
-#include "hinge/motion/certified_path.hpp"
+#include "hinge/path/certified_path.hpp"
 
 namespace hinge::molecular {
 namespace placed_path_test {

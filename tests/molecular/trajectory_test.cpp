@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "hinge/bounds/float_box.hpp"
 #include "hinge/core/error.hpp"
+#include "hinge/detail/bounds/float_box.hpp"
 #include "hinge/molecular/write_structure.hpp"
 #include "hinge/molecular/write_trajectory.hpp"
 #include "molecular/test_files.hpp"

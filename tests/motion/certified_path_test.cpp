@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Certified paths: what is called free is free at every state that is looked at, what collides does, bounds hold.
-#include "hinge/motion/certified_path.hpp"
+#include "hinge/path/certified_path.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,15 +16,15 @@
 #include <vector>
 
 #include "engine/random_mechanism.hpp"
-#include "hinge/engine/brute/brute.hpp"
-#include "hinge/engine/lazy/lazy.hpp"
-#include "hinge/engine/wide/wide.hpp"
+#include "hinge/detail/path/displacements.hpp"
+#include "hinge/detail/path/group_rates.hpp"
+#include "hinge/detail/path/near_links.hpp"
+#include "hinge/detail/path/relative_motion.hpp"
+#include "hinge/engine/brute.hpp"
+#include "hinge/engine/lazy.hpp"
+#include "hinge/engine/wide.hpp"
 #include "hinge/hierarchy.hpp"
-#include "hinge/motion/check_sampled.hpp"
-#include "hinge/motion/displacements.hpp"
-#include "hinge/motion/group_rates.hpp"
-#include "hinge/motion/near_links.hpp"
-#include "hinge/motion/relative_motion.hpp"
+#include "hinge/path/check_sampled.hpp"
 #include "hinge/policy/different_links.hpp"
 #include "hinge/policy/pair_filter.hpp"
 #include "hinge/primitive/capsule.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "hinge/motion/outline.hpp"
+#include "hinge/detail/path/outline.hpp"
 
 #include <gtest/gtest.h>
 

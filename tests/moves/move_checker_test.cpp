@@ -17,9 +17,9 @@
 #include "engine/own_filters.hpp"
 #include "engine/random_mechanism.hpp"
 #include "engine/side_by_side.hpp"
-#include "hinge/engine/brute/brute.hpp"
-#include "hinge/engine/lazy/lazy.hpp"
-#include "hinge/engine/wide/wide.hpp"
+#include "hinge/engine/brute.hpp"
+#include "hinge/engine/lazy.hpp"
+#include "hinge/engine/wide.hpp"
 #include "hinge/hierarchy.hpp"
 
 namespace hinge {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Frames that accepted moves carry along stay as near to forward kinematics as is promised, and are its bits when
 // asked.
-#include "hinge/moves/move_frames.hpp"
+#include "hinge/detail/moves/move_frames.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "engine/random_mechanism.hpp"
-#include "hinge/model/selected_model.hpp"
-#include "hinge/moves/move_cut.hpp"
-#include "hinge/moves/placing_bounds.hpp"
+#include "hinge/detail/model/selected_model.hpp"
+#include "hinge/detail/moves/move_cut.hpp"
+#include "hinge/detail/moves/placing_bounds.hpp"
 #include "hinge/primitive/point.hpp"
 
 namespace hinge {

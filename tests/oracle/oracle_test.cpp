@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/random_mechanism.hpp"
-#include "hinge/engine/brute/brute.hpp"
+#include "hinge/engine/brute.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/molecule.hpp"
 #include "hinge/molecular/read_structure.hpp"

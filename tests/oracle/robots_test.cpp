@@ -19,8 +19,8 @@
 
 #include "hinge/bounds/aabb.hpp"
 #include "hinge/core/philox.hpp"
-#include "hinge/engine/lazy/lazy.hpp"
-#include "hinge/engine/wide/wide.hpp"
+#include "hinge/engine/lazy.hpp"
+#include "hinge/engine/wide.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/query/link_pair_hits.hpp"
 #include "hinge/robotics/robot.hpp"

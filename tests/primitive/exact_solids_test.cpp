@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "engine/random_mechanism.hpp"
-#include "hinge/exact/balls.hpp"
-#include "hinge/exact/segments.hpp"
+#include "hinge/detail/exact/balls.hpp"
+#include "hinge/detail/exact/segments.hpp"
 #include "hinge/primitive/capsule.hpp"
 #include "hinge/primitive/point.hpp"
 #include "hinge/primitive/sphere.hpp"

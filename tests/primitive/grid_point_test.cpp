@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Decimal ties: a million pairs on the grid of a PDB file against integers, where doubles toss a coin.
-#include "hinge/primitive/grid_point.hpp"
+#include "hinge/detail/primitive/grid_point.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,11 +9,11 @@
 #include <cstdint>
 
 #include "engine/random_mechanism.hpp"
-#include "hinge/engine/wide/tree/relative_turn.hpp"
-#include "hinge/primitive/pair_queue.hpp"
+#include "hinge/detail/engine/wide/tree/relative_turn.hpp"
+#include "hinge/detail/primitive/pair_queue.hpp"
+#include "hinge/detail/primitive/triangle_leaf.hpp"
 #include "hinge/primitive/sphere.hpp"
 #include "hinge/primitive/triangle.hpp"
-#include "hinge/primitive/triangle_leaf.hpp"
 
 namespace hinge {
 namespace leaf_test {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/random_mechanism.hpp"
-#include "hinge/exact/error_free.hpp"
+#include "hinge/detail/exact/error_free.hpp"
 #include "hinge/primitive/capsule.hpp"
 #include "hinge/primitive/point.hpp"
 #include "hinge/primitive/sphere.hpp"

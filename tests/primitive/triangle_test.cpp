@@ -17,7 +17,7 @@
 #include <utility>
 
 #if __has_include(<boost/multiprecision/cpp_int.hpp>)
-#include "hinge/exact/balls.hpp"
+#include "hinge/detail/exact/balls.hpp"
 #include "hinge/primitive/capsule.hpp"
 #include "hinge/primitive/sphere.hpp"
 #include "primitive/triangle_families.hpp"

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "hinge/simd/instruction_set.hpp"
+#include "hinge/detail/simd/instruction_set.hpp"
 #include "robotics/run_robocd.hpp"
 #include "tool/foreign_programs.hpp"
 

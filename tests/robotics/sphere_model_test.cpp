@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "hinge/batch/sphere_batch.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/core/philox.hpp"
-#include "hinge/engine/brute/brute.hpp"
-#include "hinge/ensemble/sphere_batch.hpp"
+#include "hinge/engine/brute.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/robotics/read_srdf.hpp"
 #include "hinge/robotics/read_urdf.hpp"

@@ -12,9 +12,9 @@
 #include "hinge/core/error.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/core/pose.hpp"
-#include "hinge/engine/brute/brute.hpp"
-#include "hinge/engine/lazy/lazy.hpp"
-#include "hinge/engine/wide/wide.hpp"
+#include "hinge/engine/brute.hpp"
+#include "hinge/engine/lazy.hpp"
+#include "hinge/engine/wide.hpp"
 #include "hinge/policy/collector.hpp"
 #include "robustness/case.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lanes against the same thing done one by one.
-#include "hinge/simd/lanes.hpp"
+#include "hinge/detail/simd/lanes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "engine/random_mechanism.hpp"
-#include "hinge/simd/gather_bits.hpp"
-#include "hinge/simd/sincos.hpp"
+#include "hinge/detail/simd/gather_bits.hpp"
+#include "hinge/detail/simd/sincos.hpp"
 
 namespace hinge::simd {
 namespace lanes_test {

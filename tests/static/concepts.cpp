@@ -2,9 +2,9 @@
 // Models and non-models of every concept; to compile is to pass.
 #include <type_traits>
 
-#include "hinge/engine/brute/brute.hpp"
-#include "hinge/engine/lazy/lazy.hpp"
-#include "hinge/engine/wide/wide.hpp"
+#include "hinge/engine/brute.hpp"
+#include "hinge/engine/lazy.hpp"
+#include "hinge/engine/wide.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/policy/different_links.hpp"
 #include "hinge/primitive/capsule.hpp"

@@ -10,7 +10,7 @@
 #include <iterator>
 #include <string>
 
-#include "hinge/simd/instruction_set.hpp"
+#include "hinge/detail/simd/instruction_set.hpp"
 #include "tool/run_tool.hpp"
 
 namespace hinge::test {

@@ -13,10 +13,10 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/philox.hpp"
-#include "hinge/tool/frequent_keys.hpp"
-#include "hinge/tool/input_file.hpp"
-#include "hinge/tool/json_text.hpp"
-#include "hinge/tool/number_option.hpp"
+#include "hinge_tools/frequent_keys.hpp"
+#include "hinge_tools/input_file.hpp"
+#include "hinge_tools/json_text.hpp"
+#include "hinge_tools/number_option.hpp"
 
 namespace hinge::tool {
 namespace number_option_test {

@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
-#include "hinge/tool/check_output.hpp"
-#include "hinge/tool/complete_file.hpp"
-#include "hinge/tool/run_tool.hpp"
+#include "hinge_tools/check_output.hpp"
+#include "hinge_tools/complete_file.hpp"
+#include "hinge_tools/run_tool.hpp"
 
 namespace hinge::tool {
 namespace output_files_test {

@@ -10,9 +10,9 @@
 #include <string>
 
 #include "hinge/core/error.hpp"
-#include "hinge/tool/complete_file.hpp"
-#include "hinge/tool/csv_field.hpp"
-#include "hinge/tool/run_tool.hpp"
+#include "hinge_tools/complete_file.hpp"
+#include "hinge_tools/csv_field.hpp"
+#include "hinge_tools/run_tool.hpp"
 
 namespace hinge::tool {
 namespace tool_test {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "hinge/bounds/round.hpp"
 #include "hinge/core/vec3.hpp"
-#include "hinge/exact/error_free.hpp"
+#include "hinge/detail/bounds/round.hpp"
+#include "hinge/detail/exact/error_free.hpp"
 
 namespace hinge {
 

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "hinge/core/sincos.hpp"
+#include "hinge/detail/core/sincos.hpp"
 
 namespace hinge {
 

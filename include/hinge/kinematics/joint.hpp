@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "hinge/core/pose.hpp"
-#include "hinge/core/sincos.hpp"
 #include "hinge/core/vec3.hpp"
+#include "hinge/detail/core/sincos.hpp"
 
 namespace hinge {
 

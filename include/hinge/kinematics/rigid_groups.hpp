@@ -10,9 +10,9 @@
 #include "hinge/core/error.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/core/pose.hpp"
+#include "hinge/detail/kinematics/joint_batch.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/kinematics/joint.hpp"
-#include "hinge/kinematics/joint_batch.hpp"
 #include "hinge/kinematics/kinematic_tree.hpp"
 
 namespace hinge {

@@ -13,8 +13,8 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/id.hpp"
-#include "hinge/kinematics/pose_source.hpp"
-#include "hinge/model/selected_model.hpp"
+#include "hinge/detail/kinematics/pose_source.hpp"
+#include "hinge/detail/model/selected_model.hpp"
 #include "hinge/policy/primitive.hpp"
 
 namespace hinge {

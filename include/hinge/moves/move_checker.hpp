@@ -16,16 +16,16 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/id.hpp"
+#include "hinge/detail/kinematics/frame.hpp"
+#include "hinge/detail/moves/asked_hierarchy.hpp"
+#include "hinge/detail/moves/block_moves.hpp"
+#include "hinge/detail/moves/known_pairs.hpp"
+#include "hinge/detail/moves/move_cut.hpp"
+#include "hinge/detail/moves/placing_bounds.hpp"
+#include "hinge/detail/primitive/batch.hpp"
+#include "hinge/detail/primitive/leaf.hpp"
 #include "hinge/hierarchy.hpp"
-#include "hinge/kinematics/frame.hpp"
-#include "hinge/moves/asked_hierarchy.hpp"
-#include "hinge/moves/block_moves.hpp"
-#include "hinge/moves/known_pairs.hpp"
 #include "hinge/moves/move_counts.hpp"
-#include "hinge/moves/move_cut.hpp"
-#include "hinge/moves/placing_bounds.hpp"
-#include "hinge/primitive/batch.hpp"
-#include "hinge/primitive/leaf.hpp"
 
 namespace hinge {
 

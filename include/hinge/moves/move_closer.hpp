@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "hinge/detail/moves/move_cut.hpp"
 #include "hinge/kinematics/closure_solver.hpp"
-#include "hinge/moves/move_cut.hpp"
 
 namespace hinge {
 

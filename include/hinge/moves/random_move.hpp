@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "hinge/core/philox.hpp"
-#include "hinge/moves/move_cut.hpp"
+#include "hinge/detail/moves/move_cut.hpp"
 
 namespace hinge {
 

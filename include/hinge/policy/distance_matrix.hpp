@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
-#include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
-#include "hinge/exact/gap.hpp"
+#include "hinge/detail/core/finite.hpp"
+#include "hinge/detail/exact/gap.hpp"
 
 namespace hinge {
 

@@ -8,16 +8,16 @@
 #include <utility>
 
 #include "hinge/bounds/aabb.hpp"
-#include "hinge/core/finite.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/core/vec3.hpp"
-#include "hinge/exact/error_free.hpp"
-#include "hinge/exact/segments.hpp"
+#include "hinge/detail/core/finite.hpp"
+#include "hinge/detail/exact/error_free.hpp"
+#include "hinge/detail/exact/segments.hpp"
+#include "hinge/detail/primitive/segment_distance.hpp"
+#include "hinge/detail/primitive/triangle_corners.hpp"
 #include "hinge/policy/primitive.hpp"
 #include "hinge/primitive/point.hpp"
-#include "hinge/primitive/segment_distance.hpp"
 #include "hinge/primitive/sphere.hpp"
-#include "hinge/primitive/triangle_corners.hpp"
 
 namespace hinge {
 

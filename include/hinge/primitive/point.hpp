@@ -10,8 +10,8 @@
 #include "hinge/bounds/aabb.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/core/vec3.hpp"
-#include "hinge/exact/balls.hpp"
-#include "hinge/exact/error_free.hpp"
+#include "hinge/detail/exact/balls.hpp"
+#include "hinge/detail/exact/error_free.hpp"
 #include "hinge/policy/primitive.hpp"
 
 namespace hinge {

@@ -8,12 +8,12 @@
 #include <utility>
 
 #include "hinge/bounds/aabb.hpp"
-#include "hinge/bounds/round.hpp"
-#include "hinge/core/finite.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/core/vec3.hpp"
-#include "hinge/exact/balls.hpp"
-#include "hinge/exact/error_free.hpp"
+#include "hinge/detail/bounds/round.hpp"
+#include "hinge/detail/core/finite.hpp"
+#include "hinge/detail/exact/balls.hpp"
+#include "hinge/detail/exact/error_free.hpp"
 #include "hinge/policy/primitive.hpp"
 #include "hinge/primitive/point.hpp"
 

@@ -7,16 +7,16 @@
 #include <utility>
 
 #include "hinge/bounds/aabb.hpp"
-#include "hinge/core/finite.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/core/vec3.hpp"
-#include "hinge/exact/error_free.hpp"
-#include "hinge/exact/gap.hpp"
+#include "hinge/detail/core/finite.hpp"
+#include "hinge/detail/exact/error_free.hpp"
+#include "hinge/detail/exact/gap.hpp"
+#include "hinge/detail/primitive/triangle_corners.hpp"
+#include "hinge/detail/primitive/triangle_distance.hpp"
+#include "hinge/detail/primitive/triangle_exact.hpp"
+#include "hinge/detail/primitive/triangle_intersection.hpp"
 #include "hinge/policy/primitive.hpp"
-#include "hinge/primitive/triangle_corners.hpp"
-#include "hinge/primitive/triangle_distance.hpp"
-#include "hinge/primitive/triangle_exact.hpp"
-#include "hinge/primitive/triangle_intersection.hpp"
 
 namespace hinge {
 

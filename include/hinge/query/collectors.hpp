@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "hinge/detail/query/sort_hits.hpp"
 #include "hinge/policy/collector.hpp"
-#include "hinge/query/sort_hits.hpp"
 
 namespace hinge {
 

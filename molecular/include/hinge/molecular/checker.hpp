@@ -11,9 +11,9 @@
 #include <variant>
 #include <vector>
 
-#include "hinge/engine/brute/brute.hpp"
-#include "hinge/engine/lazy/lazy.hpp"
-#include "hinge/engine/wide/wide.hpp"
+#include "hinge/engine/brute.hpp"
+#include "hinge/engine/lazy.hpp"
+#include "hinge/engine/wide.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/molecule.hpp"
@@ -21,7 +21,7 @@
 #include "hinge/molecular/radii.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/primitive/point.hpp"
-#include "hinge/query/mode.hpp"
+#include "hinge_tools/mode.hpp"
 
 namespace hinge::molecular {
 

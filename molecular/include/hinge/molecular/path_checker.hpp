@@ -4,10 +4,10 @@
 
 #include <span>
 
-#include "hinge/engine/wide/wide.hpp"
+#include "hinge/engine/wide.hpp"
 #include "hinge/molecular/checker.hpp"
-#include "hinge/motion/certified_path.hpp"
-#include "hinge/motion/path_answer.hpp"
+#include "hinge/path/certified_path.hpp"
+#include "hinge/path/path_answer.hpp"
 #include "hinge/primitive/point.hpp"
 
 namespace hinge::molecular {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "hinge/core/id.hpp"
-#include "hinge/exact/gap.hpp"
+#include "hinge/detail/exact/gap.hpp"
 #include "hinge/model/model.hpp"
 #include "hinge/policy/distance_matrix.hpp"
 #include "hinge/policy/pair_filter.hpp"

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "hinge/core/id.hpp"
-#include "hinge/engine/wide/wide.hpp"
-#include "hinge/motion/certified_path.hpp"
-#include "hinge/motion/path_answer.hpp"
+#include "hinge/engine/wide.hpp"
+#include "hinge/path/certified_path.hpp"
+#include "hinge/path/path_answer.hpp"
 #include "hinge/primitive/triangle.hpp"
 #include "hinge/robotics/any_hierarchy.hpp"
 #include "hinge/robotics/contact.hpp"

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SphereBatch: models of spheres asked about sixteen configurations at once, one in each SIMD lane.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <numeric>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "hinge/core/id.hpp"
+#include "hinge/detail/batch/configuration_block.hpp"
+#include "hinge/detail/batch/lane_kinematics.hpp"
+#include "hinge/detail/batch/sphere_bodies.hpp"
+#include "hinge/detail/model/selected_model.hpp"
+#include "hinge/detail/simd/lanes.hpp"
+#include "hinge/model/model.hpp"
+#include "hinge/model/placement.hpp"
+#include "hinge/policy/pair_filter.hpp"
+#include "hinge/primitive/sphere.hpp"
+
+namespace hinge {
+
+/// Does any admitted pair of spheres touch or overlap? Verdicts are those of a Hierarchy with a clearance of 0, to the
+/// last bit: floats decide what lies outside a proven band, the double rule the rest
+/// (docs/explanation/sphere_batch.md). Obstacles are spheres on the world's link, or on links fixed to it: one link for
+/// each keeps them apart. One per thread; no query allocates.
+class SphereBatch {
+ public:
+  static constexpr std::size_t size = simd::width;  ///< configurations in a full block
+
+  /// Every DOF free. The filter is asked here and never again. ModelError: made for another number of primitives.
+  template <PairFilter F>
+  SphereBatch(const Model<Sphere>& model, const F& filter)
+      : SphereBatch(model, DofSelection::all(model.tree()), filter) {}
+  /// Only the selected DOF free, all others at their reference.
+  template <PairFilter F>
+  SphereBatch(const Model<Sphere>& model, const DofSelection& selection, const F& filter)
+      : SphereBatch(std::make_shared<const SelectedModel<Sphere>>(checked(model, filter), selection), filter) {}
+
+  // --- a block is 1 to 16 configurations, one after the other, dof_count() values each (rad or model length unit).
+  // ConfigurationError: as check_block ---
+
+  /// Does any configuration of the block collide? Stops at the first hit.
+  bool any(std::span<const double> block) {
+    const PresentBlock present(block_, block);
+    const simd::Bits lanes = place(block);
+    for (const BodyPair& pair : bodies_.pairs())
+      if (hits<true>(pair, lanes) != 0) return true;
+    return false;
+  }
+
+  /// Bit k: configuration k collides.
+  simd::Bits each(std::span<const double> block) {
+    const PresentBlock present(block_, block);
+    const simd::Bits lanes = place(block);
+    simd::Bits hit = 0;
+    for (const BodyPair& pair : bodies_.pairs()) {
+      hit |= hits<false>(pair, lanes & ~hit);
+      if (hit == lanes) break;
+    }
+    return hit;
+  }
+
+  /// From now on pairs of links are asked in the order of how many of these configurations they collide in. Changes
+  /// the time queries take, never an answer. Any number of configurations; ConfigurationError as above.
+  void learn(std::span<const double> configurations);
+
+  std::size_t dof_count() const noexcept { return exact_.model().selection().size(); }
+  /// Pairs of spheres that are tested.
+  std::size_t pair_count() const noexcept { return bodies_.sphere_pair_count(); }
+  /// How often the double rule was asked, by all queries so far.
+  std::uint64_t decided_count() const noexcept { return decided_; }
+
+ private:
+  struct Survivor {
+    std::uint32_t ball = 0;
+    simd::Bits lanes = 0;
+  };
+
+  template <PairFilter F>
+  SphereBatch(std::shared_ptr<const SelectedModel<Sphere>> model, const F& filter)
+      : bodies_(model, filter),
+        exact_(std::move(model)),
+        is_placed_(bodies_.bodies().size()),
+        enclosing_centres_(bodies_.bodies().size()),
+        centres_(bodies_.balls().size()),
+        near_a_(bodies_.balls().size()),
+        near_b_(bodies_.balls().size()) {}
+
+  template <PairFilter F>
+  static const Model<Sphere>& checked(const Model<Sphere>& model, const F& filter) {
+    if constexpr (KnowsSize<F>)
+      if (filter.size() != model.size())
+        throw ModelError("pair filter made for " + std::to_string(filter.size()) + " primitives, the model has " +
+                         std::to_string(model.size()));
+    return model;
+  }
+
+  simd::Bits place(std::span<const double> block);
+  void place_balls(std::size_t body) noexcept;
+  std::size_t find_near(const SphereBody& body, std::size_t other, simd::Bits& lanes, Survivor* to) const noexcept;
+  template <bool first_only>
+  simd::Bits hits(const BodyPair& pair, simd::Bits lanes);
+  simd::Bits decide(simd::Bits lanes, PrimitiveId i, PrimitiveId j);
+
+  [[gnu::always_inline]] static simd::Float16 squared_distance(const LaneVector& a, const LaneVector& b) noexcept {
+    const LaneVector d = a - b;
+    return d.x * d.x + d.y * d.y + d.z * d.z;
+  }
+  /// Lanes that floats cannot rule out, NaN among them.
+  [[gnu::always_inline]] static simd::Bits not_beyond(float near_squared, const simd::Float16& squared) noexcept {
+    return ~simd::Bits(less(simd::Float16(near_squared), squared));
+  }
+
+  SphereBodies bodies_;
+  Placement<Sphere> exact_;
+  std::span<const double> block_{};  // while a query runs
+  std::size_t exact_lane_ = size;    // lane that exact_ is at; size: none of this block
+  std::uint64_t decided_ = 0;
+  std::vector<std::uint8_t> is_placed_;        // by body
+  std::vector<LaneVector> enclosing_centres_;  // by body
+  std::vector<LaneVector> centres_;            // by ball, of bodies that are placed
+  std::vector<Survivor> near_a_, near_b_;      // scratch
+};
+
+/// Returns the lanes that hold a configuration.
+inline simd::Bits SphereBatch::place(std::span<const double> block) {
+  const std::size_t count = check_block(block, dof_count(), *exact_.model().groups());
+  exact_lane_ = size;
+  LaneKinematics& kinematics = bodies_.kinematics();
+  bodies_.cover_slide(kinematics.largest_slide(block, dof_count()));
+  kinematics.set(block, dof_count());
+  const auto bodies = bodies_.bodies();
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    is_placed_[k] = 0;
+    enclosing_centres_[k] = bodies[k].ball.placed_by(kinematics[bodies[k].group]);
+  }
+  return (simd::Bits{1} << count) - 1;
+}
+
+inline void SphereBatch::place_balls(std::size_t body) noexcept {
+  if (is_placed_[body] != 0) return;
+  is_placed_[body] = 1;
+  const SphereBody& b = bodies_.bodies()[body];
+  const LaneFrame& frame = bodies_.kinematics()[b.group];
+  for (std::size_t k = b.first; k < b.first + b.count; ++k) centres_[k] = bodies_.balls()[k].placed_by(frame);
+}
+
+/// The balls near the ball around another body, and the lanes in which they are; `lanes` is cut down to any of these.
+inline std::size_t SphereBatch::find_near(const SphereBody& body, std::size_t other, simd::Bits& lanes,
+                                          Survivor* to) const noexcept {
+  const LaneVector centre = enclosing_centres_[other];
+  const float reach = bodies_.bodies()[other].ball.grown;
+  std::size_t count = 0;
+  simd::Bits any = 0;
+  for (std::uint32_t k = body.first; k < body.first + body.count; ++k) {
+    const float near = bodies_.balls()[k].grown + reach;
+    const simd::Bits in = not_beyond(near * near, squared_distance(centres_[k], centre)) & lanes;
+    to[count] = {k, in};
+    count += in != 0 ? 1 : 0;
+    any |= in;
+  }
+  lanes = any;
+  return count;
+}
+
+/// Lanes in which the two bodies touch; with first_only at least one of them.
+template <bool first_only>
+simd::Bits SphereBatch::hits(const BodyPair& pair, simd::Bits lanes) {
+  lanes &= not_beyond(pair.near_squared, squared_distance(enclosing_centres_[pair.a], enclosing_centres_[pair.b]));
+  if (lanes == 0) return 0;
+  const SphereBody& a = bodies_.bodies()[pair.a];
+  const SphereBody& b = bodies_.bodies()[pair.b];
+  place_balls(pair.b);
+  const std::size_t count_b = find_near(b, pair.a, lanes, near_b_.data());
+  if (lanes == 0) return 0;
+  place_balls(pair.a);
+  const std::size_t count_a = find_near(a, pair.b, lanes, near_a_.data());
+  simd::Bits hit = 0;
+  for (std::size_t i = 0; i < count_a; ++i) {
+    const Survivor in_a = near_a_[i];
+    const LaneBall& p = bodies_.balls()[in_a.ball];
+    for (std::size_t j = 0; j < count_b; ++j) {
+      const Survivor in_b = near_b_[j];
+      const simd::Bits open = in_a.lanes & in_b.lanes & ~hit;
+      if (open == 0) continue;
+      const LaneBall& q = bodies_.balls()[in_b.ball];
+      const simd::Float16 squared = squared_distance(centres_[in_a.ball], centres_[in_b.ball]);
+      const float near = p.grown + q.grown;
+      const simd::Bits maybe = not_beyond(near * near, squared) & open;
+      if (maybe == 0 || !bodies_.admitted(pair, in_a.ball - a.first, in_b.ball - b.first)) continue;
+      const float sure = p.shrunk + q.shrunk;
+      const simd::Bits surely = sure > 0 ? less(squared, simd::Float16(sure * sure)) & maybe : 0;
+      hit |= surely | decide(maybe & ~surely, bodies_.primitive(in_a.ball), bodies_.primitive(in_b.ball));
+      if (first_only && hit != 0) return hit;
+    }
+  }
+  return hit;
+}
+
+/// The lanes in which the double rule says that the spheres touch.
+inline simd::Bits SphereBatch::decide(simd::Bits lanes, PrimitiveId i, PrimitiveId j) {
+  simd::Bits hit = 0;
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+    if (exact_lane_ != lane) exact_.update(block_.subspan(lane * dof_count(), dof_count()));
+    exact_lane_ = lane;
+    ++decided_;
+    if (closer_than(exact_.alone(i), exact_.alone(j), 0.0)) hit |= simd::Bits{1} << lane;
+  }
+  return hit;
+}
+
+inline void SphereBatch::learn(std::span<const double> configurations) {
+  const std::size_t dof = dof_count();
+  if (dof == 0 ? !configurations.empty() : configurations.size() % dof != 0)
+    throw ConfigurationError(std::to_string(configurations.size()) + " values for configurations of " +
+                             std::to_string(dof));
+  const auto pairs = bodies_.pairs();
+  std::vector<std::pair<std::int64_t, BodyPair>> ranked;
+  for (const BodyPair& pair : pairs) ranked.emplace_back(0, pair);
+  for (std::size_t k = 0; k < configurations.size(); k += size * dof) {
+    const auto block = configurations.subspan(k, std::min(size * dof, configurations.size() - k));
+    const PresentBlock present(block_, block);
+    const simd::Bits lanes = place(block);
+    for (std::size_t p = 0; p < pairs.size(); ++p) ranked[p].first -= std::popcount(hits<false>(pairs[p], lanes));
+  }
+  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
+  for (std::size_t p = 0; p < pairs.size(); ++p) pairs[p] = ranked[p].second;
+}
+
+}  // namespace hinge

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// PoseSource: where engines get group poses from, all or one at a time, and which of them moved.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "hinge/core/id.hpp"
+#include "hinge/core/pose.hpp"
+#include "hinge/detail/core/finite.hpp"
+#include "hinge/detail/kinematics/frame.hpp"
+#include "hinge/detail/kinematics/joint_batch.hpp"
+#include "hinge/kinematics/rigid_groups.hpp"
+
+namespace hinge {
+
+/// Holds the current configuration (or poses computed elsewhere) of one set of rigid groups. Forward kinematics always
+/// starts from the reference, so a pose depends on the configuration alone and not on what was asked before.
+class PoseSource {
+ public:
+  /// Starts at the reference configuration, every value 0.
+  explicit PoseSource(std::shared_ptr<const RigidGroups> groups, std::size_t dof_count)
+      : groups_(std::move(groups)),
+        q_(dof_count, 0.0),
+        before_(dof_count, 0.0),
+        frames_(groups_->size()),
+        moved_(groups_->size(), true),
+        component_(groups_->size()) {
+    for (std::size_t g = 1; g < groups_->size(); ++g) {
+      const RigidGroup& group = (*groups_)[id<GroupId>(g)];
+      if (group.joint.kind == JointKind::prismatic) slides_.push_back(group.dof);
+    }
+    settle();
+  }
+
+  /// q: one value per selected DOF, rad or model length unit. ConfigurationError: wrong length, a value that is not
+  /// finite or a slide beyond largest_length, naming the position; the previous state is kept.
+  void set_configuration(std::span<const double> q);
+
+  /// One world pose per group; group 0 must keep the identity, it is the world. ConfigurationError: wrong number or no
+  /// rigid placement, naming the group; the previous state is kept.
+  void set_poses(std::span<const Pose> poses);
+
+  /// World frame of a group; computes what is missing on the way to it, groups in order.
+  const Frame& frame(GroupId group) noexcept {
+    if (computed_ <= index(group)) compute_through(index(group));
+    return frames_[index(group)];
+  }
+  Pose pose(GroupId group) noexcept { return frame(group).pose(); }
+  /// World frames of all groups up to this one, by group.
+  std::span<const Frame> frames_through(GroupId last) noexcept {
+    frame(last);
+    return std::span(frames_).first(computed_);
+  }
+
+  /// Did the group's pose change in the last set_...()? All but the world count as moved after the first.
+  bool moved(GroupId group) noexcept {
+    settle();
+    return moved_[index(group)];
+  }
+
+  /// Two groups of the same component kept their relative placement in the last set_...(); all differ after the first.
+  std::size_t component(GroupId group) noexcept {
+    settle();
+    return component_[index(group)];
+  }
+
+  /// Did so few values change in the last set_...() that it pays to find out what stood still?
+  bool few_changed() const noexcept { return few_changed_; }
+
+  /// Makes everything count as moved in the next set_...(): what engines hold was not placed by these poses.
+  void forget() noexcept {
+    given_ = true;
+    forgotten_ = true;
+  }
+
+  std::size_t dof_count() const noexcept { return q_.size(); }
+
+ private:
+  void settle() noexcept;
+  void compute_through(std::size_t last) noexcept;
+
+  std::shared_ptr<const RigidGroups> groups_;
+  std::vector<double> q_;
+  std::vector<double> before_;  // the configuration before it
+  std::vector<Frame> frames_;
+  std::size_t computed_ = 1;  // frames_[0, computed_) are up to date
+  std::size_t reusable_ = 1;  // frames_[computed_, reusable_) are those of the configuration before
+  bool given_ = true;         // the last poses were set, not computed (or there were none)
+  bool forgotten_ = true;     // nothing that was placed before counts
+  bool all_changed_ = true;   // the last set_...() made everything move
+  bool few_changed_ = false;
+  bool settled_ = false;  // moved_ and component_ belong to the last set_...()
+  std::vector<std::uint8_t> moved_;
+  std::vector<std::size_t> component_;
+  std::vector<std::size_t> slides_;  // positions in q_ of prismatic joints
+  JointMotions motions_{};
+};
+
+/// One in this many values or fewer changed: few.
+inline constexpr std::size_t few_changes_divisor = 4;
+
+inline void PoseSource::set_configuration(std::span<const double> q) {
+  if (q.size() != q_.size())
+    throw ConfigurationError("configuration has " + std::to_string(q.size()) + " values, expected " +
+                             std::to_string(q_.size()));
+  // Without branches, so that compilers vectorise them.
+  bool finite = true;
+  for (const double value : q) finite &= is_finite(value);
+  for (std::size_t k = 0; !finite && k < q.size(); ++k)
+    if (!is_finite(q[k]))
+      throw ConfigurationError("configuration value " + std::to_string(k) + " is " + std::to_string(q[k]) +
+                               ", expected a finite number");
+  for (const std::size_t k : slides_)
+    if (!is_length(q[k]))
+      throw ConfigurationError("configuration value " + std::to_string(k) + " is " + std::to_string(q[k]) +
+                               ", expected a slide of at most 2^1000");
+  std::uint64_t changes = 0;
+  for (std::size_t k = 0; k < q.size(); ++k) {
+    const double old = q_[k];
+    before_[k] = old;
+    q_[k] = q[k];
+    changes += std::bit_cast<std::uint64_t>(old) != std::bit_cast<std::uint64_t>(q[k]) ? 1U : 0U;
+  }
+  all_changed_ = given_;
+  few_changed_ = !given_ && changes <= q.size() / few_changes_divisor;
+  reusable_ = few_changed_ ? computed_ : 1;
+  computed_ = 1;
+  if (given_) frames_[0] = Frame{};
+  given_ = false;
+  forgotten_ = false;
+  settled_ = false;
+  if (few_changed_) settle();
+}
+
+/// Finds out which groups the last set_configuration() moved.
+inline void PoseSource::settle() noexcept {
+  if (settled_) return;
+  settled_ = true;
+  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+  moved_[0] = false;
+  component_[0] = 0;
+  for (std::size_t g = 1; g < groups_->size(); ++g) {
+    const RigidGroup& group = (*groups_)[id<GroupId>(g)];
+    const bool changed = all_changed_ || bits(q_[group.dof]) != bits(before_[group.dof]);
+    moved_[g] = changed || moved_[index(group.parent)] != 0;
+    component_[g] = changed ? g : component_[index(group.parent)];
+  }
+}
+
+inline void PoseSource::compute_through(std::size_t last) noexcept {
+  const auto batches = groups_->joint_batches();
+  while (computed_ <= last) {
+    // Batches start at group 1; a batch is computed whole.
+    const std::size_t batch = (computed_ - 1) / JointBatch::size;
+    const std::size_t end = std::min(1 + (batch + 1) * JointBatch::size, groups_->size());
+    bool ready = false;
+    for (; computed_ < end; ++computed_) {
+      const std::size_t g = computed_;
+      if (g < reusable_ && moved_[g] == 0) continue;
+      if (!ready) compute_motions(batches[batch], q_.data(), motions_);
+      ready = true;
+      const RigidGroup& group = (*groups_)[id<GroupId>(g)];
+      const std::size_t place = (g - 1) % JointBatch::size;
+      const Frame& parent = frames_[index(group.parent)];
+      if ((batches[batch].has_origin >> place & 1U) == 0) {
+        compose(parent, motions_.data() + place, JointBatch::size, frames_[g]);
+      } else {
+        Frame at;
+        compose(Frame(group.joint.origin), motions_.data() + place, JointBatch::size, at);
+        compose(parent, at.pose(), frames_[g]);
+      }
+    }
+  }
+}
+
+inline void PoseSource::set_poses(std::span<const Pose> poses) {
+  if (poses.size() != groups_->size())
+    throw ConfigurationError(std::to_string(poses.size()) + " poses, expected " + std::to_string(groups_->size()));
+  for (std::size_t g = 0; g < poses.size(); ++g)
+    if (!is_rigid(poses[g]) || (g == 0 && !(poses[0] == Pose{})))
+      throw ConfigurationError("pose of rigid group " + std::to_string(g) +
+                               (g == 0 ? ": the world's must be the identity" : ": not a rigid placement"));
+  compute_through(groups_->size() - 1);
+  for (std::size_t g = 1; g < poses.size(); ++g) {
+    moved_[g] = forgotten_ || !frames_[g].is(poses[g]);
+    component_[g] = moved_[g] != 0 ? g : 0;
+    std::construct_at(&frames_[g], poses[g]);  // in place: an assignment would read it wider than it was just written
+  }
+  moved_[0] = false;
+  component_[0] = 0;
+  frames_[0] = Frame{};
+  given_ = true;
+  forgotten_ = false;
+  few_changed_ = false;
+  settled_ = true;
+  computed_ = reusable_ = groups_->size();
+}
+
+}  // namespace hinge

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which of the selected DOF the closures of a tree hold at their reference values: rings that cannot move.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "hinge/detail/kinematics/cholesky.hpp"
+#include "hinge/detail/kinematics/closure_equations.hpp"
+#include "hinge/kinematics/dof_selection.hpp"
+#include "hinge/kinematics/kinematic_tree.hpp"
+
+namespace hinge {
+
+/// How far the reference geometry may be off.
+struct GeometryError {
+  double point = 0.0;  ///< of a joint's or closure's point, model length unit
+  double axis = 0.0;   ///< of a joint's axis, rad
+};
+
+namespace detail {
+
+/// Is the smallest singular value of some closures' equations in some columns above what errors could have made of 0?
+/// So it is when J^T J less the square of that has a Cholesky decomposition.
+inline bool has_full_rank(const ClosureEquations& equations, const std::vector<std::size_t>& closures,
+                          const std::vector<std::size_t>& columns, const GeometryError& error) {
+  const std::size_t n = columns.size();
+  std::size_t rows = 0;
+  for (const std::size_t c : closures) rows += equations.row_count(c);
+  if (n == 0 || n > rows) return false;
+  std::vector<double> squared(n * n, 0.0), row(n);  // J^T J, lower triangle
+  double squared_bound = 0.0, trace = 0.0;
+  for (const std::size_t c : closures) {
+    const std::size_t count = equations.row_count(c);
+    for (std::size_t r = 0; r < count; ++r) {
+      for (std::size_t k = 0; k < n; ++k)
+        row[k] = equations.jacobian()[(equations.first_row(c) + r) * equations.columns() + columns[k]];
+      for (std::size_t a = 0; a < n; ++a)
+        for (std::size_t b = 0; row[a] != 0.0 && b <= a; ++b) squared[a * n + b] += row[a] * row[b];
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+      // A derivative is axis x lever, both ends of the lever off by `point`; with lengths its part along a line whose
+      // own direction is off as well.
+      const double lever = equations.lever(c, columns[k]);
+      if (lever == 0.0) continue;
+      double off = error.axis * lever + 2.0 * error.point;
+      if (equations.keeps_lengths(c)) off += lever * 2.0 * error.point / equations.shortest_length(c);
+      squared_bound += static_cast<double>(count) * off * off;  // at most `off` in each row
+    }
+  }
+  for (std::size_t k = 0; k < n; ++k) trace += squared[k * n + k];
+  // Kinematics, products and decomposition round by less than 2^-40 of the trace, for a thousand columns too.
+  const double shift = squared_bound + 0x1p-40 * trace;
+  for (std::size_t k = 0; k < n; ++k) squared[k * n + k] -= shift;
+  return factor_cholesky(squared, n);
+}
+
+}  // namespace detail
+
+/// DOF of the selection that cannot leave the reference while all closures hold. A set of them is held when the
+/// derivatives of some closures by all free DOF in their cycles have full column rank there: by the inverse function
+/// theorem the reference is then an isolated solution, for every geometry within `error` (Weyl: no singular value moves
+/// by more than the error's Frobenius norm). Looked at are each closure alone and all that share DOF, again and again
+/// as DOF are found held: never a DOF too many, for a mechanism that moves does not have full rank; some may be missed.
+/// Other assemblies of the same ring are not reached by moving and stay unknown. Empty when the reference itself is not
+/// closed within 8 times error.point. Sorted. `kept`: the closures that hold, positions in tree.closures().
+inline std::vector<DofId> rigid_cycle_dofs(const KinematicTree& tree, const DofSelection& selection,
+                                           const GeometryError& error, std::span<const std::size_t> kept) {
+  ClosureEquations equations(tree, selection, kept);
+  if (!(equations.worst() <= 8.0 * error.point + 0x1p-30)) return {};
+  equations.compute_jacobian();
+  std::vector<bool> held(equations.columns(), false);
+  const auto free_columns = [&](std::size_t c) {
+    std::vector<std::size_t> columns = equations.columns_of(c);
+    std::erase_if(columns, [&](std::size_t k) { return held[k]; });
+    return columns;
+  };
+  const auto hold = [&](const std::vector<std::size_t>& closures, const std::vector<std::size_t>& columns) {
+    if (!detail::has_full_rank(equations, closures, columns, error)) return false;
+    for (const std::size_t k : columns) held[k] = true;
+    return true;
+  };
+  for (bool found = true; found;) {
+    found = false;
+    std::vector<std::size_t> cluster(equations.closure_count());  // closures that share free columns
+    std::iota(cluster.begin(), cluster.end(), std::size_t{0});
+    std::vector<std::size_t> owner(equations.columns(), equations.closure_count());
+    for (std::size_t c = 0; c < equations.closure_count(); ++c) {
+      const std::vector<std::size_t> columns = free_columns(c);
+      if (hold({c}, columns)) {
+        found = true;
+        continue;
+      }
+      for (const std::size_t k : columns) {
+        if (owner[k] == equations.closure_count()) owner[k] = c;
+        const std::size_t from = std::max(cluster[owner[k]], cluster[c]), to = std::min(cluster[owner[k]], cluster[c]);
+        std::replace(cluster.begin(), cluster.end(), from, to);
+      }
+    }
+    if (found) continue;
+    for (std::size_t first = 0; first < equations.closure_count(); ++first) {
+      std::vector<std::size_t> closures, columns;
+      for (std::size_t c = first; c < equations.closure_count(); ++c) {
+        if (cluster[c] != first) continue;
+        closures.push_back(c);
+        for (const std::size_t k : free_columns(c)) columns.push_back(k);
+      }
+      std::sort(columns.begin(), columns.end());
+      columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+      if (closures.size() > 1 && hold(closures, columns)) found = true;
+    }
+  }
+  std::vector<DofId> dofs;
+  for (std::size_t k = 0; k < held.size(); ++k)
+    if (held[k]) dofs.push_back(selection.dofs()[equations.position(k)]);
+  std::sort(dofs.begin(), dofs.end());
+  return dofs;
+}
+
+/// The same with all closures of the tree.
+inline std::vector<DofId> rigid_cycle_dofs(const KinematicTree& tree, const DofSelection& selection,
+                                           const GeometryError& error = {}) {
+  return rigid_cycle_dofs(tree, selection, error, all_closures(tree));
+}
+
+}  // namespace hinge

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// KnownPair and NearPairs: the pairs of a state that collide, or that rounding alone could bring to it.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "hinge/core/id.hpp"
+#include "hinge/detail/query/pair_rules.hpp"
+#include "hinge/detail/query/sort_hits.hpp"
+#include "hinge/policy/collector.hpp"
+#include "hinge/policy/distance_matrix.hpp"
+#include "hinge/policy/primitive.hpp"
+
+namespace hinge {
+
+/// A pair with d - M below a tolerance.
+struct KnownPair {
+  Hit hit;
+  bool collides = false;
+};
+
+inline bool any_collides(const std::vector<KnownPair>& known) noexcept {
+  return std::ranges::any_of(known, &KnownPair::collides);
+}
+
+/// Those that collide, sorted by (first, second), into `hits`, which it returns.
+inline const std::vector<Hit>& list_collisions(const std::vector<KnownPair>& known, std::vector<Hit>& hits) {
+  hits.clear();
+  for (const KnownPair& pair : known)
+    if (pair.collides) hits.push_back(pair.hit);
+  sort_hits(hits);
+  return hits;
+}
+
+/// Judges a pair by the rule of every query and keeps it when d - M < tolerance; was it a collision?
+template <Primitive P, DistanceMatrix D>
+bool judge(PrimitiveId first, PrimitiveId second, const P& p, const P& q, const D& matrix, double tolerance,
+           std::vector<KnownPair>& known) {
+  const auto m = threshold_of(matrix, first, second);
+  if (!closer_than(p, q, m + tolerance)) return false;
+  const bool collides = closer_than(p, q, m);
+  known.push_back({{first, second, collides && m > 0.0 ? distance(p, q) : 0.0, m}, collides});
+  return collides;
+}
+
+/// Collects them from a query; `place(i)` gives coordinates. Stops at the first collision unless all are asked for.
+template <DistanceMatrix D, class Place>
+class NearPairs {
+ public:
+  static constexpr bool ranks = false;
+  NearPairs(const D& matrix, double tolerance, bool all, const Place& place, std::vector<KnownPair>& known)
+      : matrix_(matrix), tolerance_(tolerance), all_(all), place_(place), known_(known) {}
+  void add(const Hit& hit) {
+    if (judge(hit.first, hit.second, place_(hit.first), place_(hit.second), matrix_, tolerance_, known_))
+      collides_ = true;
+  }
+  double cutoff() const noexcept { return tolerance_; }
+  bool done() const noexcept { return collides_ && !all_; }
+  bool collides() const noexcept { return collides_; }
+
+ private:
+  const D& matrix_;
+  double tolerance_;
+  bool all_;
+  const Place& place_;
+  std::vector<KnownPair>& known_;
+  bool collides_ = false;
+};
+
+}  // namespace hinge

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// DofChange and MoveCut: the changes a move is made of, checked, and the parts they cut the tree into.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "hinge/core/id.hpp"
+#include "hinge/detail/core/finite.hpp"
+#include "hinge/detail/moves/moving_parts.hpp"
+#include "hinge/kinematics/rigid_groups.hpp"
+
+namespace hinge {
+
+struct DofChange {
+  std::size_t dof = 0;  ///< position in the selected configuration
+  double value = 0.0;   ///< its value after the move: rad or model length unit
+};
+
+/// A joint that changes: its place in MovingParts, and its new value.
+using JointValue = std::pair<std::uint32_t, double>;
+
+/// Holds what checking and cutting take, so that no move costs an allocation.
+class MoveCut {
+ public:
+  MoveCut(const RigidGroups& groups, std::size_t dof_count) : parts_(groups), dofs_(dof_count) {
+    for (std::size_t g = 1; g < groups.size(); ++g) {
+      const RigidGroup& group = groups[id<GroupId>(g)];
+      dofs_[group.dof].place = parts_.place(id<GroupId>(g));
+      dofs_[group.dof].slides = group.joint.kind == JointKind::prismatic;
+    }
+  }
+
+  bool is_slide(std::size_t dof) const noexcept { return dofs_[dof].slides; }
+
+  /// ConfigurationError: a DOF that does not exist or is named twice, a value that is not finite, a slide beyond
+  /// largest_length.
+  void check(std::span<const DofChange> changes) {
+    ++list_;
+    for (const DofChange& change : changes) {
+      if (change.dof >= dofs_.size())
+        refuse(change, "the selection has " + std::to_string(dofs_.size()) + " values, counted from 0");
+      Dof& dof = dofs_[change.dof];
+      if (dof.named_at == list_) refuse(change, "it is changed twice in one move");
+      dof.named_at = list_;
+      if (!is_finite(change.value)) refuse(change, "expected a finite number");
+      if (dof.slides && !is_length(change.value)) refuse(change, "expected a slide of at most 2^1000");
+    }
+  }
+
+  /// Each DOF drives one joint.
+  void cut(std::span<const DofChange> changes) {
+    values_.clear();
+    joints_.clear();
+    for (const DofChange& change : changes) values_.emplace_back(dofs_[change.dof].place, change.value);
+    std::ranges::sort(values_);
+    for (const auto& [place, value] : values_) joints_.push_back(place);
+    parts_.cut(joints_);
+  }
+  /// As cut last. Part k + 1 moves with joint k.
+  const MovingParts& parts() const noexcept { return parts_; }
+  /// Sorted by place.
+  std::span<const JointValue> values() const noexcept { return values_; }
+
+ private:
+  [[noreturn]] static void refuse(const DofChange& change, const std::string& why) {
+    std::string what = "change of configuration value ";
+    what += std::to_string(change.dof);
+    what += " to ";
+    what += std::to_string(change.value);
+    throw ConfigurationError(what + ": " + why);
+  }
+
+  struct Dof {
+    std::uint64_t named_at = 0;  // the last list that names it
+    std::uint32_t place = 0;
+    bool slides = false;
+  };
+
+  MovingParts parts_;
+  std::vector<Dof> dofs_;
+  std::uint64_t list_ = 0;
+  std::vector<JointValue> values_;
+  std::vector<std::uint32_t> joints_;  // scratch
+};
+
+}  // namespace hinge

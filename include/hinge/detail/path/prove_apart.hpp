@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// prove_apart: how long two primitives surely keep their distance, from their motion against each other.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "hinge/core/vec3.hpp"
+#include "hinge/detail/path/relative_motion.hpp"
+#include "hinge/policy/primitive.hpp"
+
+namespace hinge {
+
+/// From the middle of a segment towards smaller and larger parameters.
+struct ProvedRadii {
+  double before = 0.0;
+  double after = 0.0;
+};
+
+/// An atom or a ball.
+template <HasHull P>
+inline constexpr bool has_one_point = std::tuple_size_v<decltype(std::declval<P>().hull())> == 1;
+
+/// A primitive whose motion can be bounded: points, and what has closest points to tell the direction to look along.
+template <class P>
+concept Certifiable = HasHull<P> &&(HasClosestPoints<P> || has_one_point<P>);
+
+namespace detail {
+
+/// Corners of a primitive along a direction: at(s) = value + s rate, and how far they are from a reference point.
+template <std::size_t N>
+struct CornersAlong {
+  std::array<double, N> value, rate;
+  double radius = 0.0;
+
+  CornersAlong(const std::array<Vec3, N>& hull, double scale, const Vec3& along, const Vec3& reference,
+               const Twist& twist) noexcept {
+    for (std::size_t k = 0; k < N; ++k) {
+      const Vec3 x = hull[k] * scale;
+      value[k] = dot(along, x);
+      rate[k] = dot(along, twist.at(x));
+      radius = std::max(radius, norm(Vec3(x - reference)));
+    }
+  }
+  double smallest(double s) const noexcept {
+    double r = value[0] + s * rate[0];
+    for (std::size_t k = 1; k < N; ++k) r = std::min(r, value[k] + s * rate[k]);
+    return r;
+  }
+  double largest(double s) const noexcept {
+    double r = value[0] + s * rate[0];
+    for (std::size_t k = 1; k < N; ++k) r = std::max(r, value[k] + s * rate[k]);
+    return r;
+  }
+};
+
+}  // namespace detail
+
+/// Are p and q, which are points with a radius, so far apart that what comes closer by `closer` (scaled) is still at
+/// least m apart? Not where rounding of this very sum leaves it open.
+template <Certifiable P>
+requires has_one_point<P>
+bool farther_than(const P& p, const P& q, double m, double closer, double scale) noexcept {
+  const double least = ((p.hull_radius() + q.hull_radius() + m) * scale + closer) * (1.0 + 0x1p-40);
+  return squared_norm(Vec3((q.hull()[0] - p.hull()[0]) * scale)) > least * least * (1.0 + 0x1p-40);
+}
+
+/// The same of two points that are at least `least` apart, model length unit.
+inline bool farther_than(double least, double m, double closer, double scale) noexcept {
+  return least * scale > (m * scale + closer) * (1.0 + 0x1p-40);
+}
+
+/// p and q are at least m apart, as placed by whoever places them, for every parameter within these radii of the
+/// middle, at which p and q are given; at most `half`. All comparisons fail for NaN, which proves nothing.
+template <Certifiable P>
+ProvedRadii prove_apart(const P& p, const P& q, double m, const RelativeMotion& motion, double half,
+                        double scale) noexcept {
+  const auto x = p.hull(), y = q.hull();
+  constexpr std::size_t n = std::tuple_size_v<decltype(p.hull())>;
+  Vec3 along;
+  if constexpr (n == 1) {
+    along = (y[0] - x[0]) * scale;
+  } else {
+    const auto [from, to] = closest_points(p, q);
+    along = (to - from) * scale;
+  }
+  const double length = norm(along);
+  if (!(length > 0.0)) return {};
+  along /= length;
+  const detail::CornersAlong<n> a(x, scale, along, motion.first_point, motion.first),
+      b(y, scale, along, motion.second_point, motion.second);
+  // (m may be a rounded sum.)
+  const double less = (p.hull_radius() + q.hull_radius() + m) * (1.0 + 0x1p-50) * scale + motion.rounding;
+  if (!(b.smallest(0.0) - a.largest(0.0) - less > 0.0)) return {};
+  const double second = (motion.points + motion.first_unit * a.radius + motion.second_unit * b.radius) * bound_above;
+  const double bend = 0.5 * second * half * half;
+  const auto radius = [&](double sign) {
+    if (b.smallest(sign * half) - a.largest(sign * half) - less - bend >= 0.0) return half;
+    double shortest = half;
+    for (std::size_t k = 0; k < n; ++k)
+      for (std::size_t l = 0; l < n; ++l) {
+        // The smaller root of gap + rate s - second s^2 / 2, without cancellation; rounded down.
+        const double gap = b.value[l] - a.value[k] - less, rate = sign * (b.rate[l] - a.rate[k]);
+        const double root = 2.0 * gap / (std::sqrt(rate * rate + 2.0 * second * gap) - rate);
+        if (!(root * (1.0 - 0x1p-40) >= shortest)) shortest = root * (1.0 - 0x1p-40);
+      }
+    return shortest >= 0.0 ? shortest : 0.0;
+  };
+  return {radius(-1.0), radius(1.0)};
+}
+
+}  // namespace hinge

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The distance of two closed triangles in double arithmetic, between bounds that hold whatever the rounding.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "hinge/core/vec3.hpp"
+#include "hinge/detail/exact/error_free.hpp"
+#include "hinge/detail/primitive/triangle_corners.hpp"
+
+namespace hinge::detail {
+
+/// ab - cd to about two half ulps of itself (Kahan), where nothing underflows.
+inline double difference_of_products(double a, double b, double c, double d) noexcept {
+  const exact::Exactly p = exact::two_product(a, b), q = exact::two_product(c, d);
+  return (p.value - q.value) + (p.rest - q.rest);
+}
+
+/// The normal also of two nearly parallel vectors.
+inline Vec3 accurate_cross(const Vec3& a, const Vec3& b) noexcept {
+  return {difference_of_products(a[1], b[2], a[2], b[1]), difference_of_products(a[2], b[0], a[0], b[2]),
+          difference_of_products(a[0], b[1], a[1], b[0])};
+}
+
+/// Two triangles relative to the first's first corner. R, the largest coordinate there, is the unit of all errors
+/// below.
+class TrianglePair {
+ public:
+  TrianglePair(const Corners& x, const Corners& y) noexcept : origin_(x[0]) {
+    double size = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      x_.corner[k] = x[k] - origin_;
+      y_.corner[k] = y[k] - origin_;
+      size = std::max({size, largest(x_.corner[k]), largest(y_.corner[k])});
+    }
+    size_ = size;
+    x_.prepare();
+    y_.prepare();
+  }
+
+  /// Products of six lengths neither overflow nor lose digits that matter to underflow; false also for NaN.
+  bool in_window() const noexcept { return size_ >= 0x1p-150 && size_ <= 0x1p150; }
+
+  /// How far rounding may put a bound of the distance on the wrong side. In half ulps of R: 2 for the rounding of a
+  /// corner to here; below it, 5 for the dot product of a corner with a unit vector, so 14 for two triangles; above it,
+  /// 5 for a point of an edge, so 14 for two, and 12 for a point of a face, so 16 with a corner. In half ulps of the
+  /// distance: 4 for its root of squares or its division by the direction's length.
+  double rounding(double distance) const noexcept { return exact::half_ulp * (20 * size_ + 8 * distance); }
+
+  /// Are the planes of the triangles enough to see that they are at least m apart?
+  bool planes_apart(double m) const noexcept { return apart_along(x_.normal, m) || apart_along(y_.normal, m); }
+
+  struct Nearest {
+    Vec3 p, q;             ///< points of the triangles, up to rounding: the distance is at most theirs
+    double squared = 0.0;  ///< |p - q|^2
+    double distance = 0.0;
+    double gap = 0.0;  ///< along the best direction known: the distance is at least this, up to rounding
+  };
+
+  Nearest nearest() const noexcept;
+
+  /// Do the bounds agree? Then `distance` is right to 28 half ulps of R and 16 of itself.
+  bool certain(const Nearest& n) const noexcept {
+    return n.distance - n.gap <= exact::half_ulp * (8 * size_ + 8 * n.distance);
+  }
+
+  Vec3 placed(const Vec3& local) const noexcept { return local + origin_; }
+
+ private:
+  struct Side {
+    Corners corner;
+    Corners edge;                           // edge k from corner k to k + 1
+    Vec3 normal, to_first, to_second;       // dotted with a point seen from corner 0:
+                                            // its shares along the edges, times n^2
+    std::array<double, 3> square, inverse;  // of the edges' lengths; 0 for 0
+    double normal_square = 0.0;
+
+    void prepare() noexcept {
+      for (std::size_t k = 0; k < 3; ++k) {
+        edge[k] = corner[(k + 1) % 3] - corner[k];
+        square[k] = squared_norm(edge[k]);
+        inverse[k] = square[k] > 0.0 ? 1.0 / square[k] : 0.0;
+      }
+      const Vec3 second = corner[2] - corner[0];
+      normal = cross(edge[0], second);
+      to_first = cross(second, normal);
+      to_second = cross(normal, edge[0]);
+      normal_square = squared_norm(normal);
+    }
+  };
+
+  /// (min n.y - max n.x) for the sign of n that gives more.
+  double gap_times_norm(const Vec3& n) const noexcept {
+    const auto range = [&n](const Corners& c) noexcept {
+      const double u = dot(n, c[0]), v = dot(n, c[1]), w = dot(n, c[2]);
+      return std::pair(std::min({u, v, w}), std::max({u, v, w}));
+    };
+    const auto [x_low, x_high] = range(x_.corner);
+    const auto [y_low, y_high] = range(y_.corner);
+    return std::max(y_low - x_high, x_low - y_high);
+  }
+
+  bool apart_along(const Vec3& n, double m) const noexcept {
+    const double square = squared_norm(n), gap = gap_times_norm(n);
+    if (!(gap > 0.0) || !(square > exact::lost_squares)) return false;
+    const double d = gap / std::sqrt(square);
+    return d - rounding(d) >= m;
+  }
+
+  struct Shares {
+    double s = 0.0, t = 0.0;
+  };
+
+  /// Nearest points of edge k of x and edge l of y (Lumelsky 1985, ending with one more projection); degenerate and
+  /// parallel edges included.
+  Shares on_edges(std::size_t k, std::size_t l, Vec3& apart) const noexcept {
+    const Vec3 &u = x_.edge[k], &v = y_.edge[l], r = x_.corner[k] - y_.corner[l];
+    const double a = x_.square[k], e = y_.square[l], b = dot(u, v), c = dot(u, r), f = dot(v, r);
+    const double determinant = a * e - b * b, numerator = b * f - c * e;
+    const double start = clamped(determinant > 0.0 ? numerator / determinant : 0.0);
+    const double t = clamped((b * start + f) * y_.inverse[l]);
+    const double s = clamped((b * t - c) * x_.inverse[k]);
+    apart = r + u * s - v * t;
+    return {s, t};
+  }
+
+  /// Squared distance of a corner of `points` from the inside of t's face; infinite where its foot is outside.
+  static double to_face(const Side& t, const Vec3& p) noexcept {
+    const Vec3 w = p - t.corner[0];
+    const double s = dot(w, t.to_first), r = dot(w, t.to_second), height = dot(w, t.normal);
+    const bool inside = s >= 0.0 && r >= 0.0 && s + r <= t.normal_square && t.normal_square > exact::lost_squares;
+    return inside ? height * height / t.normal_square : std::numeric_limits<double>::infinity();
+  }
+
+  static Vec3 foot(const Side& t, const Vec3& p) noexcept {
+    const Vec3 w = p - t.corner[0];
+    const double s = clamped(dot(w, t.to_first) / t.normal_square);
+    return on_face(t.corner, s, std::min(clamped(dot(w, t.to_second) / t.normal_square), 1.0 - s));
+  }
+
+  Vec3 origin_;
+  Side x_, y_;
+  double size_ = 0.0;
+};
+
+inline TrianglePair::Nearest TrianglePair::nearest() const noexcept {
+  std::size_t best = 0;  // 0..8 edge pairs, 9..11 a corner of x and y's
+                         // face, 12..14 the other way round
+  double least = std::numeric_limits<double>::infinity();
+  const auto offer = [&](std::size_t which, double squared) noexcept {
+    best = squared < least ? which : best;
+    least = squared < least ? squared : least;
+  };
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t l = 0; l < 3; ++l) {
+      Vec3 apart;
+      on_edges(k, l, apart);
+      offer(3 * k + l, squared_norm(apart));
+    }
+  for (std::size_t k = 0; k < 3; ++k) {
+    offer(9 + k, to_face(y_, x_.corner[k]));
+    offer(12 + k, to_face(x_, y_.corner[k]));
+  }
+
+  Nearest n;
+  Vec3 direction;
+  if (best < 9) {
+    const std::size_t k = best / 3, l = best % 3;
+    Vec3 apart;
+    const auto [s, t] = on_edges(k, l, apart);
+    n.p = on_edge(x_.corner[k], x_.corner[(k + 1) % 3], s);
+    n.q = on_edge(y_.corner[l], y_.corner[(l + 1) % 3], t);
+    const bool inside_u = s > 0.0 && s<1.0, inside_v = t> 0.0 && t < 1.0;
+    direction = n.p - n.q;
+    // A direction computed from near points is off by the rounding of these; at right angles to an edge it need not be.
+    if (inside_u && inside_v)
+      direction = accurate_cross(x_.edge[k], y_.edge[l]);
+    else if (inside_u)
+      direction -= x_.edge[k] * (dot(direction, x_.edge[k]) * x_.inverse[k]);
+    else if (inside_v)
+      direction -= y_.edge[l] * (dot(direction, y_.edge[l]) * y_.inverse[l]);
+  } else {
+    const bool from_x = best < 12;
+    const std::size_t k = best % 3;
+    const Side& face = from_x ? y_ : x_;
+    const Vec3 &corner = (from_x ? x_ : y_).corner[k], on = foot(face, corner);
+    n.p = from_x ? corner : on;
+    n.q = from_x ? on : corner;
+    direction = accurate_cross(face.edge[0], face.edge[1]);
+  }
+  n.squared = squared_norm(Vec3(n.p - n.q));
+  n.distance = std::sqrt(n.squared);
+  const double square = squared_norm(direction);
+  n.gap = square > exact::lost_squares ? gap_times_norm(direction) / std::sqrt(square) : 0.0;
+  return n;
+}
+
+}  // namespace hinge::detail

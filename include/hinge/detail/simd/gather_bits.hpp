@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From bit masks to lists, and look-ups in small tables: the two steps that standard SIMD types do not offer.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "hinge/detail/simd/lanes.hpp"
+
+#if defined(__AVX2__)
+#include <immintrin.h>
+#endif
+
+namespace hinge::simd {
+
+/// Writes base + lane for every set bit to `to`, lowest first, and returns how many. Writes up to `width` entries,
+/// whatever the mask: leave room behind.
+[[gnu::always_inline]] inline std::size_t append_lanes(Bits mask, std::uint32_t base, std::uint32_t* to) noexcept {
+#if defined(__AVX512F__)
+  const __m512i lanes = _mm512_add_epi32(_mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0),
+                                         _mm512_set1_epi32(static_cast<int>(base)));
+  // Compressed in a register: the form that writes memory is slow on some CPUs.
+  _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(mask), lanes));
+  return static_cast<std::size_t>(std::popcount(mask));
+#else
+  std::size_t n = 0;
+  for (; mask != 0; mask &= mask - 1) to[n++] = base + static_cast<std::uint32_t>(std::countr_zero(mask));
+  return n;
+#endif
+}
+
+/// Writes values[lane] for every set bit, the same way.
+[[gnu::always_inline]] inline std::size_t append_chosen(Bits mask, const std::uint32_t* values,
+                                                        std::uint32_t* to) noexcept {
+#if defined(__AVX512F__)
+  _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(mask), _mm512_loadu_si512(values)));
+  return static_cast<std::size_t>(std::popcount(mask));
+#else
+  std::size_t n = 0;
+  for (; mask != 0; mask &= mask - 1) to[n++] = values[std::countr_zero(mask)];
+  return n;
+#endif
+}
+
+/// a in the lanes of every set bit, b in the others.
+[[gnu::always_inline]] inline Float16 choose(Bits mask, const Float16& a, const Float16& b) noexcept {
+  alignas(64) float of_a[width], of_b[width];
+  a.store(of_a);
+  b.store(of_b);
+#if defined(__AVX512F__)
+  _mm512_store_ps(of_b, _mm512_mask_blend_ps(static_cast<__mmask16>(mask), _mm512_load_ps(of_b), _mm512_load_ps(of_a)));
+#else
+  for (; mask != 0; mask &= mask - 1) of_b[std::countr_zero(mask)] = of_a[std::countr_zero(mask)];
+#endif
+  return Float16(of_b);
+}
+
+/// Sixteen numbers below 16, prepared for look_up. (The zero-masked forms because g++ 12 warns about the others'
+/// undefined pass-through operand.)
+class Index16 {
+ public:
+  Index16() = default;
+#if defined(__AVX512F__)
+  explicit Index16(const std::uint8_t* from) noexcept
+      : index_(_mm512_maskz_cvtepu8_epi32(0xffff, _mm_loadu_si128(reinterpret_cast<const __m128i*>(from)))) {}
+  /// table[index] in every lane; the table has 16 entries.
+  [[gnu::always_inline]] friend Float16 look_up(const float* table, const Index16& i) noexcept {
+    alignas(64) float r[width];
+    _mm512_store_ps(r, _mm512_maskz_permutexvar_ps(0xffff, i.index_, _mm512_loadu_ps(table)));
+    return Float16(r);
+  }
+
+ private:
+  __m512i index_{};
+#elif defined(__AVX2__)
+  explicit Index16(const std::uint8_t* from) noexcept {
+    const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
+    index_[0] = _mm256_cvtepu8_epi32(bytes);
+    index_[1] = _mm256_cvtepu8_epi32(_mm_srli_si128(bytes, 8));
+  }
+  /// table[index] in every lane; the table has 16 entries.
+  [[gnu::always_inline]] friend Float16 look_up(const float* table, const Index16& i) noexcept {
+    const __m256 low = _mm256_loadu_ps(table), high = _mm256_loadu_ps(table + 8);
+    alignas(32) float r[width];
+    for (std::size_t h = 0; h < 2; ++h) {
+      const __m256 upper = _mm256_castsi256_ps(_mm256_cmpgt_epi32(i.index_[h], _mm256_set1_epi32(7)));
+      _mm256_store_ps(r + 8 * h, _mm256_blendv_ps(_mm256_permutevar8x32_ps(low, i.index_[h]),
+                                                  _mm256_permutevar8x32_ps(high, i.index_[h]), upper));
+    }
+    return Float16(r);
+  }
+
+ private:
+  __m256i index_[2]{};
+#else
+  explicit Index16(const std::uint8_t* from) noexcept : index_(from) {}
+  /// table[index] in every lane; the table has 16 entries.
+  [[gnu::always_inline]] friend Float16 look_up(const float* table, const Index16& i) noexcept {
+    float r[width];
+    for (std::size_t k = 0; k < width; ++k) r[k] = table[i.index_[k]];
+    return Float16(r);
+  }
+
+ private:
+  const std::uint8_t* index_ = nullptr;
+#endif
+};
+
+}  // namespace hinge::simd

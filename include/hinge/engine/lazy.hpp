@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// engine/lazy: the algorithm of BioCD (Ruiz de Angulo, Cortes, Simeon, RSS 2005): two levels of lazily split box trees.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "hinge/bounds/aabb.hpp"
+#include "hinge/core/id.hpp"
+#include "hinge/detail/engine/lazy/lazy_layout.hpp"
+#include "hinge/detail/engine/lazy_tree.hpp"
+#include "hinge/detail/engine/traversal.hpp"
+#include "hinge/detail/query/offer.hpp"
+#include "hinge/detail/query/pair_rules.hpp"
+#include "hinge/engine/engine.hpp"
+#include "hinge/model/placement.hpp"
+#include "hinge/query/query_options.hpp"
+
+namespace hinge {
+
+/// After an update only bodies that moved get new boxes, and of those only leaves and root; nodes between are split
+/// when a query reaches them, and kept while the body stands still. The upper tree over the roots is built anew in each
+/// query.
+template <Primitive P, PairFilter F, DistanceMatrix D>
+class Lazy {
+ public:
+  Lazy(std::shared_ptr<const SelectedModel<P>> model, F filter, D matrix)
+      : layout_(std::make_shared<const LazyLayout>(*model, filter)),
+        placement_(std::move(model)),
+        filter_(std::move(filter)),
+        matrix_(std::move(matrix)),
+        trees_(layout_->body_count()),
+        built_(layout_->body_count(), 0) {
+    if constexpr (HasNoBody<P>) {
+      const std::vector<std::uint8_t> idle = zero_thresholds(matrix_, placement_.model().size());
+      for (std::uint32_t l = 0; l < layout_->leaf_count(); ++l)
+        idle_.push_back(
+            std::ranges::all_of(layout_->primitives(l), [&](PrimitiveId i) { return idle[index(i)] != 0; }));
+    }
+  }
+
+  Placement<P>& placement() noexcept { return placement_; }
+  const Placement<P>& placement() const noexcept { return placement_; }
+
+  template <Collector C>
+  void self_query(C& collector, const QueryOptions& options) {
+    if (trees_.empty()) return;
+    QueryCounts counts;
+    refresh();
+    run_self(collector, SelfRules<P, F, D>{placement_, filter_, matrix_, options}, counts);
+    add(options.counts, counts);
+  }
+
+  /// `across` admits (primitive of this, primitive of other).
+  template <Collector C, PairFilter G>
+  requires CrossMatrix<D>
+  void query(Lazy& other, const G& across, C& collector, const QueryOptions& options) {
+    if (trees_.empty() || other.trees_.empty()) return;
+    QueryCounts counts;
+    refresh();
+    other.refresh();
+    make_upper(options.clearance);
+    other.make_upper(options.other_clearance);
+    const CrossRules<P, G, D> rules{placement_, other.placement_, across, matrix_, other.matrix_, options};
+    const auto cutoff = [&] { return collector.cutoff(); };
+    // Compatible tables of types are alike; of other matrices nothing is known but that no threshold is above 0.
+    const bool skip_idle = without_margin(collector, options) && other.without_margin(collector, options) &&
+                           (TypesPrimitives<D> || (idle_.front() != 0 && other.idle_.front() != 0));
+    traverse(
+        upper_, other.upper_, stack_, counts, cutoff,
+        [&](std::uint32_t a, std::uint32_t b) {
+          const double extra = extra_of(a, options.clearance) + other.extra_of(b, options.other_clearance);
+          const auto inner = [&] { return collector.cutoff() + extra; };
+          return traverse(
+              trees_[a], other.trees_[b], stack_, counts, inner,
+              [&](auto m, auto n) {
+                const auto p = layout_->primitives(layout_->first_leaf(a) + m);
+                const auto q = other.layout_->primitives(other.layout_->first_leaf(b) + n);
+                counts.pairs_tested += p.size() * q.size();
+                for (const PrimitiveId i : p)
+                  for (const PrimitiveId j : q) {
+                    offer(collector, i, j, placement_.placed()[index(i)], other.placement_.placed()[index(j)],
+                          rules.threshold(i, j), [&] { return rules.admits(i, j); });
+                    if (collector.done()) return false;
+                  }
+                return true;
+              },
+              skip_idle);
+        },
+        skip_idle);
+    add(options.counts, counts);
+  }
+
+  /// For tests: is every tree built so far consistent with its boxes?
+  bool check_well_formed() {
+    refresh();
+    for (std::size_t b = 0; b < trees_.size(); ++b)
+      if (!hinge::check_well_formed(trees_[b], boxes_of(b))) return false;
+    return true;
+  }
+
+ private:
+  using Rules = SelfRules<P, F, D>;
+
+  static void add(QueryCounts* total, const QueryCounts& counts) noexcept {
+    if (total == nullptr) return;
+    total->boxes_tested += counts.boxes_tested;
+    total->nodes_split += counts.nodes_split;
+    total->pairs_tested += counts.pairs_tested;
+  }
+
+  /// Leaf boxes and roots of bodies that moved since they were last built.
+  void refresh() {
+    for (std::size_t b = 0; b < trees_.size(); ++b) {
+      std::uint64_t version = 0;  // versions only grow, so the sum tells when any changed
+      for (const GroupId g : layout_->groups(b)) version += placement_.version(g);
+      if (version == built_[b]) continue;
+      built_[b] = version;
+      for (const GroupId g : layout_->groups(b)) placement_.place(g);
+      trees_[b].reset(boxes_of(b), idle_of(b));
+    }
+  }
+
+  /// BioCD eq. (2)-(4): each primitive's bounds inflated by its reach, joined over the leaf.
+  std::span<const Aabb> boxes_of(std::size_t body) {
+    boxes_.clear();
+    for (std::uint32_t l = layout_->first_leaf(body); l < layout_->first_leaf(body + 1); ++l) {
+      Aabb box;
+      for (const PrimitiveId i : layout_->primitives(l))
+        box.extend(placement_.placed()[index(i)].bounds().inflated(matrix_.reach(i)));
+      boxes_.push_back(box);
+    }
+    return boxes_;
+  }
+
+  std::span<const std::uint8_t> idle_of(std::size_t body) const noexcept {
+    if (idle_.empty()) return {};
+    return std::span(idle_).subspan(layout_->first_leaf(body),
+                                    layout_->first_leaf(body + 1) - layout_->first_leaf(body));
+  }
+
+  /// Does the query ask for collisions alone, so that primitives whose thresholds are all 0 take no part?
+  template <Collector C>
+  bool without_margin(const C& collector, const QueryOptions& options) const noexcept {
+    return !idle_.empty() && asks_collisions(collector) && !options.adds_clearance();
+  }
+
+  double extra_of(std::size_t body, std::span<const double> clearance) const noexcept {
+    double extra = 0.0;
+    for (const GroupId g : layout_->groups(body)) extra = std::max(extra, clearance_of(clearance, g));
+    return extra;
+  }
+
+  void make_upper(std::span<const double> clearance) {
+    boxes_.clear();
+    idle_bodies_.clear();
+    for (std::size_t b = 0; b < trees_.size(); ++b) {
+      idle_bodies_.push_back(trees_[b].node(0).idle);
+      const Aabb& root = trees_[b].node(0).box;
+      const double extra = extra_of(b, clearance);
+      boxes_.push_back(extra > 0.0 ? root.inflated(extra) : root);
+    }
+    upper_.reset(boxes_, idle_bodies_);
+  }
+
+  template <Collector C>
+  void run_self(C& collector, const Rules& rules, QueryCounts& counts) {
+    const QueryOptions& options = rules.options;
+    const bool skip_idle = without_margin(collector, options);
+    for (std::uint32_t b = 0; b < trees_.size(); ++b) {
+      const bool deforms = placement_.groups_may_deform();
+      if (layout_->groups(b).size() > 1 || deforms)
+        for (std::uint32_t l = layout_->first_leaf(b); l < layout_->first_leaf(b + 1); ++l)
+          if (!(skip_idle && idle_[l] != 0) && !test_leaves(l, l, collector, rules, counts)) return;
+      if (deforms && !test_bodies(b, b, collector, rules, counts)) return;
+    }
+    make_upper(options.clearance);
+    traverse(
+        upper_, upper_, stack_, counts, [&] { return collector.cutoff(); },
+        [&](std::uint32_t a, std::uint32_t b) {
+          return (options.moved_only && !moved_apart(a, b)) || test_bodies(a, b, collector, rules, counts);
+        },
+        skip_idle);
+  }
+
+  bool moved_apart(std::uint32_t a, std::uint32_t b) noexcept {
+    for (const GroupId g : layout_->groups(a))
+      for (const GroupId h : layout_->groups(b))
+        if (placement_.moved_apart(g, h)) return true;
+    return false;
+  }
+
+  template <Collector C>
+  bool test_bodies(std::uint32_t a, std::uint32_t b, C& collector, const Rules& rules, QueryCounts& counts) {
+    const double extra = extra_of(a, rules.options.clearance) + extra_of(b, rules.options.clearance);
+    const auto cutoff = [&] { return collector.cutoff() + extra; };
+    return traverse(
+        trees_[a], trees_[b], stack_, counts, cutoff,
+        [&](std::uint32_t m, std::uint32_t n) {
+          return test_leaves(layout_->first_leaf(a) + m, layout_->first_leaf(b) + n, collector, rules, counts);
+        },
+        without_margin(collector, rules.options));
+  }
+
+  /// Every admitted pair of two leaves, or inside one; false when the collector wants no more.
+  template <Collector C>
+  bool test_leaves(std::uint32_t a, std::uint32_t b, C& collector, const Rules& rules, QueryCounts& counts) {
+    const std::span<const P> placed = placement_.placed();
+    const auto test = [&](PrimitiveId i, PrimitiveId j) {
+      offer(collector, i, j, placed[index(i)], placed[index(j)], rules.threshold(i, j),
+            [&] { return rules.admits(i, j); });
+      return !collector.done();
+    };
+    std::span<const LazyLayout::PrimitivePair> sri;
+    if (layout_->lists(std::min(a, b), std::max(a, b), sri)) {
+      counts.pairs_tested += sri.size();
+      for (const auto& [i, j] : sri)
+        if (!test(i, j)) return false;
+      return true;
+    }
+    const auto p = layout_->primitives(a), q = layout_->primitives(b);
+    counts.pairs_tested += a == b ? p.size() * (p.size() - 1) / 2 : p.size() * q.size();
+    for (std::size_t m = 0; m < p.size(); ++m)
+      for (std::size_t n = a == b ? m + 1 : 0; n < q.size(); ++n)
+        if (!test(std::min(p[m], q[n]), std::max(p[m], q[n]))) return false;
+    return true;
+  }
+
+  std::shared_ptr<const LazyLayout> layout_;  // shared by copies
+  Placement<P> placement_;
+  F filter_;
+  D matrix_;
+  std::vector<LazyTree> trees_;            // per body, items are its leaves
+  std::vector<std::uint64_t> built_;       // per body: sum of the versions its tree was built from
+  std::vector<std::uint8_t> idle_;         // per leaf: its thresholds are all 0; empty where that means nothing
+  LazyTree upper_;                         // items are bodies
+  std::vector<std::uint8_t> idle_bodies_;  // scratch
+  std::vector<Aabb> boxes_;                // scratch
+  NodePairs stack_;                        // scratch
+};
+
+}  // namespace hinge

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// CertifiedPath: is a straight path free, proved for every state of it, or is there one that collides?
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "hinge/core/id.hpp"
+#include "hinge/detail/bounds/round.hpp"
+#include "hinge/detail/core/finite.hpp"
+#include "hinge/detail/path/displacements.hpp"
+#include "hinge/detail/path/group_rates.hpp"
+#include "hinge/detail/path/listed_pairs.hpp"
+#include "hinge/detail/path/near_links.hpp"
+#include "hinge/detail/path/path_segments.hpp"
+#include "hinge/detail/path/prove_apart.hpp"
+#include "hinge/detail/path/relative_motion.hpp"
+#include "hinge/detail/primitive/leaf.hpp"
+#include "hinge/detail/query/pair_rules.hpp"
+#include "hinge/hierarchy.hpp"
+#include "hinge/path/path_answer.hpp"
+#include "hinge/path/straight_path.hpp"
+#include "hinge/query/link_pair_hits.hpp"
+
+namespace hinge {
+
+/// Proves path after path for one hierarchy, of which it holds a copy. One per thread. What "free" says, and how it is
+/// proved: docs/explanation/certified_paths.md.
+template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
+class CertifiedPath {
+ public:
+  explicit CertifiedPath(Hierarchy<P, F, D, EngineOf> hierarchy)
+      : hierarchy_(std::move(hierarchy)),
+        rates_(hierarchy_.model()),
+        list_limit_(rates_.extent() > 0.0 ? rates_.extent() * rates_.scale() * list_share : 1.0),
+        near_links_(by_links ? hierarchy_.model().model().links() : std::span<const LinkId>()) {}
+
+  /// from, to: one value per selected DOF, rad or model length unit. A stretch of the path, as a share of it, is not
+  /// cut any more when it is no longer than `smallest_step`. ConfigurationError: see StraightPath; a step that is not
+  /// above 0.
+  PathAnswer check(std::span<const double> from, std::span<const double> to, double smallest_step = smallest_path_step);
+
+ private:
+  // A path that takes more than this many segments is left undecided.
+  static constexpr std::size_t most_segments = std::size_t{1} << 17;
+  // Beyond the limit by this factor a segment is cut once more: speeds differ along the path.
+  static constexpr double most_above_limit = 1.5;
+  static constexpr double most_pieces = 4096.0;
+  // Links of many primitives with an extent are listed as wholes first: their pairs would be too many.
+  static constexpr bool by_links = KeepsTrees<P>;
+  // Displacements up to this share of the model are listed for; larger ones make long lists, smaller ones many. Near
+  // the best for proteins and robots (bench/paths.cpp); answers do not depend on it.
+  static constexpr double list_share = by_links ? 1.0 / 160.0 : 1.0 / 40.0;
+  // Pairs of two links that are judged one by one; when more are near, halving the segment is cheaper.
+  static constexpr std::size_t most_near = 32;
+
+  void place(double t);
+  void list(const PathSegment& segment);
+  bool judge(const PathSegment& segment);
+  void cut_evenly(double largest);
+  bool middle_collides(const PathSegment& segment);
+  bool find_near(const PathPair& links, double closer, std::size_t most);
+  bool collides(const PathPair& pair, double t);
+  void answer_collision(const Hit& hit, double t);
+  void leave_undecided(const PathSegment& segment, const PathPair* pair);
+
+  Hierarchy<P, F, D, EngineOf> hierarchy_;
+  GroupRates rates_;
+  Displacements displacements_;
+  double list_limit_;
+  StraightPath path_{{}, {}, 0};  // the one under way, or the last
+  double smallest_step_ = 0.0;
+  PathAnswer answer_;
+  std::vector<double> q_;
+  std::vector<double> clearance_;
+  PathSegments segments_;
+  std::vector<PathPair> listed_, before_, after_, found_;
+  LinkPairHits near_links_;
+  RelativeMotions motions_;
+};
+
+template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
+PathAnswer CertifiedPath<P, F, D, EngineOf>::check(std::span<const double> from, std::span<const double> to,
+                                                   double smallest_step) {
+  if (!(smallest_step > 0.0))
+    throw ConfigurationError("smallest step " + std::to_string(smallest_step) + ": expected a share above 0");
+  path_ = StraightPath(from, to, hierarchy_.dof_count());
+  smallest_step_ = smallest_step;
+  answer_ = {};
+  answer_.verdict = PathVerdict::free;
+  rates_.begin(path_);
+  segments_.start();
+  for (std::size_t k = 0; k < segments_.size(); ++k) {
+    const PathSegment segment = segments_[k];
+    if (k == most_segments) {
+      leave_undecided(segment, nullptr);
+      break;
+    }
+    ++answer_.counts.segments;
+    place(segment.middle());
+    listed_.clear();
+    if (segment.knows_pairs)
+      segments_.get_pairs(segment, listed_);
+    else
+      list(segment);
+    if (answer_.verdict == PathVerdict::colliding || judge(segment)) break;
+  }
+  return std::move(answer_);
+}
+
+template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
+void CertifiedPath<P, F, D, EngineOf>::place(double t) {
+  path_.at(t, q_);
+  hierarchy_.update(q_);
+  ++answer_.counts.configurations;
+  rates_.set_middle(hierarchy_.frames());
+  motions_.forget();
+}
+
+/// Finds the pairs that might come too close; none when the segment had better be cut first.
+template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
+void CertifiedPath<P, F, D, EngineOf>::list(const PathSegment& segment) {
+  if (segment.is_whole()) displacements_.begin(rates_.groups());
+  const double largest = displacements_.find(rates_.groups(), segment.half());
+  if (!(largest <= most_above_limit * list_limit_) && segment.length() > smallest_step_) {
+    if (segment.is_whole()) {
+      cut_evenly(largest);
+    } else if (!middle_collides(segment)) {
+      segments_.push_halves(segment);
+    }
+    return;
+  }
+  if (!is_length(largest / rates_.scale())) return leave_undecided(segment, nullptr);
+  clearance_.clear();
+  for (const double d : displacements_.of_groups()) clearance_.push_back(d / rates_.scale());
+  const QueryOptions options{.clearance = clearance_, .precision = Precision::never_miss};  // more is no harm
+  if constexpr (by_links) {
+    near_links_.clear();
+    hierarchy_.self_query(near_links_, options);
+    for (const Hit& hit : near_links_.hits()) listed_.push_back({hit.first, hit.second, true});
+  } else {
+    ListedPairs listed(listed_, StaysApart{hierarchy_.model(), hierarchy_.matrix(), rates_, motions_, segment.half()});
+    hierarchy_.self_query(listed, options);
+    answer_.counts.pairs_listed += listed.proved();
+    answer_.counts.pairs_proved += listed.proved();
+  }
+}
+
+/// Asks the ordinary query where a list would be long.
+template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
+bool CertifiedPath<P, F, D, EngineOf>::middle_collides(const PathSegment& segment) {
+  AnyHit any;
+  hierarchy_.self_query(any);
+  if (!any.done()) return false;
+  answer_collision(*any.hit(), segment.middle());
+  return true;
+}
+
+/// Into so many pieces that the lists of each are short.
+template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
+void CertifiedPath<P, F, D, EngineOf>::cut_evenly(double largest) {
+  double pieces = 1.0;
+  while (!(largest <= list_limit_) && pieces < most_pieces) {
+    pieces = std::ceil(pieces * std::clamp(largest / list_limit_, 1.1, 2.0));
+    largest = displacements_.find_again(rates_.groups(), 0.5 / pieces);
+  }
+  segments_.push_pieces(static_cast<std::uint64_t>(std::min(pieces, most_pieces)));
+}
+
+/// Proves what can be proved of the listed pairs and hands on the others; true when one of them collides.
+template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
+bool CertifiedPath<P, F, D, EngineOf>::judge(const PathSegment& segment) {
+  const double middle = segment.middle(), half = segment.half();
+  const SelectedModel<P>& model = hierarchy_.model();
+  before_.clear();
+  after_.clear();
+  ProvedRadii shortest{half, half};
+  for (std::size_t k = 0; k < listed_.size(); ++k) {
+    const PathPair pair = listed_[k];
+    ++answer_.counts.pairs_listed;
+    const auto a = static_cast<std::uint32_t>(index(model.group_of(pair.first)));
+    const auto b = static_cast<std::uint32_t>(index(model.group_of(pair.second)));
+    const double m = hierarchy_.matrix().threshold(pair.first, pair.second);
+    const std::span<const GroupRate> groups = rates_.groups();
+    const RelativeMotion& motion = motions_(groups, a, b, half);
+    const P p = hierarchy_.placed(pair.first), q = hierarchy_.placed(pair.second);
+    if constexpr (has_one_point<P>)
+      if (farther_than(p, q, m, motion.approach, rates_.scale())) {
+        ++answer_.counts.pairs_proved;
+        continue;
+      }
+    if (pair.stands_for_links) {
+      // The pairs of two links that may come too close are judged one by one, when they are few.
+      if (find_near(pair, approach(motion, groups[a], groups[b], half), most_near)) {
+        ++answer_.counts.pairs_proved;
+        listed_.insert(listed_.end(), found_.begin(), found_.end());
+      } else if (!find_near(pair, 0.0, 0)) {
+        return collides(found_.front(), middle);
+      } else {
+        before_.push_back(pair);
+        after_.push_back(pair);
+        shortest = {};
+      }
+      continue;
+    }
+    const ProvedRadii radii = prove_apart(p, q, m, motion, half, rates_.scale());
+    if (radii.before >= half && radii.after >= half) {
+      ++answer_.counts.pairs_proved;
+      continue;
+    }
+    if (radii.before == 0.0 && radii.after == 0.0) {
+      if (collides(pair, middle)) return true;
+      // What never moves, and what nothing comes closer to than 0, is free as it is.
+      if ((groups[a].stands && groups[b].stands) || (HasNoBody<P> && m == 0.0)) {
+        ++answer_.counts.pairs_proved;
+        continue;
+      }
+      if (motion.still) {
+        leave_undecided(segment, &pair);
+        continue;
+      }
+    }
+    if (radii.before < half) before_.push_back(pair);
+    if (radii.after < half) after_.push_back(pair);
+    shortest.before = std::min(shortest.before, radii.before);
+    shortest.after = std::min(shortest.after, radii.after);
+  }
+  if (before_.empty() && after_.empty()) return false;
+  if (segment.length() > smallest_step_) {
+    segments_.push(segment.low, next_up(middle - shortest.before), before_);
+    segments_.push(next_down(middle + shortest.after), segment.high, after_);
+    return false;
+  }
+  // The ends are asked as well: a path may touch in its first state.
+  for (const double end : {segment.low, segment.high}) {
+    place(end);
+    for (const PathPair& pair : listed_) {
+      const bool near = !pair.stands_for_links || !find_near(pair, 0.0, 0);
+      if (near && collides(pair.stands_for_links ? found_.front() : pair, end)) return true;
+    }
+  }
+  leave_undecided(segment, before_.empty() ? &after_.front() : &before_.front());
+  return false;
+}
+
+/// Finds the pairs of the two links closer than their threshold and an approach (scaled); are there at most so many?
+template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
+bool CertifiedPath<P, F, D, EngineOf>::find_near(const PathPair& links, double closer, std::size_t most) {
+  const double margin = closer / rates_.scale();
+  found_.clear();
+  if (!is_length(margin)) return false;
+  NearLinks near(hierarchy_.model().model().links(), links, margin, most, found_);
+  hierarchy_.self_query(near);
+  return found_.size() <= most;
+}
+
+/// At the state t, which was placed last, by the rule of every query; answers if so.
+template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
+bool CertifiedPath<P, F, D, EngineOf>::collides(const PathPair& pair, double t) {
+  const P p = hierarchy_.placed(pair.first), q = hierarchy_.placed(pair.second);
+  const auto m = threshold_of(hierarchy_.matrix(), pair.first, pair.second);
+  if (!closer_than(p, q, m)) return false;
+  answer_collision({pair.first, pair.second, m > 0.0 ? distance(p, q) : 0.0, m}, t);
+  return true;
+}
+
+template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
+void CertifiedPath<P, F, D, EngineOf>::answer_collision(const Hit& hit, double t) {
+  answer_.verdict = PathVerdict::colliding;
+  answer_.parameter = t;
+  answer_.half_width = 0.0;
+  answer_.configuration = q_;
+  answer_.hit = hit;
+}
+
+/// The longest stretch that is left is the one that is told.
+template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
+void CertifiedPath<P, F, D, EngineOf>::leave_undecided(const PathSegment& segment, const PathPair* pair) {
+  if (answer_.verdict == PathVerdict::undecided && answer_.half_width >= segment.half()) return;
+  answer_.verdict = PathVerdict::undecided;
+  answer_.parameter = segment.middle();
+  answer_.half_width = segment.half();
+  path_.at(answer_.parameter, answer_.configuration);
+  answer_.hit.reset();
+  if (pair == nullptr) return;
+  place(segment.middle());
+  answer_.hit =
+      Hit{pair->first, pair->second, distance(hierarchy_.placed(pair->first), hierarchy_.placed(pair->second)),
+          hierarchy_.matrix().threshold(pair->first, pair->second)};
+}
+
+}  // namespace hinge

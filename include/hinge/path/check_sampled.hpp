@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// check_sampled: is any of many states along a straight path in collision? Says nothing about what lies between them.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "hinge/detail/core/finite.hpp"
+#include "hinge/path/path_answer.hpp"
+#include "hinge/path/straight_path.hpp"
+#include "hinge/query/collectors.hpp"
+
+namespace hinge {
+
+/// Both ends and as many states between them, evenly spaced, that no joint value changes by more than `resolution`
+/// (rad or model length unit) from one to the next; those in the middle of what is not looked at first.
+/// ConfigurationError: see StraightPath; a resolution that is not finite or not above 0, or takes more than 2^53
+/// states. The hierarchy is left at the last state that was asked.
+template <class H>
+PathAnswer check_sampled(H& hierarchy, std::span<const double> from, std::span<const double> to, double resolution) {
+  const StraightPath path(from, to, hierarchy.dof_count());
+  if (!is_finite(resolution) || !(resolution > 0.0))
+    throw ConfigurationError("resolution " + std::to_string(resolution) + ": expected a finite number above 0");
+  double largest = 0.0;
+  for (const double rate : path.rate()) largest = std::max(largest, std::abs(rate));
+  const double wanted = std::ceil(largest / resolution);
+  if (!(wanted <= 0x1p53))
+    throw ConfigurationError("resolution " + std::to_string(resolution) + ": a path of " + std::to_string(largest) +
+                             " takes more than 2^53 states");
+  const auto steps = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(wanted));
+
+  PathAnswer answer;
+  std::vector<double> q;
+  const auto collides = [&](double t) {
+    path.at(t, q);
+    hierarchy.update(q);
+    ++answer.counts.configurations;
+    AnyHit any;
+    hierarchy.self_query(any);
+    if (!any.done()) return false;
+    answer.verdict = PathVerdict::colliding;
+    answer.parameter = t;
+    answer.configuration = q;
+    answer.hit = any.hit();
+    return true;
+  };
+  if (collides(0.0) || (largest > 0.0 && collides(1.0))) return answer;
+  for (std::uint64_t stride = std::bit_ceil(steps); stride > 1; stride /= 2)
+    for (std::uint64_t k = stride / 2; k < steps; k += stride)
+      if (collides(static_cast<double>(k) / static_cast<double>(steps))) return answer;
+  answer.verdict = PathVerdict::free;
+  answer.counts.segments = steps;
+  return answer;
+}
+
+}  // namespace hinge

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// StraightPath: the segment between two configurations, checked once, and the states on it.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "hinge/detail/core/finite.hpp"
+
+namespace hinge {
+
+/// q(t) = q0 + t (q1 - q0), 0 <= t <= 1, rad or model length unit.
+class StraightPath {
+ public:
+  /// dof_count values each. ConfigurationError: another number of values; a value, or a difference of two, that is not
+  /// finite.
+  StraightPath(std::span<const double> from, std::span<const double> to, std::size_t dof_count)
+      : from_(from.begin(), from.end()), to_(to.begin(), to.end()) {
+    for (const auto& [end, what] : {std::pair{from, "start"}, std::pair{to, "end"}}) {
+      if (end.size() != dof_count)
+        throw ConfigurationError(std::string(what) + " of the path has " + std::to_string(end.size()) +
+                                 " values, expected " + std::to_string(dof_count));
+      for (std::size_t k = 0; k < end.size(); ++k)
+        if (!is_finite(end[k]))
+          throw ConfigurationError(std::string(what) + " of the path: value " + std::to_string(k) + " is " +
+                                   std::to_string(end[k]) + ", expected a finite number");
+    }
+    rate_.reserve(dof_count);
+    for (std::size_t k = 0; k < dof_count; ++k) {
+      rate_.push_back(to[k] - from[k]);
+      if (!is_finite(rate_[k]))
+        throw ConfigurationError("the path takes value " + std::to_string(k) + " from " + std::to_string(from[k]) +
+                                 " to " + std::to_string(to[k]) + ", expected a difference that is finite");
+    }
+  }
+
+  std::span<const double> from() const noexcept { return from_; }
+  std::span<const double> to() const noexcept { return to_; }
+  /// q1 - q0, rounded.
+  std::span<const double> rate() const noexcept { return rate_; }
+
+  /// The state at t, rounded; exactly q0 and q1 at the ends, and where the two are equal.
+  void at(double t, std::vector<double>& q) const {
+    q.resize(rate_.size());
+    if (t == 1.0) {
+      q = to_;
+      return;
+    }
+    for (std::size_t k = 0; k < q.size(); ++k) q[k] = from_[k] + t * rate_[k];
+  }
+
+ private:
+  std::vector<double> from_, to_, rate_;
+};
+
+}  // namespace hinge

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Mode: which question is asked of every configuration, as tools and their users name it.
+#pragma once
+
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "hinge/core/error.hpp"
+#include "hinge/detail/core/finite.hpp"
+
+namespace hinge {
+
+struct Mode {
+  enum class Kind : std::uint8_t { any, all, within, closest } kind = Kind::all;
+  double margin = 0.0;  ///< within: pairs with d - M below it, model length unit
+
+  /// "any", "all", "within:0.5", "closest"; ModelError otherwise, which names the unit.
+  static Mode parse(std::string_view text, std::string_view unit = "model length unit");
+  std::string text() const;
+};
+
+inline Mode Mode::parse(std::string_view text, std::string_view unit) {
+  if (text == "any") return {Kind::any, 0.0};
+  if (text == "all") return {Kind::all, 0.0};
+  if (text == "closest") return {Kind::closest, 0.0};
+  constexpr std::string_view within = "within:";
+  if (text.starts_with(within)) {
+    const std::string_view number = text.substr(within.size());
+    double margin = -1.0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), margin);
+    if (error == std::errc{} && end == number.data() + number.size() && is_finite(margin) && margin >= 0.0)
+      return {Kind::within, margin};
+  }
+  std::string what = "mode '";
+  what.append(text).append("': expected any, all, within:D (").append(unit).append(", D >= 0) or closest");
+  throw ModelError(what);
+}
+
+inline std::string Mode::text() const {
+  switch (kind) {
+    case Kind::any: return "any";
+    case Kind::all: return "all";
+    case Kind::closest: return "closest";
+    case Kind::within: break;
+  }
+  std::array<char, 32> buffer;
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), margin).ptr;
+  return std::string("within:").append(buffer.data(), end);
+}
+
+}  // namespace hinge

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The bounds, and where they come from.
+#include "chemistry/bond_judge.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "hinge/molecular/bonds.hpp"
+#include "hinge/molecular/nucleotide_table.hpp"
+#include "hinge/molecular/residue_table.hpp"
+#include "mechanism/rotatable_bonds.hpp"
+
+namespace hinge::molecular {
+
+namespace {
+
+/// A bond's length less the sum of covalent radii (angstrom). Between residues C=N of a Schiff base is 0.19 shorter,
+/// S-N and P-O of sulphonamides and phosphates 0.14; the longest seen is 0.15 longer (1A4W, sulphonamide).
+constexpr double shortest_bond = -0.2, longest_bond = 0.2;
+/// Inside a residue triple bonds are 0.32 shorter.
+constexpr double shortest_inside = -0.35;
+/// The same for metals, whose bonds vary more: Fe-O of oxymyoglobin -0.33, Ca-O up to +0.4 (the bound of BondList).
+constexpr double shortest_coordination = -0.45;
+/// Degrees, between bonds of one atom. Four-membered rings have 90; bonds between residues seen: 90 to 126.
+constexpr double narrowest_angle = 85.0, widest_angle = 140.0;
+constexpr double narrowest_sulphur = 80.0, widest_sulphur = 125.0;  // thioethers 100, disulphides 104
+constexpr double widest_in_ring = 150.0;                            // beside a small ring that shares the atom
+constexpr int clash_bonds = 4;                                      // atoms so many bonds apart clash
+/// At a metal's partner: carboxylates that bind with both oxygens have 90, thiolates between two metals 87.
+constexpr double narrowest_donor = 70.0;
+/// Between two partners of a metal in different residues: 61 is the smallest seen (1EHZ).
+constexpr double narrowest_coordination = 55.0;
+constexpr std::size_t most_coordinated = 9;
+/// Three bonds in a plane have angles that add up to 360 degrees, those of a tetrahedron to 328.
+constexpr double planar_sum = 340.0;
+
+bool is_any(std::string_view element, std::initializer_list<std::string_view> list) {
+  return std::find(list.begin(), list.end(), element) != list.end();
+}
+
+/// Bonds that an element has at most, whatever it is bonded to. A hydrogen has one.
+std::size_t most_bonds(std::string_view element) {
+  if (element == "O") return 2;
+  if (is_any(element, {"S", "P", "Se", "As", "Si", "Te"})) return 6;
+  if (is_any(element, {"H", "F"})) return 1;
+  return 4;
+}
+
+}  // namespace
+
+BondJudge::BondJudge(const Structure& structure, std::uint32_t first, std::uint32_t last)
+    : s_(structure), x_(structure.models.front()), first_(first), near_(last - first), coordinated_(last - first) {}
+
+BondJudge::BondJudge(const Structure& structure)
+    : BondJudge(structure, 0, static_cast<std::uint32_t>(structure.atoms.size())) {
+  for (const Bond& bond : s_.bonds) join(bond.first, bond.second, bond.order);
+}
+
+void BondJudge::join(std::uint32_t i, std::uint32_t j, BondOrder order) {
+  if (is_metal(s_.atoms[i].element) || is_metal(s_.atoms[j].element)) {
+    coordinated_[i - first_].push_back(j);
+    coordinated_[j - first_].push_back(i);
+  } else {
+    near_[i - first_].push_back({j, order});
+    near_[j - first_].push_back({i, order});
+  }
+}
+
+void BondJudge::part(std::uint32_t i, std::uint32_t j) {
+  std::erase_if(near_[i - first_], [&](const Neighbour& n) { return n.atom == j; });
+  std::erase_if(near_[j - first_], [&](const Neighbour& n) { return n.atom == i; });
+}
+
+double BondJudge::distance(std::uint32_t i, std::uint32_t j) const { return (x_[i] - x_[j]).norm(); }
+
+double BondJudge::angle(std::uint32_t k, std::uint32_t i, std::uint32_t j) const {
+  const Vec3 a = x_[k] - x_[i], b = x_[j] - x_[i];
+  const double lengths = a.norm() * b.norm();
+  return lengths > 0.0 ? std::acos(std::clamp(a.dot(b) / lengths, -1.0, 1.0)) * 180.0 / std::numbers::pi : 0.0;
+}
+
+bool BondJudge::is_multiple(std::uint32_t i, const Neighbour& neighbour) const {
+  if (neighbour.order != BondOrder::unknown) return neighbour.order == BondOrder::multiple;
+  const double single = single_bond_from(s_.atoms[i].element, s_.atoms[neighbour.atom].element);
+  return distance(i, neighbour.atom) < single;
+}
+
+int BondJudge::multiple_bonds(std::uint32_t i) const {
+  return static_cast<int>(
+      std::count_if(near(i).begin(), near(i).end(), [&](const Neighbour& n) { return is_multiple(i, n); }));
+}
+
+bool BondJudge::has_terminal_oxygen(std::uint32_t i) const {
+  return std::any_of(near(i).begin(), near(i).end(),
+                     [&](const Neighbour& n) { return s_.atoms[n.atom].element == "O" && near(n.atom).size() == 1; });
+}
+
+int BondJudge::room_of_carbon(std::uint32_t i) const {
+  const int bonds = static_cast<int>(near(i).size());
+  const Residue& residue = s_.residues[s_.atoms[i].residue];
+  const bool known_amino_acid =
+      residue.kind == ResidueKind::amino_acid && find_residue_template(residue.name) != nullptr;
+  // The end of a chain without its second oxygen.
+  if (known_amino_acid) return s_.atoms[i].name == "C" && bonds == 2 ? 1 : 0;
+  if (residue.kind == ResidueKind::nucleotide && find_nucleotide_template(residue.name) != nullptr) return 0;
+  const int multiple = multiple_bonds(i);
+  // Planar carbon has three bonds; with two multiple ones and no third bond in the file that is a hydrogen's.
+  if (multiple >= 2) return 0;
+  if (bonds == 3) {
+    double sum = 0.0;
+    for (std::size_t a = 0; a < 3; ++a) sum += angle(near(i)[a].atom, i, near(i)[(a + 1) % 3].atom);
+    if (sum > planar_sum + 10.0) return 0;
+  }
+  return std::max(0, (multiple > 0 ? 3 : 4) - bonds);
+}
+
+int BondJudge::room_of_nitrogen(std::uint32_t i) const {
+  const int bonds = static_cast<int>(near(i).size());
+  const Residue& residue = s_.residues[s_.atoms[i].residue];
+  const std::string_view name = s_.atoms[i].name;
+  const bool polymer = residue.kind == ResidueKind::amino_acid || residue.kind == ResidueKind::nucleotide;
+  // Peptides, the ring of Trp and NE of Arg have a hydrogen there; His may give its own away.
+  if (polymer && bonds == 2 && name != "ND1" && name != "NE2") return 0;
+  return std::max(0, 3 - bonds);
+}
+
+int BondJudge::room_of_oxygen(std::uint32_t i) const {
+  if (near(i).size() != 1) return 0;
+  const Residue& residue = s_.residues[s_.atoms[i].residue];
+  const std::string_view of = residue.name, name = s_.atoms[i].name;
+  if (residue.kind == ResidueKind::nucleotide) return name.ends_with('\'') || name.ends_with('*') ? 1 : 0;
+  if (residue.kind == ResidueKind::amino_acid && find_residue_template(of) != nullptr) {
+    const bool amide = (of == "ASN" && name == "OD1") || (of == "GLN" && name == "OE1");
+    return name == "O" || amide ? 0 : 1;
+  }
+  return s_.atoms[near(i).front().atom].element == "S" || is_multiple(i, near(i).front()) ? 0 : 1;
+}
+
+int BondJudge::room_of_sulphur(std::uint32_t i) const {
+  const int bonds = static_cast<int>(near(i).size());
+  if (has_terminal_oxygen(i)) return std::max(0, 4 - bonds);
+  return bonds == 1 && !is_multiple(i, near(i).front()) ? 1 : 0;
+}
+
+int BondJudge::room(std::uint32_t i) const {
+  const std::string_view element = s_.atoms[i].element;
+  if (s_.residues[s_.atoms[i].residue].kind == ResidueKind::water) return 0;
+  if (element == "C") return room_of_carbon(i);
+  if (element == "N") return room_of_nitrogen(i);
+  if (element == "O") return room_of_oxygen(i);
+  if (element == "S" || element == "Se" || element == "Te") return room_of_sulphur(i);
+  if (is_any(element, {"P", "B", "Si", "As"})) return std::max(0, 4 - static_cast<int>(near(i).size()));
+  return 0;
+}
+
+bool BondJudge::has_angles(std::uint32_t i, std::uint32_t j) const {
+  const std::string_view element = s_.atoms[i].element;
+  const bool sulphur = near(i).size() == 1 && is_any(element, {"S", "Se", "Te"});
+  double sum = 0.0;
+  for (const Neighbour& n : near(i)) {
+    const double degrees = angle(n.atom, i, j);
+    if (degrees < (sulphur ? narrowest_sulphur : narrowest_angle) ||
+        degrees > (sulphur ? widest_sulphur : widest_angle))
+      return false;
+    sum += degrees;
+  }
+  // The third bond of a planar atom lies in the plane of the other two.
+  const bool planar = near(i).size() == 2 && ((element == "C" && (multiple_bonds(i) > 0 || s_.atoms[i].name == "C")) ||
+                                              s_.residues[s_.atoms[i].residue].name.starts_with("HI"));
+  return !planar || sum + angle(near(i)[0].atom, i, near(i)[1].atom) >= planar_sum;
+}
+
+std::string BondJudge::metal_refusal(std::uint32_t metal, std::uint32_t donor) const {
+  const std::string_view element = s_.atoms[donor].element;
+  if (is_metal(s_.atoms[donor].element)) return "both are metals";
+  const bool bare_carbon = element == "C" && near(donor).size() <= 1;
+  if (!bare_carbon && !is_any(element, {"N", "O", "S", "Se", "F", "Cl", "Br", "I"}))
+    return label(s_, donor) + " does not bind metals";
+  if (distance(metal, donor) <
+      covalent_radius(s_.atoms[metal].element) + covalent_radius(s_.atoms[donor].element) + shortest_coordination)
+    return "too close for a bond";
+  const auto& partners = coordinated_[metal - first_];
+  if (partners.size() >= most_coordinated)
+    return label(s_, metal) + " has " + std::to_string(partners.size()) + " bonds";
+  for (const Neighbour& n : near(donor))
+    if (angle(n.atom, donor, metal) < narrowest_donor) return "no bond's angles at " + label(s_, donor);
+  for (const std::uint32_t other : partners)
+    if (s_.atoms[other].residue != s_.atoms[donor].residue && angle(other, metal, donor) < narrowest_coordination)
+      return "no bond's angles at " + label(s_, metal);
+  return {};
+}
+
+std::string BondJudge::refusal(std::uint32_t i, std::uint32_t j) const {
+  const std::string &a = s_.atoms[i].element, &b = s_.atoms[j].element;
+  if (is_metal(a)) return metal_refusal(i, j);
+  if (is_metal(b)) return metal_refusal(j, i);
+  const double excess = distance(i, j) - covalent_radius(a) - covalent_radius(b);
+  if (excess < shortest_bond) return "too close for a bond";
+  if (excess > longest_bond) return "too far for a bond";
+  if (is_any(a, {"N", "O"}) && is_any(b, {"N", "O"})) return "N and O of two residues form no bond";
+  for (const std::uint32_t k : {i, j})
+    if (room(k) < 1) return label(s_, k) + " has no room for a bond";
+  for (const auto& [k, other] : {std::pair(i, j), std::pair(j, i)})
+    if (!has_angles(k, other)) return "no bond's angles at " + label(s_, k);
+  return {};
+}
+
+bool BondJudge::has_ring_angles(std::uint32_t i, std::uint32_t j) const {
+  const bool linear = s_.atoms[i].element == "C" && near(i).size() == 2 && multiple_bonds(i) > 0;  // an alkyne
+  return std::all_of(near(i).begin(), near(i).end(), [&](const Neighbour& n) {
+    if (n.atom == j) return true;
+    const double degrees = angle(n.atom, i, j);
+    return degrees >= narrowest_angle && (degrees <= widest_in_ring || linear);
+  });
+}
+
+bool BondJudge::may_close_ring(std::uint32_t i, std::uint32_t j, int around) const {
+  const std::string &a = s_.atoms[i].element, &b = s_.atoms[j].element;
+  if (is_metal(a) || is_metal(b)) return true;
+  const double excess = distance(i, j) - covalent_radius(a) - covalent_radius(b);
+  if (excess < shortest_inside || excess > longest_bond) return false;
+  for (const auto& [k, other] : {std::pair(i, j), std::pair(j, i)}) {
+    if (near(k).size() > most_bonds(s_.atoms[k].element)) return false;
+    if (around >= clash_bonds && !has_ring_angles(k, other)) return false;
+    // Aromatic carbon: a third bond lies in the plane of the other two, a fourth there is none.
+    std::vector<std::uint32_t> planar;
+    for (const Neighbour& n : near(k))
+      if (n.atom != other && is_multiple(k, n)) planar.push_back(n.atom);
+    if (s_.atoms[k].element != "C" || planar.size() < 2) continue;
+    if (near(k).size() > 3) return false;
+    if (angle(planar[0], k, planar[1]) + angle(planar[0], k, other) + angle(planar[1], k, other) < planar_sum)
+      return false;
+  }
+  return true;
+}
+
+int BondJudge::bonds_around(std::uint32_t i, std::uint32_t j) const {
+  std::vector<int> bonds(near_.size(), -1);
+  std::vector<std::uint32_t> reached{i};
+  bonds[i - first_] = 0;
+  for (std::size_t k = 0; k < reached.size() && bonds[j - first_] < 0; ++k) {
+    const std::uint32_t from = reached[k];
+    const auto visit = [&](std::uint32_t to) {
+      if (bonds[to - first_] >= 0 || (from == i && to == j)) return;
+      bonds[to - first_] = bonds[from - first_] + 1;
+      reached.push_back(to);
+    };
+    for (const Neighbour& n : near(from)) visit(n.atom);
+    for (const std::uint32_t to : coordinated_[from - first_]) visit(to);
+  }
+  return std::max(0, bonds[j - first_]);
+}
+
+}  // namespace hinge::molecular

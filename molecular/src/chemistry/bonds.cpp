@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bond perception, one source after the other.
+#include "hinge/molecular/bonds.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <optional>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "chemistry/bond_judge.hpp"
+#include "chemistry/bond_list.hpp"
+#include "chemistry/cell_grid.hpp"
+#include "chemistry/residue_bonds.hpp"
+#include "hinge/molecular/residue_table.hpp"
+
+namespace hinge::molecular {
+
+namespace {
+
+/// An S-S bond is 2.05 A long; MD files record none, so SG pairs within about 10 % of it count.
+constexpr double disulphide_min = 1.8, disulphide_max = 2.3;
+/// A recorded disulphide or link longer than this is not there in these coordinates.
+constexpr double recorded_disulphide_max = 2.5;
+/// The same for bonds of metals: K-O, the longest of the common ones, is up to 3.2 A.
+constexpr double recorded_coordination_max = 3.2;
+
+class Perception {
+ public:
+  Perception(Structure& structure, BondSearch between)
+      : s_(structure), x_(structure.models.front()), between_(between), bonds_(structure) {}
+
+  void run(ComponentLibrary& components) {
+    ResidueBonds inside(s_, bonds_, components);
+    for (std::uint32_t r = 0; r < s_.residues.size(); ++r) inside.add(r);
+    for (const Chain& chain : s_.chains) bond_chain(chain);
+    closing_ = closing_bonds();
+    bond_recorded();
+    if (between_ == BondSearch::geometry) bond_by_distance();
+    inside.say();
+    std::sort(s_.bonds.begin(), s_.bonds.end(), before);
+  }
+
+ private:
+  struct Candidate {
+    std::uint32_t first, second;
+    BondOrigin origin;
+    double misfit;  ///< by how much its length differs from the sum of covalent radii, angstrom
+  };
+
+  bool in_polymer(std::uint32_t r) const {
+    const Residue& residue = s_.residues[r];
+    return residue.kind == ResidueKind::amino_acid || residue.kind == ResidueKind::nucleotide || is_cap(residue.name);
+  }
+
+  void bond_chain(const Chain& chain) {
+    std::optional<std::uint32_t> first, last;
+    for (std::uint32_t r = chain.first_residue; r < chain.last_residue; ++r) {
+      if (!in_polymer(r)) continue;
+      if (last && !bond_next(*last, r) && s_.residues[*last].kind == s_.residues[r].kind &&
+          s_.residues[r].kind != ResidueKind::other)
+        note_break(chain, *last, r);
+      if (!first) first = r;
+      last = r;
+    }
+    // A cyclic backbone: its ends meet. Two residues cannot close a ring of their own.
+    if (first && last && *last > *first + 1) ends_.emplace_back(*last, *first);
+  }
+
+  bool bond_next(std::uint32_t r, std::uint32_t t) {
+    return bond(r, "C", t, "N", BondOrigin::peptide) || bond(r, "O3'", t, "P", BondOrigin::phosphodiester);
+  }
+  bool bond(std::uint32_t r, std::string_view a, std::uint32_t t, std::string_view b, BondOrigin origin) {
+    const bool nucleotides = origin == BondOrigin::phosphodiester;
+    if ((s_.residues[r].kind == ResidueKind::nucleotide) != nucleotides ||
+        (s_.residues[t].kind == ResidueKind::nucleotide) != nucleotides)
+      return false;
+    const auto i = bonds_.find(r, a), j = bonds_.find(t, b);
+    if (!i || !j || !bonds_.within_radii(*i, *j)) return false;
+    bonds_.add(*i, *j, origin);
+    return true;
+  }
+
+  void note_break(const Chain& chain, std::uint32_t r, std::uint32_t t) {
+    const auto name = [&](std::uint32_t k) {
+      const Residue& residue = s_.residues[k];
+      return residue.name + std::to_string(residue.sequence_number) +
+             (residue.insertion_code != '\0' ? std::string(1, residue.insertion_code) : "");
+    };
+    s_.notes.push_back("chain " + (chain.name.empty() ? "_" : chain.name) + ": break between " + name(r) + " and " +
+                       name(t) + ", no bond across");
+  }
+
+  void bond_recorded() {
+    std::size_t ignored = 0;
+    std::string first_ignored;
+    for (const Link& link : s_.links) {
+      if (link.conect && s_.atoms[link.first].residue == s_.atoms[link.second].residue) continue;  // ResidueBonds'
+      const double d = bonds_.distance(link.first, link.second);
+      const bool metal = is_metal(s_.atoms[link.first].element) || is_metal(s_.atoms[link.second].element);
+      const bool holds = link.disulphide ? d <= recorded_disulphide_max
+                                         : bonds_.within_radii(link.first, link.second) ||
+                                               (metal && !link.conect && d <= recorded_coordination_max);
+      if (!holds) {
+        if (++ignored == 1) {
+          std::array<char, 32> length{};
+          std::snprintf(length.data(), length.size(), "%.2f", d);
+          first_ignored = label(s_, link.first) + " - " + label(s_, link.second) + " is " + length.data();
+        }
+        continue;
+      }
+      bonds_.add(link.first, link.second, origin_of(link), link.order);
+    }
+    if (ignored > 0)
+      s_.notes.push_back("recorded bonds too long to hold, ignored: " + std::to_string(ignored) +
+                         " (first: " + first_ignored + " angstrom)");
+  }
+
+  /// Bonds between residues that nothing but their distance tells of: disulphides, closed backbones, and what residues
+  /// without a template are bonded to (glycans, ligands, cofactors, metals).
+  void bond_by_distance() {
+    const std::size_t told = s_.bonds.size();
+    BondJudge judge(s_);
+    std::vector<Candidate> found = disulphides();
+    found.insert(found.end(), closing_.begin(), closing_.end());
+    const std::vector<Candidate> others = of_unknown_residues();
+    found.insert(found.end(), others.begin(), others.end());
+    // Those come first whose length is nearest to a bond's.
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.misfit < b.misfit; });
+    std::size_t refused = 0;
+    std::string first_refused;
+    for (const Candidate& bond : found) {
+      if (bonds_.has(bond.first, bond.second)) continue;
+      std::string reason = judge.refusal(bond.first, bond.second);
+      if (!reason.empty()) {
+        if (++refused == 1) first_refused = named(bond) + ": " + reason;
+        continue;
+      }
+      bonds_.add(bond.first, bond.second, bond.origin);
+      judge.join(bond.first, bond.second);
+    }
+    std::vector<Bond> added(s_.bonds.begin() + static_cast<std::ptrdiff_t>(told), s_.bonds.end());
+    std::sort(added.begin(), added.end(), before);
+    for (const Bond& bond : added)
+      s_.notes.push_back("bond by distance, which no record tells of: " +
+                         named({bond.first, bond.second, bond.origin, 0.0}));
+    if (refused > 0)
+      s_.notes.push_back("as close as bonds, but not taken for bonds: " + std::to_string(refused) +
+                         " pairs (first: " + first_refused + ")");
+  }
+
+  /// Bonds of the backbone, close enough, from the last residue of a chain to its first.
+  std::vector<Candidate> closing_bonds() const {
+    std::vector<Candidate> found;
+    for (const auto& [last, first] : ends_)
+      for (const auto& [a, b, origin] :
+           {std::tuple("C", "N", BondOrigin::peptide), std::tuple("O3'", "P", BondOrigin::phosphodiester)}) {
+        const auto i = bonds_.find(last, a), j = bonds_.find(first, b);
+        if (i && j && bonds_.within_radii(*i, *j)) found.push_back(candidate(*i, *j, origin));
+      }
+    return found;
+  }
+  /// A cyclic backbone is one, recorded or not.
+  BondOrigin origin_of(const Link& link) const {
+    if (link.disulphide) return BondOrigin::disulphide;
+    for (const Candidate& bond : closing_)
+      if (std::minmax(link.first, link.second) == std::minmax(bond.first, bond.second)) return bond.origin;
+    return BondOrigin::record;
+  }
+
+  Candidate candidate(std::uint32_t i, std::uint32_t j, BondOrigin origin) const {
+    const double radii = covalent_radius(s_.atoms[i].element) + covalent_radius(s_.atoms[j].element);
+    return {std::min(i, j), std::max(i, j), origin, std::abs(bonds_.distance(i, j) - radii)};
+  }
+  std::string named(const Candidate& bond) const {
+    std::array<char, 32> length{};
+    std::snprintf(length.data(), length.size(), "%.3f", bonds_.distance(bond.first, bond.second));
+    return label(s_, bond.first) + " - " + label(s_, bond.second) + ", " + length.data() + " angstrom";
+  }
+
+  std::vector<Candidate> disulphides() const {
+    std::vector<std::uint32_t> sulphurs;
+    for (std::uint32_t i = 0; i < s_.atoms.size(); ++i)
+      if (s_.atoms[i].name == "SG" && s_.atoms[i].element == "S") sulphurs.push_back(i);
+    CellGrid grid(x_, sulphurs, disulphide_max);
+    std::vector<Candidate> found;
+    for (const std::uint32_t i : sulphurs)
+      grid.for_each_near(x_[i], [&](std::uint32_t j) {
+        const double d = bonds_.distance(i, j);
+        if (i < j && d >= disulphide_min && d <= disulphide_max)
+          found.push_back(candidate(i, j, BondOrigin::disulphide));
+      });
+    return found;
+  }
+
+  /// Residues without a template may be bonded to anything.
+  std::vector<Candidate> of_unknown_residues() const {
+    std::vector<std::uint32_t> heavy;
+    bool any = false;
+    for (std::uint32_t i = 0; i < s_.atoms.size(); ++i) {
+      if (!bonds_.hydrogen(i)) heavy.push_back(i);
+      any = any || unknown(i);
+    }
+    std::vector<Candidate> found;
+    if (!any) return found;
+    constexpr double longest = 2 * 2.4 + BondList::tolerance;  // two of the largest covalent radii
+    CellGrid grid(x_, heavy, longest);
+    for (const std::uint32_t i : heavy)
+      if (unknown(i))
+        grid.for_each_near(x_[i], [&](std::uint32_t j) {
+          if (s_.atoms[i].residue != s_.atoms[j].residue && (i < j || !unknown(j)) && bonds_.within_radii(i, j))
+            found.push_back(candidate(i, j, BondOrigin::covalent_radii));
+        });
+    return found;
+  }
+  bool unknown(std::uint32_t i) const { return s_.residues[s_.atoms[i].residue].kind == ResidueKind::other; }
+
+  static bool before(const Bond& a, const Bond& b) {
+    return std::pair(a.first, a.second) < std::pair(b.first, b.second);
+  }
+
+  Structure& s_;
+  const std::vector<Vec3>& x_;
+  BondSearch between_;
+  BondList bonds_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends_;  // last and first residue of each polymer
+  std::vector<Candidate> closing_;
+};
+
+}  // namespace
+
+void perceive_bonds(Structure& structure, ComponentLibrary components, BondSearch between) {
+  structure.bonds.clear();
+  structure.bond_sources.clear();
+  Perception(structure, between).run(components);
+}
+
+}  // namespace hinge::molecular

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The one place where certified paths of molecules are instantiated.
+#include "hinge/molecular/path_checker.hpp"
+
+#include "hinge/path/check_sampled.hpp"
+
+namespace hinge::molecular {
+
+PathChecker::PathChecker(const Checker& checker)
+    : hierarchy_(checker.molecule().model(), checker.selection(), checker.exclusions(), checker.thresholds().matrix),
+      certified_(hierarchy_) {}
+
+PathAnswer PathChecker::certify(std::span<const double> from, std::span<const double> to, double smallest_step) {
+  return certified_.check(from, to, smallest_step);
+}
+
+PathAnswer PathChecker::sample(std::span<const double> from, std::span<const double> to, double resolution) {
+  return check_sampled(hierarchy_, from, to, resolution);
+}
+
+}  // namespace hinge::molecular

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Models of one file that have different atoms.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "io/read_file.hpp"
+
+namespace hinge::molecular {
+
+namespace {
+
+/// Chain, number, insertion code, residue name, atom name.
+using Key = std::tuple<std::string, int, char, std::string, std::string>;
+
+Key key_of(const Structure& s, const Atom& atom) {
+  const Residue& residue = s.residues[atom.residue];
+  return {s.chains[residue.chain].name, residue.sequence_number, residue.insertion_code, residue.name, atom.name};
+}
+
+std::map<Key, std::uint32_t> atoms_by_key(const Structure& s) {
+  std::map<Key, std::uint32_t> atoms;
+  for (std::uint32_t i = 0; i < s.atoms.size(); ++i) atoms.emplace(key_of(s, s.atoms[i]), i);
+  return atoms;
+}
+
+constexpr std::uint32_t not_kept = static_cast<std::uint32_t>(-1);
+
+/// The structure with some of its atoms, one at least; those of its coordinates too.
+Structure with_atoms(const Structure& all, const std::vector<bool>& keep) {
+  Structure s = all;
+  s.atoms.clear();
+  s.residues.clear();
+  s.chains.clear();
+  std::vector<std::uint32_t> atom_of(all.atoms.size(), not_kept), residue_of(all.residues.size(), not_kept);
+  std::uint32_t chain_before = not_kept;
+  for (std::uint32_t i = 0; i < all.atoms.size(); ++i) {
+    if (!keep[i]) continue;
+    const std::uint32_t r = all.atoms[i].residue;
+    const auto here = static_cast<std::uint32_t>(s.atoms.size());
+    if (residue_of[r] == not_kept) {
+      residue_of[r] = static_cast<std::uint32_t>(s.residues.size());
+      const std::uint32_t chain = all.residues[r].chain;
+      if (chain != chain_before) {
+        s.chains.push_back(all.chains[chain]);
+        s.chains.back().first_residue = residue_of[r];
+        chain_before = chain;
+      }
+      s.residues.push_back(all.residues[r]);
+      s.residues.back().chain = static_cast<std::uint32_t>(s.chains.size() - 1);
+      s.residues.back().first_atom = here;
+    }
+    atom_of[i] = here;
+    s.atoms.push_back(all.atoms[i]);
+    s.atoms.back().residue = residue_of[r];
+    s.residues.back().last_atom = here + 1;
+    s.chains.back().last_residue = residue_of[r] + 1;
+  }
+  std::erase_if(s.links, [&](const Link& l) { return !keep[l.first] || !keep[l.second]; });
+  for (Link& link : s.links) {
+    link.first = atom_of[link.first];
+    link.second = atom_of[link.second];
+  }
+  std::erase_if(s.secondary_structure, [&](const SecondaryStructure& e) {
+    return residue_of[e.first] == not_kept || residue_of[e.last] == not_kept;
+  });
+  for (SecondaryStructure& element : s.secondary_structure) {
+    element.first = residue_of[element.first];
+    element.last = residue_of[element.last];
+  }
+  for (std::size_t m = 0; m < s.models.size(); ++m) {
+    s.models[m].clear();
+    for (std::uint32_t i = 0; i < all.atoms.size(); ++i)
+      if (keep[i]) s.models[m].push_back(all.models[m][i]);
+  }
+  return s;
+}
+
+}  // namespace
+
+std::string first_difference(const Structure& other, const Structure& molecule) {
+  std::uint32_t i = 0;
+  const auto same = [&] {
+    const Residue& a = other.residues[other.atoms[i].residue];
+    const Residue& b = molecule.residues[molecule.atoms[i].residue];
+    return other.atoms[i].name == molecule.atoms[i].name && a.sequence_number == b.sequence_number &&
+           a.insertion_code == b.insertion_code;
+  };
+  while (i < other.atoms.size() && i < molecule.atoms.size() && same()) ++i;
+  if (i == other.atoms.size() && i == molecule.atoms.size()) return {};
+  if (i == other.atoms.size()) return label(molecule, i) + " is not there";
+  if (i == molecule.atoms.size()) return label(other, i) + " is there, too";
+  return label(other, i) + " is where the first has " + label(molecule, i);
+}
+
+std::optional<MatchedAtoms> match_atoms(const Structure& other, const Structure& molecule) {
+  const std::map<Key, std::uint32_t> atoms = atoms_by_key(other);
+  MatchedAtoms matched;
+  for (const Atom& atom : molecule.atoms) {
+    const auto found = atoms.find(key_of(molecule, atom));
+    if (found == atoms.end()) return std::nullopt;
+    matched.positions.push_back(other.models[0][found->second]);
+    matched.records.push_back(other.atoms[found->second].record);
+  }
+  return matched;
+}
+
+MatchedAtoms conformation(const Structure& other, const Structure& molecule, bool may_have_more,
+                          const std::string& where) {
+  const std::string difference = first_difference(other, molecule);
+  if (difference.empty()) {
+    MatchedAtoms same{other.models[0], {}};
+    for (const Atom& atom : other.atoms) same.records.push_back(atom.record);
+    return same;
+  }
+  if (may_have_more)
+    if (auto matched = match_atoms(other, molecule)) return std::move(*matched);
+  throw OtherAtoms(where + " has other atoms than the first: " + difference + " (" +
+                   std::to_string(other.atoms.size()) + " atoms, " + std::to_string(molecule.atoms.size()) +
+                   " in the first)");
+}
+
+std::vector<Structure> assemble_each(RawFile raw, const std::string& path, ReadOptions options) {
+  std::vector<RawModel> models = std::exchange(raw.models, {});
+  options.model.reset();
+  std::vector<Structure> each;
+  for (RawModel& model : models) {
+    RawFile one = raw;
+    one.models.push_back(std::move(model));
+    each.push_back(assemble(std::move(one), path, options));
+  }
+  return each;
+}
+
+Structure assemble_common(RawFile raw, const std::string& path, const ReadOptions& options) {
+  std::vector<Structure> each = assemble_each(std::move(raw), path, options);
+  Structure& first = each.front();
+  std::vector<std::map<Key, std::uint32_t>> atoms;
+  for (const Structure& s : each) atoms.push_back(atoms_by_key(s));
+  std::map<Key, std::uint32_t> left_out;  // and the model that has it
+  std::vector<bool> keep(first.atoms.size());
+  for (std::uint32_t m = 0; m < each.size(); ++m)
+    for (const auto& [key, i] : atoms[m]) {
+      const auto has_atom = [&wanted = key](const auto& of) { return of.contains(wanted); };
+      const bool common = std::all_of(atoms.begin(), atoms.end(), has_atom);
+      if (common && m == 0) keep[i] = true;
+      if (!common) left_out.emplace(key, m);
+    }
+  if (std::find(keep.begin(), keep.end(), true) == keep.end())
+    throw OtherAtoms(path + ": its models share no atom, " + first_difference(each[1], first) +
+                     "; choose one with --model");
+  Structure common = with_atoms(first, keep);
+  common.models.resize(1);
+  for (std::size_t m = 1; m < each.size(); ++m) {
+    common.models.push_back(std::move(match_atoms(each[m], common)->positions));
+    common.model_numbers.push_back(each[m].model_numbers[0]);
+  }
+  const auto& [key, m] = *left_out.begin();
+  common.notes.push_back("models differ: " + std::to_string(left_out.size()) +
+                         " atoms that not every model has are left out (first: " + label(each[m], atoms[m].at(key)) +
+                         " of model " + std::to_string(each[m].model_numbers[0]) + ")");
+  return common;
+}
+
+}  // namespace hinge::molecular

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Refusals that need the text of a PDB file: what a lenient parser turns into zeros.
+#include <algorithm>
+#include <charconv>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "hinge/detail/core/finite.hpp"
+#include "io/read_file.hpp"
+
+namespace hinge::molecular {
+
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+}  // namespace
+
+Vec3 read_pdb_coordinates(std::string_view line, const std::string& path, std::size_t line_number) {
+  const auto where = [&] { return path + ":" + std::to_string(line_number) + ": atom "; };
+  if (line.size() < 30)
+    throw LoadError(where() + "record of " + std::to_string(line.size()) +
+                    " characters, expected coordinates in columns 31-54");
+  Vec3 position;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t column = 30 + 8 * k;
+    const std::string_view field = trimmed(line.size() > column ? line.substr(column, 8) : std::string_view());
+    const auto refuse = [&](const std::string& what) {
+      throw LoadError(where() + std::string(trimmed(line.substr(6, 5))) + " " +
+                      std::string(trimmed(line.substr(12, 4))) + ": coordinate " + "xyz"[k] + " is " + what +
+                      ", expected a number in columns " + std::to_string(column + 1) + "-" +
+                      std::to_string(column + 8));
+    };
+    if (field.empty()) refuse("blank");
+    double value = 0.0;
+    const std::string_view digits = field.front() == '+' ? field.substr(1) : field;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc{} || end != digits.data() + digits.size() || !is_finite(value))
+      refuse("'" + std::string(field) + "'");
+    position[static_cast<Eigen::Index>(k)] = value;
+  }
+  return position;
+}
+
+void check_pdb(std::string_view text, const std::string& path, std::size_t number, std::vector<std::string>* notes) {
+  const std::size_t lines_before = number;
+  std::size_t atoms = 0;
+  std::set<std::string_view> models;
+  std::size_t open_model = 0;         // its line; 0: none is open
+  std::size_t longest = 0, last = 0;  // atom records' lengths without blanks at their ends
+  bool is_closed = false;             // by a record that stands behind all models
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    ++number;
+    // The parser would end the line there, and lose the next one.
+    if (line.find('\0') != std::string_view::npos)
+      throw LoadError(path + ":" + std::to_string(number) + ": a NUL character, expected text");
+    if (is_atom_record(line)) {
+      read_pdb_coordinates(line, path, number);
+      ++atoms;
+      last = trimmed(line).size();
+      longest = std::max(longest, last);
+    } else if (line.starts_with("MODEL ")) {
+      const std::string where = path + ":" + std::to_string(number);
+      const std::string_view name = trimmed(line.substr(6));
+      if (open_model != 0)
+        throw LoadError(where + ": MODEL " + std::string(name) + " begins, but the one of line " +
+                        std::to_string(open_model) + " has no ENDMDL");
+      if (!models.insert(name).second) throw LoadError(where + ": MODEL " + std::string(name) + " is there twice");
+      open_model = number;
+    } else if (line.starts_with("ENDMDL")) {
+      open_model = 0;
+    } else if (line.starts_with("CONECT") || line.starts_with("MASTER") || ends_pdb_model(line)) {
+      is_closed = true;
+    }
+  }
+  if (atoms == 0)
+    throw LoadError(path + ": no ATOM or HETATM record in " + std::to_string(number - lines_before) + " lines");
+  if (open_model == 0) return;
+  const std::string what = ":" + std::to_string(open_model) + ": MODEL has no ENDMDL";
+  const bool is_whole = is_closed || (notes != nullptr && models.size() == 1 && last == longest);
+  if (!is_whole) throw LoadError(path + what + ", the file may be cut short");
+  if (notes != nullptr)
+    notes->push_back("line " + std::to_string(open_model) +
+                     ": MODEL has no ENDMDL, it is taken to go to the end of the file");
+}
+
+}  // namespace hinge::molecular

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Models found line by line; read one by one.
+#include "io/pdb_models.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <utility>
+
+#include "hinge/core/error.hpp"
+#include "io/read_file.hpp"
+
+namespace hinge::molecular {
+
+namespace {
+
+constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
+/// MODEL numbers have four columns: beyond, writers start again.
+constexpr std::size_t most_numbers = 9999;
+
+/// Columns of an atom record that say which atom it is: what, name, altloc, residue; occupancy; segment, element.
+struct Columns {
+  std::size_t first, count;
+};
+constexpr Columns identity[] = {{0, 6}, {12, 15}, {54, 6}, {72, 8}};
+constexpr std::size_t identity_bytes = 35;
+
+void append_identity(std::string& records, std::string_view line) {
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  for (const auto& [first, count] : identity) {
+    const std::string_view part = line.size() > first ? line.substr(first, count) : std::string_view();
+    records.append(part).append(count - part.size(), ' ');
+  }
+}
+
+/// Calls use(line) for each line of a text.
+template <class Use>
+void for_lines(std::string_view text, const Use& use) {
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    use(text.substr(0, end));
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  }
+}
+
+}  // namespace
+
+class PdbModels::Finder {
+ public:
+  explicit Finder(std::vector<Model>& models) : models_(models) {}
+
+  /// The next line, without its end.
+  void add(std::string_view line) {
+    const bool is_model = line.starts_with("MODEL ");
+    if (!open_ && (is_model || is_atom_record(line))) {
+      open_ = true;
+      Model model{at_, at_, lines_, static_cast<int>(models_.size()) + 1};
+      if (is_model) {
+        const std::size_t digits = std::min(line.find_first_not_of(' ', 6), line.size());
+        std::from_chars(line.data() + digits, line.data() + line.size(), model.number);
+        named_ = true;
+      }
+      models_.push_back(model);
+    }
+    at_ += line.size() + 1;
+    ++lines_;
+    if (open_) models_.back().end = at_;
+    if (ends_pdb_model(line)) open_ = false;
+  }
+
+  bool named() const noexcept { return named_; }
+
+ private:
+  std::vector<Model>& models_;
+  std::uint64_t at_ = 0;
+  std::size_t lines_ = 0;
+  bool open_ = false;
+  bool named_ = false;
+};
+
+void PdbModels::find_models() {
+  Finder finder(models_);
+  if (const auto* text = std::get_if<std::string>(&source_)) {
+    for_lines(*text, [&](std::string_view line) { finder.add(line); });
+  } else {
+    const BinaryFile& file = std::get<BinaryFile>(source_);
+    std::string chunk;
+    for (std::uint64_t at = 0; at < file.size();) {
+      const std::size_t kept = chunk.size();  // the start of a line
+      chunk.resize(kept + chunk_bytes);
+      const std::size_t got = file.read(at, std::span(chunk).subspan(kept));
+      if (got == 0) break;
+      chunk.resize(kept + got);
+      at += got;
+      const std::size_t end = at < file.size() ? chunk.rfind('\n') : chunk.size() - 1;
+      if (end == std::string::npos) continue;
+      for_lines(std::string_view(chunk).substr(0, end + 1), [&](std::string_view line) { finder.add(line); });
+      chunk.erase(0, end + 1);
+    }
+  }
+  if (models_.empty()) throw LoadError(path_ + ": expected DCD, XTC, NumPy, PDB or mmCIF, found no ATOM record");
+  if (!finder.named() || models_.size() > most_numbers) return;
+  std::vector<int> numbers;
+  for (const Model& model : models_) numbers.push_back(model.number);
+  std::sort(numbers.begin(), numbers.end());
+  if (const auto twice = std::adjacent_find(numbers.begin(), numbers.end()); twice != numbers.end())
+    throw LoadError(path_ + ": MODEL " + std::to_string(*twice) + " is there twice");
+}
+
+PdbModels::PdbModels(std::string path, std::variant<BinaryFile, std::string> source, const Structure& structure,
+                     const ReadOptions& options, bool may_have_more)
+    : path_(std::move(path)),
+      source_(std::move(source)),
+      structure_(structure),
+      options_(options),
+      may_have_more_(may_have_more) {
+  options_.model.reset();
+  find_models();
+  const std::string first = text(models_.front());
+  const MatchedAtoms known = parsed(first, models_.front());
+  std::vector<Vec3> all;
+  for_lines(first, [&](std::string_view line) {
+    if (!is_atom_record(line)) return;
+    append_identity(records_, line);
+    all.push_back(read_pdb_coordinates(line, path_, 0));
+  });
+  // The parser takes "atom" and "ATOMX" for atoms, too: the short way must find what it found, or there is none.
+  for (std::size_t i = 0; i < known.records.size() && !records_.empty(); ++i) {
+    kept_.push_back(known.records[i]);
+    if (kept_[i] >= all.size() || all[kept_[i]] != known.positions[i]) records_.clear();
+  }
+}
+
+std::string PdbModels::text(const Model& model) const {
+  const std::size_t size = static_cast<std::size_t>(model.end - model.begin);
+  if (const auto* whole = std::get_if<std::string>(&source_))
+    return whole->substr(static_cast<std::size_t>(model.begin), size);
+  std::string text(size, '\0');
+  const std::size_t got = std::get<BinaryFile>(source_).read(model.begin, text);
+  text.resize(got);  // the last line may have no end
+  return text;
+}
+
+MatchedAtoms PdbModels::parsed(const std::string& text, const Model& model) const {
+  std::vector<std::string> notes;
+  check_pdb(text, path_, model.line, models_.size() == 1 ? &notes : nullptr);
+  return conformation(assemble(parse_with_gemmi(text, path_, false), path_, options_), structure_, may_have_more_,
+                      path_ + ": model " + std::to_string(model.number));
+}
+
+std::vector<Vec3> PdbModels::frame(std::size_t k) const {
+  const Model& model = models_[k];
+  const std::string own = text(model);
+  std::vector<Vec3> all;
+  all.reserve(records_.size() / identity_bytes);
+  std::string record;
+  std::size_t line_number = model.line;
+  bool same = !own.empty(), ended = false;
+  for_lines(own, [&](std::string_view line) {
+    ++line_number;
+    ended = ends_pdb_model(line);
+    if (!same || !is_atom_record(line)) return;
+    record.clear();
+    append_identity(record, line);
+    const std::size_t at = all.size() * identity_bytes;
+    same = at < records_.size() && records_.compare(at, identity_bytes, record) == 0;
+    all.push_back(read_pdb_coordinates(line, path_, line_number));
+  });
+  // Cut short, or another choice of atoms: the long way knows.
+  if (!same || !ended || all.empty() || all.size() * identity_bytes != records_.size())
+    return parsed(own, model).positions;
+  std::vector<Vec3> positions;
+  positions.reserve(kept_.size());
+  for (const std::uint32_t i : kept_) positions.push_back(all[i]);
+  return positions;
+}
+
+}  // namespace hinge::molecular

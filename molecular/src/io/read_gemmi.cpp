@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The only file that includes gemmi, which takes long to compile.
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstdint>
+#include <cstdlib>
+#include <exception>
+#include <limits>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include <gemmi/cif.hpp>
+#include <gemmi/mmcif.hpp>
+#include <gemmi/pdb.hpp>
+#include <gemmi/resinfo.hpp>
+
+#include "hinge/core/error.hpp"
+#include "io/read_file.hpp"
+
+namespace hinge::molecular {
+
+namespace {
+
+char or_null(char c) { return c == ' ' ? '\0' : c; }
+
+RawAddress address(const gemmi::AtomAddress& a) {
+  return {a.chain_name, *a.res_id.seqid.num, or_null(a.res_id.seqid.icode), a.atom_name};
+}
+
+/// 0 where a model has none. From gemmi 0.7 on it is a number, before a text.
+template <class Model>
+auto number_of(const Model& model, int) -> decltype(model.num) {
+  return model.num;
+}
+template <class Model>
+int number_of(const Model& model, long) {
+  return std::atoi(model.name.c_str());
+}
+
+ResidueKind kind_of(const std::string& name) {
+  if (name == "WAT" || name == "TIP" || name == "TIP3" || name == "SOL" || name == "DOD" || name == "H2O")
+    return ResidueKind::water;
+  const gemmi::ResidueInfo& info = gemmi::find_tabulated_residue(name);
+  if (info.is_water()) return ResidueKind::water;
+  if (info.is_amino_acid()) return ResidueKind::amino_acid;
+  if (info.is_nucleic_acid()) return ResidueKind::nucleotide;
+  return ResidueKind::other;
+}
+
+/// gemmi joins residues and chains that a file has in parts, and keeps no order of atoms through that. So atoms are
+/// numbered from 0 in the place of their serial numbers, which are kept here.
+using Serials = std::vector<int>;
+
+RawModel convert(const gemmi::Model& model, int number, const Serials& serials) {
+  RawModel raw;
+  raw.number = number;
+  int first = std::numeric_limits<int>::max();  // of the model
+  for (const gemmi::Chain& chain : model.chains)
+    for (const gemmi::Residue& residue : chain.residues)
+      for (const gemmi::Atom& atom : residue.atoms) first = std::min(first, atom.serial);
+  for (const gemmi::Chain& chain : model.chains)
+    for (const gemmi::Residue& residue : chain.residues) {
+      RawResidue r;
+      r.chain = chain.name;
+      r.name = residue.name;
+      r.number = residue.seqid.num.has_value() ? *residue.seqid.num : 0;
+      r.insertion_code = or_null(residue.seqid.icode);
+      r.hetero = residue.het_flag == 'H';
+      r.kind = kind_of(residue.name);
+      for (const gemmi::Atom& atom : residue.atoms) {
+        RawAtom a;
+        a.name = atom.name;
+        if (atom.element != gemmi::El::X) a.element = atom.element == gemmi::El::D ? "H" : atom.element.name();
+        a.altloc = atom.altloc;
+        a.serial = serials.at(static_cast<std::size_t>(atom.serial));
+        a.record = static_cast<std::uint32_t>(atom.serial - first);
+        a.occupancy = static_cast<double>(atom.occ);
+        a.position = Vec3(atom.pos.x, atom.pos.y, atom.pos.z);
+        r.atoms.push_back(std::move(a));
+      }
+      raw.residues.push_back(std::move(r));
+    }
+  return raw;
+}
+
+/// Leaves of a document what is read of it here: gemmi would refuse a file for other things that are wrong in it, or
+/// unfold them. Its whole numbers wrap around where they leave the range of int; those are refused.
+void keep_what_is_read(gemmi::cif::Document& document) {
+  const auto is_read = [](const std::string& tag) {
+    for (const char* category :
+         {"_atom_site.", "_struct_conf.", "_struct_conn.", "_struct_sheet.", "_struct_sheet_range."})
+      if (gemmi::istarts_with(tag, category)) return true;
+    return false;
+  };
+  const auto check = [](const std::string& tag, const std::string& value) {
+    if (value.size() <= std::numeric_limits<int>::digits10) return;  // nearly all
+    const std::string text = gemmi::cif::as_string(value);
+    std::size_t first = std::min(text.find_first_not_of(" \t\n\v\f\r"), text.size());
+    if (first < text.size() && (text[first] == '-' || text[first] == '+')) ++first;
+    std::size_t end = first;
+    while (end < text.size() && text[end] >= '0' && text[end] <= '9') ++end;
+    // Whatever comes behind them: it takes the digits in front of a fraction or a letter, too.
+    if (end - first > std::numeric_limits<int>::digits10)
+      throw std::runtime_error(tag + " is " + text + ", expected a number that starts with at most " +
+                               std::to_string(std::numeric_limits<int>::digits10) + " digits");
+  };
+  for (gemmi::cif::Block& block : document.blocks)
+    for (gemmi::cif::Item& item : block.items) {
+      if (item.type == gemmi::cif::ItemType::Pair && is_read(item.pair[0])) {
+        check(item.pair[0], item.pair[1]);
+      } else if (item.type == gemmi::cif::ItemType::Loop &&
+                 std::any_of(item.loop.tags.begin(), item.loop.tags.end(), is_read)) {
+        for (std::size_t k = 0; k < item.loop.values.size(); ++k)
+          check(item.loop.tags[k % item.loop.tags.size()], item.loop.values[k]);
+      } else {
+        item.erase();
+      }
+    }
+}
+
+/// wwPDB's value_order or the type of a refinement dictionary; both in words of which the first letters count.
+BondOrder bond_order(std::string word, bool aromatic) {
+  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (aromatic) return BondOrder::multiple;
+  if (word.rfind("sing", 0) == 0) return BondOrder::single;
+  if (word.rfind("metal", 0) == 0) return BondOrder::coordination;
+  for (const char* multiple : {"doub", "trip", "quad", "arom", "delo", "pi", "1.5"})
+    if (word.rfind(multiple, 0) == 0) return BondOrder::multiple;
+  if (word.empty() || word == "poly" || word == "coval") return BondOrder::unknown;
+  throw std::runtime_error("chem_comp_bond of order '" + word + "', expected single, double, triple, aromatic, deloc");
+}
+
+std::string trimmed(const std::string& value) {
+  const std::string text = gemmi::cif::as_string(value);
+  const std::size_t first = text.find_first_not_of(' ');
+  return first == std::string::npos ? std::string() : text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
+std::vector<Component> components_of(gemmi::cif::Document& document, const std::string& source) {
+  std::map<std::string, Component> found;
+  for (gemmi::cif::Block& block : document.blocks) {
+    const std::string category = "_chem_comp_bond.";
+    gemmi::cif::Table table = block.find(
+        category, {"comp_id", "atom_id_1", "atom_id_2", "?type", "?value_order", "?pdbx_aromatic_flag", "?aromatic"});
+    for (const auto& row : table) {
+      const std::string name = trimmed(row[0]);
+      ComponentBond bond{trimmed(row[1]), trimmed(row[2]), BondOrder::unknown};
+      if (name.empty() || bond.first.empty() || bond.second.empty() || bond.first == bond.second)
+        throw std::runtime_error("chem_comp_bond of '" + name + "' between '" + bond.first + "' and '" + bond.second +
+                                 "', expected two different atoms");
+      const auto value = [&](std::size_t column) { return row.has2(column) ? trimmed(row[column]) : std::string(); };
+      const auto yes = [&](std::size_t column) { return value(column) == "Y" || value(column) == "y"; };
+      bond.order = bond_order(value(3).empty() ? value(4) : value(3), yes(5) || yes(6));
+      Component& component = found[name];
+      component.name = name;
+      component.source = source;
+      component.bonds.push_back(std::move(bond));
+    }
+  }
+  std::vector<Component> components;
+  for (auto& [name, component] : found) components.push_back(std::move(component));
+  return components;
+}
+
+/// What write_cif_head wrote of bonds; none: another file, or one that is not as it was written.
+std::optional<RecordedBonds> recorded_of(gemmi::cif::Document& document) {
+  if (document.blocks.empty()) return std::nullopt;
+  const auto read = [](const std::string& text) {
+    std::uint32_t n = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
+    return error == std::errc{} && end == text.data() + text.size() ? n : 0;
+  };
+  gemmi::cif::Block& block = document.blocks.front();
+  const std::string *version = block.find_value("_hinge_bonds.version"),
+                    *atoms = block.find_value("_hinge_bonds.atoms");
+  if (version == nullptr || *version != "1" || atoms == nullptr) return std::nullopt;
+  RecordedBonds recorded{read(*atoms), {}};
+  for (const auto& row : block.find("_hinge_bond.", {"atom_1", "atom_2", "order"})) {
+    const std::uint32_t i = read(row[0]), j = read(row[1]);
+    if (i == 0 || j == 0 || i == j || i > recorded.atoms || j > recorded.atoms) return std::nullopt;
+    const bool bonded = row[2] != "none";
+    recorded.bonds.push_back({i - 1, j - 1, bonded ? bond_order(trimmed(row[2]), false) : BondOrder::unknown, bonded});
+  }
+  return recorded;
+}
+
+/// A message on one line that names the file.
+[[noreturn]] void refuse_file(const std::exception& error, const std::string& path) {
+  std::string what = error.what();
+  std::replace(what.begin(), what.end(), '\n', ' ');  // some messages quote a line with its end
+  throw LoadError(what.find(path) != std::string::npos ? what : path + ": " + what);
+}
+
+void number_atoms(gemmi::cif::Document& document, Serials& serials) {
+  for (gemmi::cif::Block& block : document.blocks)
+    for (std::string& id : block.find_values("_atom_site.id")) {
+      const std::string number = std::to_string(serials.size());
+      serials.push_back(gemmi::string_to_int(id, false));
+      id = number;
+    }
+}
+
+gemmi::Structure parse(const std::string& bytes, const std::string& path, bool cif, RawFile& raw, Serials& serials) {
+  if (cif) {
+    gemmi::cif::Document document = gemmi::cif::read_memory(bytes.data(), bytes.size(), path.c_str());
+    raw.components = components_of(document, path);
+    raw.recorded = recorded_of(document);
+    keep_what_is_read(document);
+    number_atoms(document, serials);
+    return gemmi::make_structure(std::move(document));
+  }
+  gemmi::PdbReadOptions options;
+  const auto read = [&](int columns) {
+    options.max_line_length = columns;
+    const std::string text = prepare_pdb(bytes, static_cast<std::size_t>(columns), serials);
+    return gemmi::read_pdb_from_memory(text.data(), text.size(), path, options);
+  };
+  try {
+    return read(120);  // more than it looks at
+  } catch (const std::exception& first) {
+    // Files from before 1996 carry the entry's name and a line number in columns 73-80, where element and charge are
+    // now.
+    try {
+      gemmi::Structure st = read(72);
+      raw.notes.emplace_back("old PDB format: columns 73-80 ignored, elements taken from atom names");
+      return st;
+    } catch (const std::exception&) {
+      throw std::runtime_error(first.what());
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Component> parse_components(const std::string& bytes, const std::string& path) {
+  try {
+    gemmi::cif::Document document = gemmi::cif::read_memory(bytes.data(), bytes.size(), path.c_str());
+    return components_of(document, path);
+  } catch (const std::exception& error) {
+    refuse_file(error, path);
+  }
+}
+
+RawFile parse_with_gemmi(const std::string& bytes, const std::string& path, bool cif) {
+  RawFile raw;
+  gemmi::Structure st;
+  Serials serials;
+  try {
+    st = parse(bytes, path, cif, raw, serials);
+  } catch (const std::exception& error) {
+    refuse_file(error, path);
+  }
+  st.merge_chain_parts();
+  raw.name = st.name;
+  int position = 0;
+  for (const gemmi::Model& model : st.models) {
+    ++position;
+    const int number = number_of(model, 0);
+    raw.models.push_back(convert(model, number != 0 ? number : position, serials));
+  }
+  for (const gemmi::Connection& link : st.connections)
+    if (link.type == gemmi::Connection::Covale || link.type == gemmi::Connection::Disulf ||
+        link.type == gemmi::Connection::MetalC || link.type == gemmi::Connection::Unknown)
+      raw.links.push_back({address(link.partner1), address(link.partner2), link.type == gemmi::Connection::Disulf});
+  for (const gemmi::Helix& helix : st.helices)
+    raw.elements.push_back({SecondaryStructure::Kind::helix, address(helix.start), address(helix.end)});
+  for (const gemmi::Sheet& sheet : st.sheets)
+    for (const gemmi::Sheet::Strand& strand : sheet.strands)
+      raw.elements.push_back({SecondaryStructure::Kind::strand, address(strand.start), address(strand.end)});
+  return raw;
+}
+
+}  // namespace hinge::molecular

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bytes, checks, parser, assembly, bonds.
+#include "hinge/molecular/read_structure.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "hinge/core/error.hpp"
+#include "hinge/molecular/bonds.hpp"
+#include "io/read_file.hpp"
+#include "io/unpacked_file.hpp"
+
+namespace hinge::molecular {
+
+// Its first word that is no comment is data_..., loop_ or an item; PDB lines start otherwise.
+bool looks_like_cif(const std::string& bytes) {
+  std::size_t line = 0;
+  while (line < bytes.size()) {
+    const std::size_t end = std::min(bytes.find('\n', line), bytes.size());
+    std::size_t k = line;
+    while (k < end && std::isspace(static_cast<unsigned char>(bytes[k])) != 0) ++k;
+    if (k < end && bytes[k] != '#')
+      return bytes.compare(k, 5, "data_") == 0 || bytes.compare(k, 5, "loop_") == 0 || bytes[k] == '_';
+    line = end + 1;
+  }
+  return false;
+}
+
+namespace {
+
+/// What a file may unpack to: harmless, or this many times what was read of it. Structures shrink 4 to 10 times, models
+/// of a small molecule that are the same but for one side chain 84 times, all the same 109 times; a file made to fill
+/// the memory shrinks 1000 times.
+constexpr std::size_t harmless = std::size_t{64} << 20, most_times = 200;
+
+std::string stem(std::filesystem::path path) {
+  if (path.extension() == ".gz") path.replace_extension();
+  return path.stem().string();
+}
+
+/// Finds the end of a PDB file's first model in text that grows, when another model follows.
+class FirstModel {
+ public:
+  /// Where the model ends, or npos: not known yet, or nothing follows it so far.
+  std::size_t end(std::string_view text) {
+    for (std::size_t line_end = 0; (line_end = text.find('\n', next_)) != std::string_view::npos;
+         next_ = line_end + 1) {
+      const std::string_view line = text.substr(next_, line_end - next_);
+      if (end_ == std::string_view::npos) {
+        if (ends_pdb_model(line)) end_ = line_end + 1;
+      } else if (is_atom_record(line) || line.starts_with("MODEL ")) {
+        return end_;
+      }
+    }
+    return std::string_view::npos;
+  }
+
+ private:
+  std::size_t end_ = std::string_view::npos;
+  std::size_t next_ = 0;  // the line to look at next
+};
+
+/// Takes whole lines off the start of `text`; CONECT records, which stand behind all models, go to the end of `bytes`.
+void move_conect(std::string& text, std::string& bytes) {
+  std::size_t line = 0;
+  for (std::size_t end = 0; (end = text.find('\n', line)) != std::string::npos; line = end + 1)
+    if (text.compare(line, 6, "CONECT") == 0) bytes.append(text, line, end + 1 - line);
+  text.erase(0, line);
+}
+
+}  // namespace
+
+std::string read_bytes(const std::filesystem::path& path, bool first_model, bool* cut_short) {
+  UnpackedFile file(path);
+  std::string bytes, rest;  // rest: what was read behind the first model and not looked at yet
+  FirstModel first;
+  bool behind = false;
+  std::size_t total = 0;
+  std::array<char, 1U << 16> chunk{};
+  while (const std::size_t got = file.read(chunk)) {
+    (behind ? rest : bytes).append(chunk.data(), got);
+    total += got;
+    // Plain files never get there: they are as long as what was read of them.
+    if (const std::uint64_t read = file.packed(); total > harmless + most_times * read)
+      throw LoadError(path.string() + ": " + std::to_string(read) + " bytes unpack to more than " +
+                      std::to_string(total) + ", expected at most 64 MiB + " + std::to_string(most_times) +
+                      " times as many; unpack it first if it is a structure");
+    if (const std::size_t end = first_model && !behind ? first.end(bytes) : std::string::npos;
+        end != std::string::npos) {
+      rest = bytes.substr(end);
+      bytes.resize(end);
+      behind = true;
+      if (cut_short != nullptr) *cut_short = true;
+    }
+    if (behind) move_conect(rest, bytes);
+  }
+  if (behind) move_conect(rest += '\n', bytes);
+  if (bytes.find_first_not_of(" \t\r\n") == std::string::npos)
+    throw LoadError(path.string() + ": is empty, expected a PDB or mmCIF file");
+  return bytes;
+}
+
+RawFile read_raw(const std::string& bytes, const std::filesystem::path& path, bool first_model, bool* cut_short) {
+  const bool cif = looks_like_cif(bytes);
+  std::vector<std::string> notes;
+  if (!cif) check_pdb(bytes, path.string(), 0, &notes);
+  RawFile raw = parse_with_gemmi(bytes, path.string(), cif);
+  raw.notes.insert(raw.notes.end(), notes.begin(), notes.end());
+  if (!cif) {
+    raw.conect = read_conect(bytes);
+    raw.recorded = read_recorded(bytes, raw.conect);
+  }
+  if (raw.name.empty() || raw.name == path.string()) raw.name = stem(path);
+  if (first_model && raw.models.size() > 1) {
+    raw.models.resize(1);
+    if (cut_short != nullptr) *cut_short = true;
+  }
+  return raw;
+}
+
+Structure read_structure(const std::filesystem::path& path, const ReadOptions& options) {
+  bool cut_short = false;
+  const bool first_model = options.first_model && !options.model;
+  const std::string bytes = read_bytes(path, first_model, &cut_short);
+  RawFile raw = read_raw(bytes, path, first_model, &cut_short);
+  ComponentLibrary components(options.dictionary);
+  for (const std::filesystem::path& file : options.components) components.add_file(file);
+  for (Component& component : raw.components) components.add(std::move(component));
+  const std::optional<RecordedBonds> recorded = raw.recorded;
+  Structure structure;
+  try {
+    structure = assemble(std::move(raw), path.string(), options);
+  } catch (const OtherAtoms&) {
+    structure = assemble_common(read_raw(bytes, path), path.string(), options);
+  }
+  structure.more_models = cut_short;
+  if (recorded && recorded->atoms == structure.atom_records)
+    take_recorded_bonds(structure, *recorded);
+  else
+    perceive_bonds(structure, std::move(components), options.bonds);
+  return structure;
+}
+
+}  // namespace hinge::molecular

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// zlib's inflate, member by member.
+#include "io/unpacked_file.hpp"
+
+#include <algorithm>
+#include <new>
+
+#include "hinge/core/error.hpp"
+
+namespace hinge::molecular {
+
+UnpackedFile::UnpackedFile(const std::filesystem::path& path)
+    : file_(path, "a PDB or mmCIF file"), packed_(std::size_t{1} << 16U) {
+  constexpr int gzip_alone = 15 + 16;  // window bits, as inflateInit2 wants them
+  is_gzipped_ = fill() && stream_.avail_in >= 2 && packed_[0] == '\x1f' && packed_[1] == '\x8b';
+  if (is_gzipped_ && inflateInit2(&stream_, gzip_alone) != Z_OK) throw std::bad_alloc();
+}
+
+UnpackedFile::~UnpackedFile() {
+  if (is_gzipped_) inflateEnd(&stream_);
+}
+
+bool UnpackedFile::fill() {
+  if (stream_.avail_in > 0) return true;
+  stream_.avail_in = static_cast<uInt>(file_.read(packed_));
+  stream_.next_in = reinterpret_cast<Bytef*>(packed_.data());
+  return stream_.avail_in > 0;
+}
+
+std::size_t UnpackedFile::read(std::span<char> to) {
+  if (is_gzipped_) return unpack(to);
+  if (!fill()) return 0;
+  const std::size_t count = std::min<std::size_t>(to.size(), stream_.avail_in);
+  std::copy_n(stream_.next_in, count, to.begin());
+  stream_.next_in += count;
+  stream_.avail_in -= static_cast<uInt>(count);
+  return count;
+}
+
+std::size_t UnpackedFile::unpack(std::span<char> to) {
+  stream_.next_out = reinterpret_cast<Bytef*>(to.data());
+  stream_.avail_out = static_cast<uInt>(to.size());
+  while (stream_.avail_out == to.size()) {
+    if (!fill()) {
+      if (in_member_) refuse("ends in a gzip member; it may be cut short");
+      break;
+    }
+    if (!in_member_ && *stream_.next_in == 0 && members_ > 0) {
+      while (fill()) {
+        if (*stream_.next_in != 0) refuse("expected nothing but zeros behind the last gzip member");
+        ++stream_.next_in;
+        --stream_.avail_in;
+      }
+      break;
+    }
+    if (!in_member_) {
+      inflateReset(&stream_);
+      in_member_ = true;
+      ++members_;
+    }
+    const int status = inflate(&stream_, Z_NO_FLUSH);
+    if (status == Z_STREAM_END)
+      in_member_ = false;
+    else if (status == Z_MEM_ERROR)
+      throw std::bad_alloc();
+    else if (status != Z_OK && status != Z_BUF_ERROR)
+      refuse(std::string("gzip data is damaged: ") + (stream_.msg != nullptr ? stream_.msg : "needs a dictionary") +
+             (members_ > 1 && stream_.total_out == 0 ? "; expected a gzip member or the end of the file" : ""));
+  }
+  return to.size() - stream_.avail_out;
+}
+
+void UnpackedFile::refuse(const std::string& what) const {
+  throw LoadError(file_.name() + ": cannot be read to its end: byte " + std::to_string(packed()) + ": " + what);
+}
+
+}  // namespace hinge::molecular

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Random conformations from the counter-based stream.
+#include "hinge/molecular/sampler.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "hinge/core/error.hpp"
+#include "hinge/detail/core/finite.hpp"
+#include "hinge/detail/core/sincos.hpp"
+
+namespace hinge::molecular {
+
+namespace {
+
+double sample_turn(const Sampling& sampling, SampleStream& stream) {
+  return sampling.sigma ? *sampling.sigma * stream.normal() : std::numbers::pi * (1.0 - 2.0 * stream.uniform());
+}
+
+/// sin^2 of half the angle of Rx(a) Ry(b) Rz(c): the squared vector part of the product of the three quaternions.
+double squared_half_sine(double a, double b, double c) noexcept {
+  const SinCos x = sincos(a / 2), y = sincos(b / 2), z = sincos(c / 2);
+  const double i = x.sin * y.cos * z.cos + x.cos * y.sin * z.sin;
+  const double j = x.cos * y.sin * z.cos - x.sin * y.cos * z.sin;
+  const double k = x.cos * y.cos * z.sin + x.sin * y.sin * z.cos;
+  return i * i + j * j + k * k;
+}
+
+}  // namespace
+
+std::vector<double> draw_configuration(const Sampling& sampling, SampleStream& stream, std::size_t dof_count) {
+  std::vector<double> q(dof_count);
+  for (double& value : q) value = sample_turn(sampling, stream);
+  return q;
+}
+
+std::vector<double> sample_configuration(const Sampling& sampling, std::uint64_t index, std::size_t dof_count) {
+  SampleStream stream(sampling.seed, index);
+  return draw_configuration(sampling, stream, dof_count);
+}
+
+// By rejection, which keeps to arithmetic that gives the same bits everywhere: at least a ninth of all tries stay.
+std::array<double, 6> sample_placement(SampleStream& stream, const PlacementRange& range) {
+  std::array<double, 6> q{};
+  if (range.distance > 0.0) {
+    double x = 0.0, y = 0.0, z = 0.0;
+    do {
+      x = 2.0 * stream.uniform() - 1.0;
+      y = 2.0 * stream.uniform() - 1.0;
+      z = 2.0 * stream.uniform() - 1.0;
+    } while (x * x + y * y + z * z > 1.0);
+    q[0] = range.distance * x;
+    q[1] = range.distance * y;
+    q[2] = range.distance * z;
+  }
+  if (range.turn > 0.0) {
+    // The invariant measure of rotations is |cos b| da db dc. No rotation by up to a quarter turn needs a larger angle:
+    // it takes no axis farther from where it was.
+    const double quarter = std::numbers::pi / 2;
+    const double side = range.turn <= quarter ? range.turn : std::numbers::pi;
+    const double half_sine = sincos(range.turn / 2).sin;
+    const bool any = range.turn >= std::numbers::pi;
+    do {
+      do {
+        q[4] = std::min(side, quarter) * (2.0 * stream.uniform() - 1.0);
+      } while (stream.uniform() > sincos(q[4]).cos);
+      q[3] = side * (1.0 - 2.0 * stream.uniform());
+      q[5] = side * (1.0 - 2.0 * stream.uniform());
+    } while (!any && squared_half_sine(q[3], q[4], q[5]) > half_sine * half_sine);
+  }
+  return q;
+}
+
+std::vector<double> sample_configuration(const Sampling& sampling, std::uint64_t index, const Molecule& molecule,
+                                         const DofSelection& selection, std::span<const PlacementRange> ranges) {
+  const auto placed = molecule.placed_parts();
+  if (ranges.size() != placed.size())
+    throw ModelError(std::to_string(ranges.size()) + " ranges of placements, expected one for each of " +
+                     std::to_string(placed.size()) + " placed parts");
+  if (placed.empty()) return sample_configuration(sampling, index, selection.size());
+  std::vector<double> of_dof(molecule.model().tree().dof_count());
+  std::vector<bool> places(of_dof.size(), false);
+  for (const PlacedPart& part : placed)
+    for (const DofId dof : part.dofs) places[hinge::index(dof)] = true;
+  SampleStream stream(sampling.seed, index);
+  for (const DofId dof : selection.dofs())
+    if (!places[hinge::index(dof)]) of_dof[hinge::index(dof)] = sample_turn(sampling, stream);
+  for (std::size_t k = 0; k < placed.size(); ++k) {
+    const PlacementRange& range = ranges[k];
+    if (!is_length(range.distance) || range.distance < 0.0 || !(range.turn >= 0.0 && range.turn <= std::numbers::pi))
+      throw ModelError("placing '" + placed[k].part.name + "' within " + std::to_string(range.distance) +
+                       " angstrom and " + std::to_string(range.turn) +
+                       " rad: expected a finite distance >= 0 and a turn from 0 to pi");
+    SampleStream own(sampling.seed, index, static_cast<std::uint32_t>(k + 1));
+    const std::array<double, 6> q = sample_placement(own, range);
+    for (std::size_t c = 0; c < 6; ++c) of_dof[hinge::index(placed[k].dofs[c])] = q[c];
+  }
+  std::vector<double> q;
+  for (const DofId dof : selection.dofs()) q.push_back(of_dof[hinge::index(dof)]);
+  return q;
+}
+
+}  // namespace hinge::molecular

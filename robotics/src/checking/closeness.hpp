@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Closeness: the numbers and points of one pair of triangles, such that they never contradict a verdict.
+#pragma once
+
+#include <cstddef>
+
+#include "hinge/core/id.hpp"
+#include "hinge/core/vec3.hpp"
+#include "hinge/detail/exact/gap.hpp"
+#include "hinge/primitive/triangle.hpp"
+
+namespace hinge::robotics {
+
+/// As in ClosestLinks.
+struct Closeness {
+  bool collides = false;  ///< the pair is a hit
+  double distance = 0.0;
+  double gap = 0.0;
+  Vec3 point1 = Vec3::Zero();
+  Vec3 point2 = Vec3::Zero();
+};
+
+/// Of placed triangles grown by the radii of `sum`, m, with its clearance.
+Closeness closeness(const Triangle& first, const Triangle& second, const exact::Reach& sum);
+
+/// A triangle where the hierarchy's engine sees it. Hierarchy::placed() would place all the others, too.
+template <class H>
+Triangle triangle_at(H& hierarchy, PrimitiveId i) {
+  const auto& model = hierarchy.model();
+  const Triangle& local = model.primitives()[index(i)];
+  const GroupId group = model.group_of(i);
+  if (group == GroupId{}) return local;
+  // The topmost link of a group has the group's frame.
+  std::size_t top = 0;
+  while (model.groups()->group_of(id<LinkId>(top)) != group) ++top;
+  return local.placed(hierarchy.link_pose(id<LinkId>(top)));
+}
+
+}  // namespace hinge::robotics

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// find_inside: what lies inside a solid without touching its surface, at the present state of hierarchies.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "checking/solids.hpp"
+#include "hinge/core/id.hpp"
+#include "hinge/core/pose.hpp"
+#include "hinge/core/vec3.hpp"
+#include "hinge/detail/kinematics/frame.hpp"
+#include "hinge/kinematics/rigid_groups.hpp"
+#include "hinge/policy/collector.hpp"
+#include "hinge/primitive/triangle.hpp"
+#include "hinge/robotics/containment.hpp"
+#include "hinge/robotics/link_pairs.hpp"
+#include "hinge/robotics/robot.hpp"
+
+namespace hinge::robotics {
+
+/// A part of `inner` lies inside a solid of `outer`, or their surfaces meet.
+struct Inside {
+  LinkId outer{};
+  LinkId inner{};
+  PrimitiveId outer_triangle{};  ///< any of the solid's
+  PrimitiveId inner_triangle{};  ///< one of the part's
+  Vec3 point = Vec3::Zero();     ///< a vertex of the part, world
+
+  /// As a query of one model reports a pair: the two share a point, their distance is 0.
+  Hit hit(double threshold) const noexcept {
+    return outer_triangle < inner_triangle ? Hit{outer_triangle, inner_triangle, 0.0, threshold}
+                                           : Hit{inner_triangle, outer_triangle, 0.0, threshold};
+  }
+};
+
+/// Could the point lie in the solid? False only when it surely does not.
+inline bool may_be_in(const Solid& solid, const Pose& link, const Vec3& point) noexcept {
+  const Pose frame = link * solid.frame;
+  const Vec3 away = point - frame.translation;
+  // Rotations may be off by 1e-9 a joint, and what is rounded by a share of the coordinates.
+  double slack = 0.0;
+  for (int k = 0; k < 3; ++k)
+    slack += 1e-6 * solid.half[k] + 1e-12 * (std::abs(point[k]) + std::abs(frame.translation[k]));
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(dot(Vec3(frame.rotation.col(k)), away)) > solid.half[k] + slack) return false;
+  return true;
+}
+
+/// Exact for the placed coordinates.
+template <class H>
+bool is_in(H& outer, const Solid& solid, const Vec3& point) {
+  std::vector<Triangle> surface;
+  surface.reserve(solid.count);
+  for (std::size_t k = 0; k < solid.count; ++k) surface.push_back(outer.placed(id<PrimitiveId>(solid.first + k)));
+  return place_of(point, surface) == Place::inside;
+}
+
+/// Calls found(inside) for the parts of link `inner` that lie inside the solid, until it says true; did it?
+template <class H, class G, class Found>
+bool find_inside(H& outer_model, const Solid& solid, G& inner_model, const Solids& inner_solids, LinkId inner,
+                 const Found& found) {
+  const Pose outer_pose = outer_model.link_pose(solid.link), inner_pose = inner_model.link_pose(inner);
+  for (const SolidPart& part : inner_solids.parts(inner)) {
+    if (!may_hold(solid, part) || !may_be_in(solid, outer_pose, inner_pose * part.point)) continue;
+    const Vec3 point = inner_model.placed(part.triangle).a;
+    if (is_in(outer_model, solid, point) &&
+        found(Inside{solid.link, inner, id<PrimitiveId>(solid.first), part.triangle, point}))
+      return true;
+  }
+  return false;
+}
+
+/// The solids of a robot, each with the links that are tested against it.
+class SolidPairs {
+ public:
+  SolidPairs() = default;
+  /// For a hierarchy of the robot, whichever its rigid groups are.
+  template <class H>
+  SolidPairs(const H& hierarchy, const Robot& robot, const LinkPairs& tested) {
+    const Solids& solids = robot.solids();
+    const RigidGroups& groups = *hierarchy.model().groups();
+    const auto add_ball = [&](LinkId link, const Vec3& centre, double radius) {
+      balls_.push_back({groups.group_of(link), groups.link_in_group(link) * centre, radius});
+      return balls_.size() - 1;
+    };
+    std::vector<std::size_t> ball_of(robot.link_count(), 0);  // 0: none yet
+    for (const Solid& solid : solids.all()) {
+      const std::size_t own = add_ball(solid.link, solid.frame.translation, solid.radius);
+      for (std::size_t l = 1; l < robot.link_count(); ++l) {
+        const LinkId link = id<LinkId>(l);
+        if (robot.triangle_count(link) == 0 || !tested.contains(solid.link, link)) continue;
+        if (!solids.may_hold_any(solid, link)) continue;
+        if (ball_of[l] == 0) {
+          const BoundingBall points = solids.points(link);
+          ball_of[l] = add_ball(link, points.centre, points.radius);
+        }
+        const double reach = (solid.radius + balls_[ball_of[l]].radius) * (1.0 + 1e-6);
+        pairs_.push_back({own, ball_of[l], &solid, link, reach * reach});
+      }
+    }
+  }
+
+  /// Calls found(inside) until it says true; did it? `hierarchy` is that of the constructor, or a copy of it; `centres`
+  /// is scratch. What a joint cannot move is left out, as it is where surfaces meet.
+  template <class H, class Found>
+  bool find(H& hierarchy, const Robot& robot, std::vector<std::array<double, 3>>& centres, const Found& found) const {
+    if (pairs_.empty()) return false;
+    centres.resize(balls_.size());
+    const std::span<const Frame> frames = hierarchy.frames();
+    for (std::size_t k = 0; k < balls_.size(); ++k) {
+      const std::array<double, 16>& c = frames[index(balls_[k].group)].column;
+      const Vec3& x = balls_[k].centre;
+      for (std::size_t r = 0; r < 3; ++r) centres[k][r] = c[r] * x[0] + c[4 + r] * x[1] + c[8 + r] * x[2] + c[12 + r];
+    }
+    for (const Pair& pair : pairs_) {
+      const std::array<double, 3>&a = centres[pair.outer], &b = centres[pair.inner];
+      double squared = 0.0, rounding = 0.0;
+      for (std::size_t r = 0; r < 3; ++r) {
+        squared += (b[r] - a[r]) * (b[r] - a[r]);
+        rounding += a[r] * a[r];
+      }
+      // Written so that what overflows is looked at.
+      if (squared > pair.squared_reach + 1e-20 * rounding && squared <= 1e300) continue;
+      const auto judge = [&](const Inside& inside) {
+        return !hierarchy.model().constant(inside.outer_triangle, inside.inner_triangle) && found(inside);
+      };
+      if (find_inside(hierarchy, *pair.solid, hierarchy, robot.solids(), pair.link, judge)) return true;
+    }
+    return false;
+  }
+
+ private:
+  struct GroupBall {
+    GroupId group{};
+    Vec3 centre = Vec3::Zero();
+    double radius = 0.0;
+  };
+  struct Pair {
+    std::size_t outer = 0, inner = 0;  // in balls_
+    const Solid* solid = nullptr;      // of the robot
+    LinkId link{};
+    double squared_reach = 0.0;
+  };
+  std::vector<GroupBall> balls_;
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace hinge::robotics

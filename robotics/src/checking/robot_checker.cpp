@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The state of a robot, and queries about itself.
+#include "hinge/robotics/robot_checker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "approximation/between.hpp"
+#include "checking/closeness.hpp"
+#include "checking/contacts.hpp"
+#include "checking/find_inside.hpp"
+#include "hinge/core/error.hpp"
+#include "hinge/kinematics/dof_selection.hpp"
+#include "hinge/kinematics/joint.hpp"
+#include "hinge/kinematics/rigid_groups.hpp"
+#include "hinge/query/collectors.hpp"
+
+namespace hinge::robotics {
+
+namespace {
+
+/// Above it the sum of a chain of sliding joints may leave the range of doubles.
+constexpr double largest_value = 1e300;
+
+std::shared_ptr<const Robot> checked(std::shared_ptr<const Robot> robot) {
+  if (robot == nullptr) throw ModelError("robot checker: expected a robot, got none");
+  return robot;
+}
+
+/// The same links and triangles, with the root link free against the world.
+Model<Triangle> free_model(const Model<Triangle>& model) {
+  ModelBuilder<Triangle> builder;
+  for (std::size_t l = 1; l < model.tree().link_count(); ++l) {
+    const LinkId parent = model.tree().parent(id<LinkId>(l));
+    const Joint& joint = model.tree().joint(id<LinkId>(l));
+    // Poses come from the robot's own tree: what this joint could do is never asked.
+    builder.add_link(parent, parent == world ? Joint(Prismatic{Vec3::UnitX(), joint.origin, "base"}) : joint);
+  }
+  for (std::size_t i = 0; i < model.size(); ++i) builder.add_primitive(model.links()[i], model.primitives()[i]);
+  return builder.finish();
+}
+
+/// Of the triangles of every link, in the link's frame, radii included.
+std::vector<Aabb> local_boxes_of(const Robot& robot, const LinkMargins& margins) {
+  std::vector<Aabb> boxes(robot.link_count());
+  for (std::size_t i = 0; i < robot.model().size(); ++i) {
+    const Aabb box = robot.model().primitives()[i].bounds();
+    const double radius = margins.radius(id<PrimitiveId>(i));
+    boxes[index(robot.model().links()[i])].extend(radius > 0.0 ? box.inflated(radius) : box);
+  }
+  return boxes;
+}
+
+}  // namespace
+
+RobotChecker::RobotChecker(std::shared_ptr<const Robot> robot, LinkPairs tested, LinkMargins margins,
+                           const CheckOptions& options)
+    : robot_(checked(std::move(robot))),
+      filter_(*robot_, std::move(tested)),
+      margins_(std::move(margins)),
+      engine_(options.engine),
+      hierarchy_(make_hierarchy(engine_, robot_->model(), filter_, margins_)),
+      full_(robot_->model().tree().dof_count()),
+      link_hits_(robot_->model().links()),
+      local_boxes_(std::make_shared<const std::vector<Aabb>>(local_boxes_of(*robot_, margins_))) {
+  find_solid_pairs();
+  update(std::vector<double>(robot_->independent_joints().size(), 0.0));
+}
+
+void RobotChecker::find_solid_pairs() {
+  solid_pairs_ = std::visit(
+      [&](const auto& hierarchy) { return std::make_shared<const SolidPairs>(hierarchy, *robot_, filter_.tested()); },
+      *hierarchy_);
+}
+
+void RobotChecker::update(std::span<const double> independent) {
+  next_.resize(full_.size());
+  robot_->expand(independent, next_);
+  for (std::size_t d = 0; d < next_.size(); ++d)
+    if (!(std::abs(next_[d]) <= largest_value))
+      throw ConfigurationError("joint '" + robot_->description().joints[robot_->joint_of(id<DofId>(d))].name +
+                               "' comes to be " + std::to_string(next_[d]) +
+                               ", expected a finite number of at most 1e300");
+  if (kinematics_) {
+    kinematics_->set_configuration(next_);
+    try {
+      place(*hierarchy_, base_, *kinematics_);
+    } catch (const ConfigurationError&) {
+      kinematics_->set_configuration(full_);
+      throw;
+    }
+  } else {
+    std::visit([&](auto& hierarchy) { hierarchy.update(next_); }, *hierarchy_);
+  }
+  full_.swap(next_);
+  link_boxes_stand_ = false;
+}
+
+void RobotChecker::set_base(const Pose& base) {
+  if (!is_rigid(base))
+    throw ConfigurationError("base of robot '" + robot_->name() +
+                             "': not a rigid placement (finite, R R^T = 1, det 1)");
+  if (!kinematics_) {
+    const KinematicTree& tree = robot_->model().tree();
+    PoseSource kinematics(std::make_shared<const RigidGroups>(tree, DofSelection::all(tree)), tree.dof_count());
+    kinematics.set_configuration(full_);
+    AnyHierarchy hierarchy = make_hierarchy(engine_, free_model(robot_->model()), filter_, margins_);
+    place(hierarchy, base, kinematics);
+    hierarchy_ = std::move(hierarchy);
+    kinematics_ = std::move(kinematics);
+    find_solid_pairs();
+  } else {
+    place(*hierarchy_, base, *kinematics_);
+  }
+  base_ = base;
+  link_boxes_stand_ = false;
+}
+
+void RobotChecker::place(AnyHierarchy& hierarchy, const Pose& base, PoseSource& kinematics) {
+  std::visit(
+      [&](auto& h) {
+        // The world comes first, then the groups that the robot alone has.
+        poses_.assign(1, Pose{});
+        for (std::size_t g = 0; g + 1 < h.model().groups()->size(); ++g)
+          poses_.push_back(base * kinematics.pose(id<GroupId>(g)));
+        h.update_poses(poses_);
+      },
+      hierarchy);
+}
+
+Pose RobotChecker::link_pose(LinkId link) {
+  if (index(link) >= robot_->link_count())
+    throw ModelError("link " + std::to_string(index(link)) + ": robot '" + robot_->name() + "' and the world have " +
+                     std::to_string(robot_->link_count()));
+  return std::visit([&](auto& hierarchy) { return hierarchy.link_pose(link); }, *hierarchy_);
+}
+
+void RobotChecker::learn_order() {
+  std::visit([](auto& hierarchy) { hierarchy.learn_order(); }, *hierarchy_);
+}
+
+template <class Found>
+bool RobotChecker::find_insides(const Found& found) {
+  return std::visit([&](auto& hierarchy) { return solid_pairs_->find(hierarchy, *robot_, solid_centres_, found); },
+                    *hierarchy_);
+}
+
+bool RobotChecker::any_inside() {
+  return find_insides([](const Inside&) { return true; });
+}
+
+bool RobotChecker::collides() {
+  return std::visit([](auto& hierarchy) { return hierarchy.self_collides(); }, *hierarchy_) || any_inside();
+}
+
+std::vector<LinkContact> RobotChecker::within(double margin) {
+  std::vector<LinkContact> contacts = surfaces_within(margin);
+  find_insides([&](const Inside& inside) {
+    const auto [a, b] = std::minmax(inside.outer, inside.inner);
+    put_contact(contacts, {a, b, inside.hit(margins_.clearance(a, b))});
+    return false;
+  });
+  return contacts;
+}
+
+std::vector<LinkContact> RobotChecker::surfaces_within(double margin) {
+  check_margin(margin);
+  const auto ask = [&](LinkPairHits& found) {
+    std::visit([&](auto& hierarchy) { hierarchy.self_query(found); }, *hierarchy_);
+    std::vector<LinkContact> contacts;
+    const std::span<const LinkId> links = robot_->model().links();
+    for (const Hit& hit : found.hits()) contacts.push_back({links[index(hit.first)], links[index(hit.second)], hit});
+    return contacts;
+  };
+  if (margin > 0.0) {
+    LinkPairHits found(robot_->model().links(), margin);
+    return ask(found);
+  }
+  link_hits_.clear();
+  return ask(link_hits_);
+}
+
+std::vector<Hit> RobotChecker::triangle_pairs() {
+  return std::visit([](auto& hierarchy) { return hierarchy.self_collisions(); }, *hierarchy_);
+}
+
+std::optional<ClosestLinks> RobotChecker::closest_surfaces(AnyHierarchy& any) {
+  const std::span<const LinkId> links = robot_->model().links();
+  return std::visit(
+      [&](auto& hierarchy) -> std::optional<ClosestLinks> {
+        std::optional<Hit> hit = hierarchy.self_closest();
+        if (!hit) return {};
+        Closeness found = measure(hierarchy, hierarchy, *hit, margins_.sum(hit->first, hit->second));
+        if (!found.collides) {
+          // By rounding another pair that is a hit may stand a hair behind.
+          AnyHit meeting;
+          hierarchy.self_query(meeting);
+          if (meeting.done()) {
+            hit = meeting.hit();
+            found = measure(hierarchy, hierarchy, *hit, margins_.sum(hit->first, hit->second));
+          }
+        }
+        return answer(links[index(hit->first)], links[index(hit->second)], *hit, found);
+      },
+      any);
+}
+
+/// The same asked in the frame of the first link's rigid group: none where the answer would be no better, or another.
+std::optional<ClosestLinks> RobotChecker::closest_nearby(const ClosestLinks& found) {
+  constexpr double far_away = 256.0;  // costs that many half ulps
+  double size = found.distance, place = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    place = std::max({place, std::abs(found.point1[k]), std::abs(found.point2[k])});
+    for (const LinkId link : {found.link1, found.link2}) {
+      const Aabb& box = (*local_boxes_)[index(link)];
+      size = std::max({size, std::abs(box.lower[k]), std::abs(box.upper[k])});
+    }
+  }
+  if (!(place > far_away * size)) return {};
+  const KinematicTree& tree = robot_->model().tree();
+  const RigidGroups groups(tree, DofSelection::all(tree));
+  const auto in_parent = [&](GroupId group) {
+    const RigidGroup& g = groups[group];
+    return g.joint.origin * motion(g.joint, full_[g.dof]);
+  };
+  // From the group up to the root, then down to all the others: what both have above them has no part in it.
+  const GroupId anchor = groups.group_of(found.link1);
+  std::vector<std::optional<Pose>> relative(groups.size());
+  relative[index(anchor)] = Pose{};
+  for (GroupId g = anchor; index(g) != 0; g = groups[g].parent)
+    relative[index(groups[g].parent)] = *relative[index(g)] * in_parent(g).inverse();
+  for (std::size_t g = 1; g < groups.size(); ++g)
+    if (!relative[g]) relative[g] = *relative[index(groups[id<GroupId>(g)].parent)] * in_parent(id<GroupId>(g));
+  std::vector<Pose> poses{Pose{}};
+  for (const std::optional<Pose>& pose : relative) poses.push_back(*pose);
+  if (!nearby_) nearby_ = make_hierarchy(engine_, free_model(robot_->model()), filter_, margins_);
+  std::visit([&](auto& hierarchy) { hierarchy.update_poses(poses); }, *nearby_);
+  std::optional<ClosestLinks> closer = closest_surfaces(*nearby_);
+  // Verdicts are those of the world's coordinates.
+  if (!closer || closer->collides() != found.collides() || (closer->distance > 0.0) != (found.distance > 0.0))
+    return {};
+  const Pose world_pose = link_pose(found.link1) * groups.link_in_group(found.link1).inverse();
+  closer->point1 = world_pose * closer->point1;
+  closer->point2 = world_pose * closer->point2;
+  return closer;
+}
+
+std::optional<ClosestLinks> RobotChecker::closest() {
+  std::optional<ClosestLinks> best = closest_surfaces(*hierarchy_);
+  if (best)
+    if (const auto nearby = closest_nearby(*best)) best = nearby;
+  find_insides([&](const Inside& inside) {
+    const auto [a, b] = std::minmax(inside.outer, inside.inner);
+    take_closer(best, {a, b, inside.hit(margins_.clearance(a, b))}, inside.point);
+    return false;
+  });
+  return best;
+}
+
+Verdict RobotChecker::check(std::span<const double> independent, const Mode& mode) {
+  update(independent);
+  Verdict verdict;
+  switch (mode.kind) {
+    case Mode::Kind::any: verdict.collides = collides(); break;
+    case Mode::Kind::all:
+      verdict.pairs = colliding_links();
+      verdict.collides = !verdict.pairs.empty();
+      break;
+    case Mode::Kind::within:
+      verdict.pairs = within(mode.margin);
+      verdict.distances = distances(mode.margin);
+      // A margin may list pairs that do not collide; the verdict is the strict rule's.
+      verdict.collides = collides();
+      break;
+    case Mode::Kind::closest:
+      verdict.closest = closest();
+      verdict.collides = verdict.closest && verdict.closest->collides();
+      break;
+  }
+  return verdict;
+}
+
+}  // namespace hinge::robotics

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The closest points of every pair of links, or of a link and a body, that come within a margin.
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "approximation/between.hpp"
+#include "checking/body_insides.hpp"
+#include "checking/body_pairs.hpp"
+#include "checking/closeness.hpp"
+#include "checking/contacts.hpp"
+#include "checking/find_inside.hpp"
+#include "hinge/core/id.hpp"
+#include "hinge/policy/collector.hpp"
+#include "hinge/robotics/environment.hpp"
+#include "hinge/robotics/robot_checker.hpp"
+
+namespace hinge::robotics {
+
+namespace {
+
+using LinkPair = std::pair<LinkId, LinkId>;
+
+/// The pair of triangles with the smallest d - M of every pair of links, if below the margin.
+class ClosestOfPairs {
+ public:
+  static constexpr bool ranks = false;
+  ClosestOfPairs(std::span<const LinkId> links, std::span<const LinkId> other_links, double margin)
+      : links_(links), other_links_(other_links), margin_(margin) {}
+  void add(const Hit& hit) {
+    const auto [known, is_new] = best_.try_emplace({links_[index(hit.first)], other_links_[index(hit.second)]}, hit);
+    const auto key = [](const Hit& h) { return std::tuple(h.gap(), h.first, h.second); };
+    if (key(hit) < key(known->second)) known->second = hit;
+  }
+  double cutoff() const noexcept { return margin_; }
+  bool done() const noexcept { return false; }
+  const std::map<LinkPair, Hit>& best() const noexcept { return best_; }
+
+ private:
+  std::span<const LinkId> links_, other_links_;
+  double margin_;
+  std::map<LinkPair, Hit> best_;
+};
+
+static_assert(Collector<ClosestOfPairs>);
+
+}  // namespace
+
+std::vector<ClosestLinks> RobotChecker::distances(double margin) {
+  check_margin(margin);
+  const std::span<const LinkId> links = robot_->model().links();
+  return std::visit(
+      [&](auto& hierarchy) {
+        ClosestOfPairs collector(links, links, margin);
+        hierarchy.self_query(collector);
+        std::map<LinkPair, ClosestLinks> found;
+        for (const auto& [pair, hit] : collector.best())
+          found[pair] = answer(pair.first, pair.second, hit,
+                               measure(hierarchy, hierarchy, hit, margins_.sum(hit.first, hit.second)));
+        solid_pairs_->find(hierarchy, *robot_, solid_centres_, [&](const Inside& inside) {
+          const auto [a, b] = std::minmax(inside.outer, inside.inner);
+          const auto known = found.find({a, b});
+          std::optional<ClosestLinks> closest;
+          if (known != found.end()) closest = known->second;
+          take_closer(closest, {a, b, inside.hit(margins_.clearance(a, b))}, inside.point);
+          found[{a, b}] = *closest;
+          return false;
+        });
+        std::vector<ClosestLinks> all;
+        for (const auto& [pair, closest] : found) all.push_back(closest);
+        return all;
+      },
+      *hierarchy_);
+}
+
+std::vector<ClosestBody> RobotChecker::distances(Environment& environment, double margin) {
+  check_margin(margin);
+  const auto order = [](const auto& x) { return std::tuple(x.held, x.link, x.body); };
+  std::vector<ClosestBody> found;
+  for (const BodyPair& pair : body_pairs(environment, margin)) {
+    const std::size_t before = found.size();
+    ask(pair, environment, [&](auto& mine, auto& theirs, const auto& filter, const QueryOptions& options) {
+      const std::span<const LinkId> links = mine.model().model().links(), others = theirs.model().model().links();
+      ClosestOfPairs collector(links, others, margin);
+      mine.query(theirs, collector, filter, options);
+      for (const auto& [links_of_hit, hit] : collector.best()) {
+        const double more = clearance_of(options.clearance, mine.model().group_of(hit.first));
+        const Closeness n =
+            measure(mine, theirs, hit, mine.matrix().sum(hit.first, theirs.matrix(), hit.second) + more);
+        ClosestBody closest{links_of_hit.first, {},    pair.body_id, hit.first, hit.second,
+                            n.distance,         n.gap, n.point1,     n.point2};
+        if (pair.held != nullptr) {
+          closest.link = pair.held->attachment->link;
+          closest.held = pair.held_id;
+        }
+        found.push_back(closest);
+      }
+    });
+    find_insides(pair, environment, [&](const BodyContact& contact, const Vec3& point) {
+      const auto known = std::find_if(found.begin() + static_cast<std::ptrdiff_t>(before), found.end(),
+                                      [&](const ClosestBody& x) { return order(x) == order(contact); });
+      const ClosestBody inside = inside_of(contact, point);
+      if (known == found.end()) {
+        found.push_back(inside);
+      } else if (is_closer(inside, *known)) {
+        *known = inside;
+      }
+      return false;
+    });
+  }
+  std::sort(found.begin(), found.end(), [&](const auto& x, const auto& y) { return order(x) < order(y); });
+  return found;
+}
+
+}  // namespace hinge::robotics

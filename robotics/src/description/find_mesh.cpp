@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Relative paths, file:// and package://, the latter also in the package around the URDF file.
+#include "description/find_mesh.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <string_view>
+#include <system_error>
+
+#include "description/missing_mesh.hpp"
+#include "description/read_xml.hpp"
+#include "hinge/core/error.hpp"
+
+namespace hinge::robotics {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+/// The package whose package.xml lies in the folder: its <name>, or that of the folder. "": none.
+std::string package_in(const fs::path& folder) {
+  if (!is_file(folder / "package.xml")) return "";
+  try {
+    XmlFile file(folder / "package.xml", "package");
+    const tinyxml2::XMLElement* name = file.root().FirstChildElement("name");
+    if (name != nullptr && name->GetText() != nullptr) return name->GetText();
+  } catch (const LoadError&) {  // nobody asked for this file
+  }
+  return folder.filename().string();
+}
+
+/// In the package that `folder` lies in, when it is called so, or in its neighbour of that name; empty: in neither.
+fs::path find_around(const fs::path& folder, const fs::path& package, const fs::path& inside) {
+  std::error_code failed;
+  fs::path above = fs::absolute(folder, failed).lexically_normal();
+  if (!failed && !above.has_filename()) above = above.parent_path();  // "." leaves a slash at the end
+  for (; !failed && above.has_relative_path(); above = above.parent_path()) {
+    const std::string here = package_in(above);
+    if (here.empty()) continue;
+    if (here == package && is_file(above / inside)) return above / inside;
+    if (is_file(above.parent_path() / package / inside)) return above.parent_path() / package / inside;
+  }
+  return {};
+}
+
+fs::path find_in_packages(const std::string& name, std::string_view rest, const fs::path& urdf_folder,
+                          const UrdfOptions& options) {
+  rest.remove_prefix(std::min(rest.find_first_not_of('/'), rest.size()));  // package:///NAME is common
+  const std::size_t slash = rest.find('/');
+  const std::string_view package = rest.substr(0, slash);
+  if (slash == std::string_view::npos || package.empty())
+    throw LoadError("mesh '" + name + "': expected package://NAME/PATH");
+  const fs::path inside = rest.substr(slash + 1);
+  std::string looked;
+  for (const fs::path& folder : options.package_folders) {
+    if (is_file(folder / package / inside)) return folder / package / inside;
+    // A trailing slash leaves an empty file name.
+    const fs::path last = folder.has_filename() ? folder.filename() : folder.parent_path().filename();
+    if (last == package && is_file(folder / inside)) return folder / inside;
+    looked += (looked.empty() ? "" : ", ") + folder.string();
+  }
+  fs::path around = find_around(urdf_folder, package, inside);
+  if (!around.empty()) return around;
+  throw MissingMesh("mesh '" + name + "': not found in " +
+                    (looked.empty() ? "any package folder, none was given" : "the package folders " + looked) +
+                    " or around the URDF file; --package-path names the folder that holds package '" +
+                    std::string(package) + "'");
+}
+
+/// Folders in an environment variable, separated by colons.
+std::vector<fs::path> listed_in(const char* variable) {
+  std::vector<fs::path> folders;
+  const char* value = std::getenv(variable);
+  std::string_view rest = value != nullptr ? value : "";
+  while (!rest.empty()) {
+    const std::string_view folder = rest.substr(0, rest.find(':'));
+    if (!folder.empty()) folders.emplace_back(folder);
+    rest.remove_prefix(folder.size() < rest.size() ? folder.size() + 1 : rest.size());
+  }
+  return folders;
+}
+
+}  // namespace
+
+fs::path find_mesh(const std::string& name, const fs::path& folder, const UrdfOptions& options) {
+  constexpr std::string_view package = "package://", file = "file://";
+  const std::string_view view = name;
+  if (view.starts_with(package)) return find_in_packages(name, view.substr(package.size()), folder, options);
+  const std::string_view rest = view.starts_with(file) ? view.substr(file.size()) : view;
+  if (rest.empty() || rest.find("://") != std::string_view::npos)
+    throw LoadError("mesh '" + name + "': expected a path, file:// or package://");
+  fs::path found = folder / rest;  // an absolute path stays itself
+  if (!is_file(found)) throw MissingMesh("mesh '" + name + "': there is no file " + found.string());
+  return found;
+}
+
+std::vector<fs::path> ros_package_path() {
+  std::vector<fs::path> folders = listed_in("ROS_PACKAGE_PATH");
+  for (const fs::path& prefix : listed_in("AMENT_PREFIX_PATH")) folders.push_back(prefix / "share");
+  return folders;
+}
+
+}  // namespace hinge::robotics

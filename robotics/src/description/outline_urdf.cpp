@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One pass over the XML tree, which is tidied for urdfdom on the way.
+#include "description/outline_urdf.hpp"
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <sstream>
+#include <string_view>
+
+#include "description/parse_numbers.hpp"
+#include "description/read_xml.hpp"
+#include "hinge/kinematics/joint.hpp"
+
+namespace hinge::robotics {
+
+namespace {
+
+using tinyxml2::XMLElement;
+
+Vec3 vector_of(const XmlFile& file, const XMLElement& element, const char* name) {
+  const char* text = element.Attribute(name);
+  if (text == nullptr) return Vec3::Zero();
+  const auto numbers = parse_numbers(text);
+  if (!numbers || numbers->size() != 3)
+    file.refuse(element.GetLineNum(),
+                "<origin> has " + std::string(name) + "=\"" + text + "\", expected three finite numbers");
+  return {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+}
+
+/// Roll, pitch, yaw about the fixed axes x, y, z, in this order (URDF).
+Pose origin_of(const XmlFile& file, const XMLElement& parent) {
+  const XMLElement* origin = parent.FirstChildElement("origin");
+  if (origin == nullptr) return {};
+  file.refuse_xacro_in(*origin);
+  const Vec3 rpy = vector_of(file, *origin, "rpy");
+  const Mat3 roll = rotation_about(Vec3::UnitX(), rpy[0]);
+  const Mat3 pitch = rotation_about(Vec3::UnitY(), rpy[1]);
+  const Mat3 yaw = rotation_about(Vec3::UnitZ(), rpy[2]);
+  return {product(yaw, product(pitch, roll)), vector_of(file, *origin, "xyz")};
+}
+
+bool is_xacro_element(const XMLElement& element) { return std::string_view(element.Name()).starts_with("xacro:"); }
+
+/// The children of other names are deleted; xacro, which could stand for one that is kept, is refused.
+void keep_only(const XmlFile& file, XMLElement& parent, std::initializer_list<std::string_view> kept) {
+  XMLElement* next = nullptr;
+  for (XMLElement* child = parent.FirstChildElement(); child != nullptr; child = next) {
+    next = child->NextSiblingElement();
+    if (is_xacro_element(*child)) file.refuse_xacro(*child);
+    if (std::find(kept.begin(), kept.end(), child->Name()) == kept.end()) parent.DeleteChild(child);
+  }
+}
+
+/// One blank between numbers, none around them, as urdfdom wants it.
+void tidy_numbers(XMLElement& element, std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    std::istringstream words(text_of(element, name));
+    std::string tidy;
+    for (std::string word; words >> word;) tidy += (tidy.empty() ? "" : " ") + word;
+    if (element.Attribute(name) != nullptr) element.SetAttribute(name, tidy.c_str());
+  }
+}
+
+/// Leaves what Hinge asks urdfdom for: type, axis, limits and mimic.
+void tidy_joint(const XmlFile& file, XMLElement& joint) {
+  const std::string type = text_of(joint, "type");
+  const bool turns = type == "revolute", slides = type == "prismatic", endless = type == "continuous";
+  keep_only(file, joint, {"parent", "child", "axis", "limit", "mimic"});
+  const auto drop = [&](const char* name) {
+    while (XMLElement* child = joint.FirstChildElement(name)) joint.DeleteChild(child);
+  };
+  if (!turns && !slides && !endless) {
+    drop("axis");
+    drop("mimic");
+  }
+  XMLElement* mimic = joint.FirstChildElement("mimic");
+  if (!turns && !slides) drop("limit");
+  // A follower goes where it is led.
+  if (mimic != nullptr && (turns || slides) && joint.FirstChildElement("limit") == nullptr)
+    joint.InsertNewChildElement("limit");
+  if (XMLElement* limit = joint.FirstChildElement("limit")) {
+    limit->SetAttribute("effort", 0);
+    limit->SetAttribute("velocity", 0);
+    tidy_numbers(*limit, {"lower", "upper"});
+  }
+  if (XMLElement* axis = joint.FirstChildElement("axis")) tidy_numbers(*axis, {"xyz"});
+  if (mimic != nullptr) tidy_numbers(*mimic, {"multiplier", "offset"});
+}
+
+OutlinedJoint outline_joint(const XmlFile& file, XMLElement& joint) {
+  OutlinedJoint outlined{file.attribute(joint, "name"), joint.GetLineNum(), origin_of(file, joint), "", ""};
+  const auto link = [&](const char* role) {
+    const XMLElement* element = joint.FirstChildElement(role);
+    if (element == nullptr) file.refuse(outlined.line, "joint '" + outlined.name + "' has no <" + role + ">");
+    return file.attribute(*element, "link");
+  };
+  outlined.parent = link("parent");
+  outlined.child = link("child");
+  tidy_joint(file, joint);
+  return outlined;
+}
+
+/// <capsule radius="" length="">, the length without the caps: an extension that Bullet and Drake read alike.
+CapsuleShape capsule_of(const XmlFile& file, const XMLElement& shape) {
+  file.refuse_xacro_in(shape);
+  const auto size = [&](const char* name) {
+    const std::string text = file.attribute(shape, name);
+    const auto numbers = parse_numbers(text);
+    if (!numbers || numbers->size() != 1)
+      file.refuse(shape.GetLineNum(),
+                  "<capsule> has " + std::string(name) + "=\"" + text + "\", expected a finite number");
+    return numbers->front();
+  };
+  return {size("radius"), size("length")};
+}
+
+/// Its one shape, the others deleted with a note; null: none.
+XMLElement* first_shape(const XmlFile& file, XMLElement& collision, const std::string& link, UrdfOutline& outline) {
+  keep_only(file, collision, {"origin", "geometry"});
+  XMLElement* geometry = collision.FirstChildElement("geometry");
+  XMLElement* shape = geometry != nullptr ? geometry->FirstChildElement() : nullptr;
+  if (shape == nullptr) return nullptr;
+  if (shape->NextSiblingElement() != nullptr)
+    outline.notes.push_back(file.at(geometry->GetLineNum()) + "link '" + link +
+                            "': a <geometry> of several shapes, of which the first, " + tag(*shape) + ", is read");
+  while (XMLElement* other = shape->NextSiblingElement()) geometry->DeleteChild(other);
+  if (is_xacro_element(*shape)) file.refuse_xacro(*shape);
+  tidy_numbers(*shape, {"size", "radius", "length", "scale"});
+  return shape;
+}
+
+OutlinedLink outline_link(const XmlFile& file, XMLElement& link, UrdfOutline& outline) {
+  constexpr std::array<std::string_view, 4> known{"box", "sphere", "cylinder", "mesh"};
+  OutlinedLink outlined{file.attribute(link, "name"), link.GetLineNum(), {}};
+  keep_only(file, link, {"collision"});
+  for (auto* c = link.FirstChildElement("collision"); c != nullptr; c = c->NextSiblingElement("collision")) {
+    outlined.collisions.push_back({c->GetLineNum(), origin_of(file, *c)});
+    XMLElement* shape = first_shape(file, *c, outlined.name, outline);
+    if (shape == nullptr || std::find(known.begin(), known.end(), shape->Name()) != known.end()) continue;
+    if (shape->Name() == std::string_view("capsule"))
+      outlined.collisions.back().capsule = capsule_of(file, *shape);
+    else
+      outlined.collisions.back().unread = tag(*shape);
+    shape->SetName("sphere");
+    shape->SetAttribute("radius", 1);
+  }
+  return outlined;
+}
+
+/// Calls of macros that nobody expanded: urdfdom passes over them. Refused with links or geometry inside, and with
+/// elements that only input for xacro has.
+void note_xacro(const XmlFile& file, const XMLElement& element, UrdfOutline& outline) {
+  const std::string_view name = element.Name();
+  for (const char* own : {"xacro:include", "xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block",
+                          "xacro:call", "xacro:element"})
+    if (name == own) file.refuse_xacro(element);
+  if (element.FirstChildElement() != nullptr) file.refuse_xacro(element);
+  outline.notes.push_back(file.at(element.GetLineNum()) + tag(element) +
+                          ", which xacro should have replaced, is left out");
+}
+
+}  // namespace
+
+UrdfOutline outline_urdf(const std::filesystem::path& path) {
+  XmlFile file(path, "robot");
+  UrdfOutline outline;
+  if (text_of(file.root(), "name").empty()) {
+    file.root().SetAttribute("name", path.stem().string().c_str());
+    outline.notes.push_back(file.at(0) + "the robot has no name, it is called by its file: '" + path.stem().string() +
+                            "'");
+  }
+  file.root().DeleteAttribute("version");
+  XMLElement* next = nullptr;
+  for (XMLElement* element = file.root().FirstChildElement(); element != nullptr; element = next) {
+    next = element->NextSiblingElement();
+    const std::string_view name = element->Name();
+    if (name == "joint") {
+      outline.joints.push_back(outline_joint(file, *element));
+    } else if (name == "link") {
+      outline.links.push_back(outline_link(file, *element, outline));
+    } else {
+      if (is_xacro_element(*element)) note_xacro(file, *element, outline);
+      file.root().DeleteChild(element);
+    }
+  }
+  file.refuse_xacro_in(file.root());
+  outline.geometry_only = file.text();
+  return outline;
+}
+
+}  // namespace hinge::robotics
