@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "hinge/detail/kinematics/frame.hpp"
+#include "hinge/kinematics/frame.hpp"
 #include "hinge/moves/move_checker.hpp"
 #include "hinge/moves/random_move.hpp"
 #include "peers/chain_tree.hpp"

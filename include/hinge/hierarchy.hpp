@@ -12,14 +12,14 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
-#include "hinge/detail/core/finite.hpp"
-#include "hinge/detail/kinematics/frame.hpp"
-#include "hinge/detail/model/selected_model.hpp"
 #include "hinge/detail/policy/largest_threshold.hpp"
 #include "hinge/engine/engine.hpp"
 #include "hinge/engine/wide.hpp"
+#include "hinge/kinematics/frame.hpp"
 #include "hinge/model/model.hpp"
+#include "hinge/model/selected_model.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/policy/distance_matrix.hpp"
 #include "hinge/policy/laws.hpp"

@@ -16,9 +16,9 @@
 #include "engine/random_mechanism.hpp"
 #include "hinge/detail/engine/wide/into.hpp"
 #include "hinge/detail/engine/wide/wide_side.hpp"
-#include "hinge/detail/model/selected_model.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/model/placement.hpp"
+#include "hinge/model/selected_model.hpp"
 #include "hinge/policy/pair_filter.hpp"
 
 namespace hinge {

@@ -11,7 +11,7 @@
 
 #include "extremes/stack_used.hpp"
 #include "extremes/three_engines.hpp"
-#include "hinge/detail/core/finite.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/primitive/capsule.hpp"
 #include "hinge/primitive/sphere.hpp"
 #include "hinge/primitive/triangle.hpp"

@@ -14,7 +14,7 @@
 #include "fuzz/numbers.hpp"
 #include "fuzz/require.hpp"
 #include "fuzz/scene.hpp"
-#include "hinge/detail/core/finite.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/engine/brute.hpp"
 #include "hinge/engine/wide.hpp"
 #include "hinge/hierarchy.hpp"

@@ -11,7 +11,7 @@
 
 #include "fuzz/require.hpp"
 #include "fuzz/scratch_file.hpp"
-#include "hinge/detail/core/finite.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/molecular/checker.hpp"
 #include "hinge/molecular/molecule.hpp"
 #include "hinge/molecular/read_structure.hpp"

@@ -6,7 +6,7 @@
 #include "fuzz/bytes.hpp"
 #include "fuzz/require.hpp"
 #include "fuzz/scratch_file.hpp"
-#include "hinge/detail/core/finite.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/robotics/read_mesh.hpp"
 
 /// assimp 5.2.5 forgets what it has allocated when it refuses a file: some kB a file, which no check of ours can mend.

@@ -11,7 +11,7 @@
 #include "fuzz/bytes.hpp"
 #include "fuzz/require.hpp"
 #include "fuzz/scratch_file.hpp"
-#include "hinge/detail/core/finite.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/robotics/link_margins.hpp"
 #include "hinge/robotics/read_srdf.hpp"
 #include "hinge/robotics/robot_checker.hpp"

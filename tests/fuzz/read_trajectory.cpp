@@ -7,7 +7,7 @@
 #include "fuzz/bytes.hpp"
 #include "fuzz/require.hpp"
 #include "fuzz/scratch_file.hpp"
-#include "hinge/detail/core/finite.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/molecular/trajectory.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "engine/random_mechanism.hpp"
-#include "hinge/detail/model/selected_model.hpp"
 #include "hinge/detail/moves/move_cut.hpp"
 #include "hinge/detail/moves/placing_bounds.hpp"
+#include "hinge/model/selected_model.hpp"
 #include "hinge/primitive/point.hpp"
 
 namespace hinge {

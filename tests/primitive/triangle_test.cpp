@@ -220,14 +220,14 @@ TEST(GrownTriangles, MeetAsTheSolidsTheyAreDo) {
     double s = distance - m - r;  // to half an ulp
     for (std::size_t n = random.below(4); n > 0; --n) s = std::nextafter(s, random.one_in(2) ? 1e300 : 0.0);
     s = std::max(s, 0.0);
-    const exact::Reach reach{r, s, m};
+    const RadiusSum reach{r, s, m};
     const bool expected = closer_than(Sphere{p, r}, Sphere{q, s}, m);
     ++cases;
     hits += expected ? 1 : 0;
     touching += expected && m == 0.0 && !exact::balls_closer_than(p, q, {r, s > 0 ? std::nextafter(s, 0.0) : s, 0.0});
     const Vec3 along = Vec3(0, 0, random.uniform(0.1, 2.0) * distance), across = Vec3(-q[1], q[0], 0) * 0.5;
     ASSERT_EQ(closer_than(Triangle{p, p, p}, Triangle{q, q, q}, reach), expected) << k;
-    ASSERT_EQ(closer_than(Triangle{q, q, q}, Triangle{p, p, p}, exact::Reach{s, r, m}), expected) << k;
+    ASSERT_EQ(closer_than(Triangle{q, q, q}, Triangle{p, p, p}, RadiusSum{s, r, m}), expected) << k;
     // Their nearest points are p and q as well.
     ASSERT_EQ(closer_than(Triangle{p, p, p + along}, Triangle{q, q, q}, reach), expected) << k;
     ASSERT_EQ(closer_than(Capsule{p, p + along, r}, Capsule{q, q, s}, m), expected) << k;
@@ -235,7 +235,7 @@ TEST(GrownTriangles, MeetAsTheSolidsTheyAreDo) {
       const Triangle face{p - along - across, p + along, p - along + across};
       ASSERT_EQ(closer_than(face, Triangle{q, q, q}, reach), expected) << k;
     }
-    ASSERT_EQ(closer_than(Triangle{p, p, p}, Triangle{q, q, q}, exact::Reach{0.0, 0.0, distance}), false) << k;
+    ASSERT_EQ(closer_than(Triangle{p, p, p}, Triangle{q, q, q}, RadiusSum{0.0, 0.0, distance}), false) << k;
   }
   EXPECT_GT(touching, cases / 20);
   EXPECT_GT(hits, cases / 3);

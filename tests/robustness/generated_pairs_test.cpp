@@ -10,7 +10,7 @@
 #include <vector>
 
 #if __has_include(<boost/multiprecision/cpp_int.hpp>)
-#include "hinge/detail/core/finite.hpp"
+#include "hinge/core/finite.hpp"
 #include "primitive/triangle_families.hpp"
 #include "primitive/triangle_oracle.hpp"
 #include "robustness/atom_families.hpp"

@@ -18,10 +18,10 @@
 #include "hinge/detail/batch/configuration_block.hpp"
 #include "hinge/detail/batch/lane_kinematics.hpp"
 #include "hinge/detail/batch/sphere_bodies.hpp"
-#include "hinge/detail/model/selected_model.hpp"
 #include "hinge/detail/simd/lanes.hpp"
 #include "hinge/model/model.hpp"
 #include "hinge/model/placement.hpp"
+#include "hinge/model/selected_model.hpp"
 #include "hinge/policy/pair_filter.hpp"
 #include "hinge/primitive/sphere.hpp"
 
@@ -57,7 +57,7 @@ class SphereBatch {
   }
 
   /// Bit k: configuration k collides.
-  simd::Bits each(std::span<const double> block) {
+  std::uint32_t each(std::span<const double> block) {
     const PresentBlock present(block_, block);
     const simd::Bits lanes = place(block);
     simd::Bits hit = 0;

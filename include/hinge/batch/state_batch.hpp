@@ -10,13 +10,13 @@
 #include <utility>
 #include <vector>
 
+#include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/detail/batch/configuration_block.hpp"
 #include "hinge/detail/batch/frame_lanes.hpp"
 #include "hinge/detail/batch/lane_travel.hpp"
 #include "hinge/detail/batch/list_allowance.hpp"
 #include "hinge/detail/batch/near_list.hpp"
-#include "hinge/detail/core/finite.hpp"
 #include "hinge/detail/policy/largest_threshold.hpp"
 #include "hinge/detail/simd/lanes.hpp"
 #include "hinge/hierarchy.hpp"
@@ -59,7 +59,7 @@ class StateBatch {
   // ConfigurationError: as check_block ---
 
   /// Bit k: configuration k collides.
-  simd::Bits collides(std::span<const double> block) {
+  std::uint32_t collides(std::span<const double> block) {
     simd::Bits hit = 0;
     for_lanes(
         block,

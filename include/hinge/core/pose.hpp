@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "hinge/core/finite.hpp"
 #include "hinge/core/vec3.hpp"
-#include "hinge/detail/core/finite.hpp"
 
 namespace hinge {
 

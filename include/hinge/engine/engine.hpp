@@ -6,8 +6,8 @@
 #include <concepts>
 #include <memory>
 
-#include "hinge/detail/model/selected_model.hpp"
 #include "hinge/model/placement.hpp"
+#include "hinge/model/selected_model.hpp"
 #include "hinge/policy/distance_matrix.hpp"
 #include "hinge/policy/pair_filter.hpp"
 #include "hinge/policy/primitive.hpp"

@@ -118,22 +118,26 @@ class Wide {
 
   /// Learns, from the present state and those of earlier calls, in which order a yes/no query tries pairs of links.
   /// Answers stay the same; only models that are kept in trees have such an order.
-  void learn_order() requires KeepsTrees<P> {
-    if (!by_trees()) return;
-    AnyHit any;
-    const QueryOptions options;
-    const SelfRules<P, F, D> rules{placement_, filter_, matrix_, options};
-    trees_->learn(placement_, tree_judge(any, rules), any);
+  void learn_order() {
+    if constexpr (KeepsTrees<P>) {
+      if (!by_trees()) return;
+      AnyHit any;
+      const QueryOptions options;
+      const SelfRules<P, F, D> rules{placement_, filter_, matrix_, options};
+      trees_->learn(placement_, tree_judge(any, rules), any);
+    }
   }
   /// The same for queries against other models, of which this one stands for all: the order of this model's links.
   template <PairFilter G>
-  requires KeepsTrees<P> && CrossMatrix<D>
+  requires CrossMatrix<D>
   void learn_order(Wide& other, const G& across) {
-    if (!by_trees_with(other)) return;
-    AnyHit any;
-    const QueryOptions options;
-    const CrossRules<P, G, D> rules{placement_, other.placement_, across, matrix_, other.matrix_, options};
-    trees_->learn(placement_, *other.trees_, other.placement_, tree_judge(any, rules), any);
+    if constexpr (KeepsTrees<P>) {
+      if (!by_trees_with(other)) return;
+      AnyHit any;
+      const QueryOptions options;
+      const CrossRules<P, G, D> rules{placement_, other.placement_, across, matrix_, other.matrix_, options};
+      trees_->learn(placement_, *other.trees_, other.placement_, tree_judge(any, rules), any);
+    }
   }
 
   /// `across` admits (primitive of this, primitive of other).

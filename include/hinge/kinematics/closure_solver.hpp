@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
-#include "hinge/detail/core/finite.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/detail/kinematics/cholesky.hpp"
 #include "hinge/detail/kinematics/closure_equations.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
@@ -53,8 +53,14 @@ class ClosureSolver {
   /// The worst residual of the last close(), model length unit.
   double residual() const noexcept { return equations_.worst(); }
   int steps() const noexcept { return steps_; }
-  /// The equations it solves, at the last q.
-  const ClosureEquations& equations() const noexcept { return equations_; }
+  /// The residual of one closure after the last close(), model length unit. `k` counts the closures it was made for.
+  double residual(std::size_t k) const noexcept { return equations_.residual(k); }
+  /// Which values of q it may change: true for a DOF in the cycle of some closure. One entry per selected DOF.
+  std::vector<bool> dofs_in_cycles() const {
+    std::vector<bool> in_cycle(equations_.dof_count(), false);
+    for (std::size_t column = 0; column < equations_.columns(); ++column) in_cycle[equations_.position(column)] = true;
+    return in_cycle;
+  }
 
  private:
   void solve(double damping) noexcept;

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/core/pose.hpp"
-#include "hinge/detail/core/finite.hpp"
 #include "hinge/kinematics/joint.hpp"
 
 namespace hinge {

@@ -24,6 +24,8 @@ struct RigidGroup {
   std::size_t dof = 0;  ///< position of the joint's value in the selected configuration
 };
 
+class PoseSource;
+
 /// Groups in topological order (parents first). Group 0 is the one of the world and never moves.
 class RigidGroups {
  public:
@@ -63,13 +65,16 @@ class RigidGroups {
 
   std::size_t size() const noexcept { return groups_.size(); }
   const RigidGroup& operator[](GroupId group) const noexcept { return groups_[index(group)]; }
-  /// The joints of groups 1 .. size() - 1, eight by eight.
-  std::span<const JointBatch> joint_batches() const noexcept { return batches_; }
   GroupId group_of(LinkId link) const noexcept { return group_of_[index(link)]; }
   /// The link's frame in its group's frame (constant).
   const Pose& link_in_group(LinkId link) const noexcept { return link_in_group_[index(link)]; }
 
  private:
+  friend class PoseSource;
+
+  /// The joints of groups 1 .. size() - 1, eight by eight.
+  std::span<const JointBatch> joint_batches() const noexcept { return batches_; }
+
   std::vector<RigidGroup> groups_;
   std::vector<JointBatch> batches_;
   std::vector<GroupId> group_of_;

@@ -14,7 +14,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/detail/kinematics/pose_source.hpp"
-#include "hinge/detail/model/selected_model.hpp"
+#include "hinge/model/selected_model.hpp"
 #include "hinge/policy/primitive.hpp"
 
 namespace hinge {

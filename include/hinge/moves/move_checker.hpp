@@ -16,7 +16,6 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/id.hpp"
-#include "hinge/detail/kinematics/frame.hpp"
 #include "hinge/detail/moves/asked_hierarchy.hpp"
 #include "hinge/detail/moves/block_moves.hpp"
 #include "hinge/detail/moves/known_pairs.hpp"
@@ -25,6 +24,8 @@
 #include "hinge/detail/primitive/batch.hpp"
 #include "hinge/detail/primitive/leaf.hpp"
 #include "hinge/hierarchy.hpp"
+#include "hinge/kinematics/frame.hpp"
+#include "hinge/moves/dof_change.hpp"
 #include "hinge/moves/move_counts.hpp"
 
 namespace hinge {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "hinge/detail/moves/move_cut.hpp"
 #include "hinge/kinematics/closure_solver.hpp"
+#include "hinge/moves/dof_change.hpp"
 
 namespace hinge {
 
@@ -18,10 +18,7 @@ class MoveCloser {
  public:
   /// Keeps `closures`, positions in tree.closures(). ModelError: a selection made for another tree, no such closure.
   MoveCloser(const KinematicTree& tree, const DofSelection& selection, const std::vector<std::size_t>& closures)
-      : solver_(tree, selection, closures), in_cycle_(selection.size(), false) {
-    const ClosureEquations& equations = solver_.equations();
-    for (std::size_t column = 0; column < equations.columns(); ++column) in_cycle_[equations.position(column)] = true;
-  }
+      : solver_(tree, selection, closures), in_cycle_(solver_.dofs_in_cycles()) {}
 
   /// q: a configuration with closed cycles. changes: a move from it, sorted by DOF; replaced by one that leads to
   /// closed cycles again. False, with the changes of no use, when the solver finds none.

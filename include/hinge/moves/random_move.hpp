@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "hinge/core/philox.hpp"
-#include "hinge/detail/moves/move_cut.hpp"
+#include "hinge/moves/dof_change.hpp"
 
 namespace hinge {
 

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/detail/bounds/round.hpp"
-#include "hinge/detail/core/finite.hpp"
 #include "hinge/detail/path/displacements.hpp"
 #include "hinge/detail/path/group_rates.hpp"
 #include "hinge/detail/path/listed_pairs.hpp"

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
-#include "hinge/detail/core/finite.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/path/path_answer.hpp"
 #include "hinge/path/straight_path.hpp"
 #include "hinge/query/collectors.hpp"

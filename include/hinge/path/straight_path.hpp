@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
-#include "hinge/detail/core/finite.hpp"
+#include "hinge/core/finite.hpp"
 
 namespace hinge {
 

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
-#include "hinge/detail/core/finite.hpp"
-#include "hinge/detail/exact/gap.hpp"
+#include "hinge/core/radius_sum.hpp"
 
 namespace hinge {
 
@@ -30,11 +30,11 @@ concept DistanceMatrix = std::copyable<D> && requires(const D& matrix, Primitive
 };
 
 /// Optional refinement: M is the real sum of two radii and a clearance, which no double may hold; threshold(i, j) is
-/// that sum rounded. Verdicts are about the real sum where the primitive has a closer_than(p, q, exact::Reach).
+/// that sum rounded. Verdicts are about the real sum where the primitive has a closer_than(p, q, RadiusSum).
 template <class D>
 concept GrowsPrimitives = DistanceMatrix<D> && requires(const D& matrix, PrimitiveId i, PrimitiveId j) {
   { matrix.sum(i, j) }
-  noexcept->std::same_as<exact::Reach>;
+  noexcept->std::same_as<RadiusSum>;
 };
 
 /// Optional refinement: thresholds between primitive i of this model and primitive j of another one.

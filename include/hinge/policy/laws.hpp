@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "hinge/bounds/aabb.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/core/philox.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/core/vec3.hpp"
-#include "hinge/detail/core/finite.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/policy/distance_matrix.hpp"
 #include "hinge/policy/pair_filter.hpp"

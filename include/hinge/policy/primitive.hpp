@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "hinge/bounds/aabb.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/core/vec3.hpp"
-#include "hinge/detail/core/finite.hpp"
 
 namespace hinge {
 

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "hinge/bounds/aabb.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/core/vec3.hpp"
-#include "hinge/detail/core/finite.hpp"
 #include "hinge/detail/exact/error_free.hpp"
 #include "hinge/detail/exact/segments.hpp"
 #include "hinge/detail/primitive/segment_distance.hpp"

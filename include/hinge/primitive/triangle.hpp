@@ -3,13 +3,15 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "hinge/bounds/aabb.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/core/pose.hpp"
+#include "hinge/core/radius_sum.hpp"
 #include "hinge/core/vec3.hpp"
-#include "hinge/detail/core/finite.hpp"
 #include "hinge/detail/exact/error_free.hpp"
 #include "hinge/detail/exact/gap.hpp"
 #include "hinge/detail/primitive/triangle_corners.hpp"
@@ -27,7 +29,7 @@ struct Triangle {
 
   Triangle placed(const Pose& pose) const noexcept { return {pose * a, pose * b, pose * c}; }
   Aabb bounds() const noexcept { return Aabb(a).extend(b).extend(c); }
-  Corners hull() const noexcept { return {a, b, c}; }
+  std::array<Vec3, 3> hull() const noexcept { return {a, b, c}; }
   double hull_radius() const noexcept { return 0.0; }
   /// Bounds hide a NaN in b or c.
   bool is_valid() const noexcept { return is_finite(a) && is_finite(b) && is_finite(c); }
@@ -76,7 +78,7 @@ struct Triangle {
 
   /// Of triangles grown by radii: d is below the sum of both and the clearance, or, without a clearance, not above it.
   /// The answer for the real numbers that coordinates, radii and clearance are. Finite radii, clearance >= 0.
-  friend bool closer_than(const Triangle& p, const Triangle& q, const exact::Reach& reach) noexcept {
+  friend bool closer_than(const Triangle& p, const Triangle& q, const RadiusSum& reach) noexcept {
     if (reach.first == 0.0 && reach.second == 0.0) return closer_than(p, q, reach.clearance);
     // Room for the two roundings of the sum, and for one of the comparison; what is above `far` is above the sum also
     // where products are denormal.

@@ -10,7 +10,7 @@
 
 #include "chemistry/atom_traits.hpp"
 #include "hinge/core/error.hpp"
-#include "hinge/detail/core/finite.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/molecular/hydrogen_bonds.hpp"
 
 namespace hinge::molecular {

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "hinge/core/error.hpp"
-#include "hinge/detail/core/finite.hpp"
+#include "hinge/core/finite.hpp"
 
 namespace hinge::molecular {
 

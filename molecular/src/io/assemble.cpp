@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "hinge/core/error.hpp"
-#include "hinge/detail/core/finite.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/molecular/residue_table.hpp"
 #include "io/conformer.hpp"
 #include "io/read_file.hpp"

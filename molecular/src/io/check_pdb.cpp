@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
-#include "hinge/detail/core/finite.hpp"
+#include "hinge/core/finite.hpp"
 #include "io/read_file.hpp"
 
 namespace hinge::molecular {

@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "hinge/core/error.hpp"
-#include "hinge/detail/core/finite.hpp"
+#include "hinge/core/finite.hpp"
 #include "io/binary_file.hpp"
 #include "io/dcd_file.hpp"
 #include "io/npy_file.hpp"

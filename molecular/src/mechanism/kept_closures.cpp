@@ -33,13 +33,6 @@ bool contains(std::span<const std::size_t> numbers, std::size_t number) {
   return std::ranges::find(numbers, number) != numbers.end();
 }
 
-double residual_of(const ClosureEquations& equations, std::size_t closure) {
-  double worst = 0.0;
-  for (std::size_t r = 0; r < equations.row_count(closure); ++r)
-    worst = std::max(worst, std::abs(equations.residuals()[equations.first_row(closure) + r]));
-  return worst;
-}
-
 }  // namespace
 
 KeptClosures find_kept_closures(const Molecule& molecule, std::span<const std::size_t> torsions, Closures which,
@@ -88,7 +81,7 @@ std::vector<std::size_t> find_unclosable(const Molecule& molecule, const DofSele
         return dropped;
       }
       for (std::size_t c = 0; c < kept.size(); ++c)
-        if (residual_of(solver.equations(), c) > open_from) ++failures[c];
+        if (solver.residual(c) > open_from) ++failures[c];
     }
     // At most half of those that fail, the worst of them first.
     std::vector<std::size_t> failing;

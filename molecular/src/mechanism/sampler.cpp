@@ -8,7 +8,7 @@
 #include <string>
 
 #include "hinge/core/error.hpp"
-#include "hinge/detail/core/finite.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/detail/core/sincos.hpp"
 
 namespace hinge::molecular {

@@ -13,9 +13,9 @@
 
 #include "checking/closeness.hpp"
 #include "hinge/core/error.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
-#include "hinge/detail/core/finite.hpp"
-#include "hinge/detail/exact/gap.hpp"
+#include "hinge/core/radius_sum.hpp"
 #include "hinge/detail/query/pair_rules.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/query/link_pair_hits.hpp"
@@ -62,7 +62,7 @@ inline std::vector<double> filling(const AnyHierarchy& mine, double clearance, d
 
 /// The numbers of a hit, of which `sum` is the threshold.
 template <class H>
-Closeness measure(H& mine, H& theirs, const Hit& hit, const exact::Reach& sum) {
+Closeness measure(H& mine, H& theirs, const Hit& hit, const RadiusSum& sum) {
   return closeness(triangle_at(mine, hit.first), triangle_at(theirs, hit.second), sum);
 }
 

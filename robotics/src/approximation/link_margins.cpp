@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "hinge/core/error.hpp"
-#include "hinge/detail/core/finite.hpp"
+#include "hinge/core/finite.hpp"
 
 namespace hinge::robotics {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "hinge/detail/core/finite.hpp"
+#include "hinge/core/finite.hpp"
 
 namespace hinge::robotics {
 
@@ -36,10 +36,10 @@ std::pair<Vec3, Vec3> points_of(const Triangle& first, const Triangle& second) {
 
 }  // namespace
 
-Closeness closeness(const Triangle& first, const Triangle& second, const exact::Reach& sum) {
+Closeness closeness(const Triangle& first, const Triangle& second, const RadiusSum& sum) {
   constexpr double smallest = std::numeric_limits<double>::denorm_min();
   const double radii = sum.first + sum.second, between = distance_of(first, second);
-  const bool meet = closer_than(first, second, exact::Reach{sum.first, sum.second, 0.0});
+  const bool meet = closer_than(first, second, RadiusSum{sum.first, sum.second, 0.0});
   Closeness result;
   result.collides = closer_than(first, second, sum);
   result.distance = meet ? 0.0 : std::max(between - radii, smallest);

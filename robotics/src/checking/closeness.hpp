@@ -5,8 +5,8 @@
 #include <cstddef>
 
 #include "hinge/core/id.hpp"
+#include "hinge/core/radius_sum.hpp"
 #include "hinge/core/vec3.hpp"
-#include "hinge/detail/exact/gap.hpp"
 #include "hinge/primitive/triangle.hpp"
 
 namespace hinge::robotics {
@@ -21,7 +21,7 @@ struct Closeness {
 };
 
 /// Of placed triangles grown by the radii of `sum`, m, with its clearance.
-Closeness closeness(const Triangle& first, const Triangle& second, const exact::Reach& sum);
+Closeness closeness(const Triangle& first, const Triangle& second, const RadiusSum& sum);
 
 /// A triangle where the hierarchy's engine sees it. Hierarchy::placed() would place all the others, too.
 template <class H>

@@ -10,7 +10,7 @@
 #include "approximation/placed_box.hpp"
 #include "description/check_description.hpp"
 #include "hinge/core/error.hpp"
-#include "hinge/detail/core/finite.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 #include "hinge/robotics/link_margins.hpp"

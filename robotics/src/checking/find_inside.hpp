@@ -12,7 +12,7 @@
 #include "hinge/core/id.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/core/vec3.hpp"
-#include "hinge/detail/kinematics/frame.hpp"
+#include "hinge/kinematics/frame.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/primitive/triangle.hpp"

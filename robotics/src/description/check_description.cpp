@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "hinge/detail/core/finite.hpp"
+#include "hinge/core/finite.hpp"
 
 namespace hinge::robotics {
 

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <system_error>
 
-#include "hinge/detail/core/finite.hpp"
+#include "hinge/core/finite.hpp"
 
 namespace hinge::robotics {
 

@@ -11,7 +11,7 @@
 #include "description/check_description.hpp"
 #include "hinge/bounds/aabb.hpp"
 #include "hinge/core/error.hpp"
-#include "hinge/detail/core/finite.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/robotics/containment.hpp"
 
 namespace hinge::robotics {

@@ -11,8 +11,8 @@
 
 #include "checking/find_inside.hpp"
 #include "hinge/core/error.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/core/philox.hpp"
-#include "hinge/detail/core/finite.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"

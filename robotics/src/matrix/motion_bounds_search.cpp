@@ -185,7 +185,7 @@ bool PairSearch::triangles_apart(NodePair pair, bool& met) {
   const double distance = norm(y - x);
   result_.smallest_gap = std::min(result_.smallest_gap, std::max(distance - radii, 0.0));
   if (distance <= enough_ + radii) {
-    met = closer_than(a_.triangle(pair.a), b_.triangle(pair.b), exact::Reach{na.radius, nb.radius, clearance_});
+    met = closer_than(a_.triangle(pair.a), b_.triangle(pair.b), RadiusSum{na.radius, nb.radius, clearance_});
     if (met) return false;
   }
   // Any direction will do: that of the distance; those of the planes, along which faces that slide past each other stay

@@ -17,7 +17,7 @@
 #include "description/missing_mesh.hpp"
 #include "description/read_file.hpp"
 #include "hinge/core/error.hpp"
-#include "hinge/detail/core/finite.hpp"
+#include "hinge/core/finite.hpp"
 #include "mesh/check_dae.hpp"
 #include "mesh/check_ply.hpp"
 #include "mesh/check_stl.hpp"

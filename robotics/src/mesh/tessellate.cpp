@@ -12,7 +12,7 @@
 
 #include "description/check_description.hpp"
 #include "hinge/core/error.hpp"
-#include "hinge/detail/core/finite.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/detail/core/sincos.hpp"
 
 namespace hinge::robotics {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "hinge/core/error.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
-#include "hinge/detail/core/finite.hpp"
 #include "hinge/detail/simd/lanes.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 

@@ -13,9 +13,10 @@
 #include "hinge/core/id.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/detail/core/sincos.hpp"
-#include "hinge/detail/kinematics/frame.hpp"
+#include "hinge/detail/kinematics/compose_frames.hpp"
 #include "hinge/detail/simd/lanes.hpp"
 #include "hinge/detail/simd/sincos.hpp"
+#include "hinge/kinematics/frame.hpp"
 #include "hinge/kinematics/joint.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 

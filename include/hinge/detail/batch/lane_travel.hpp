@@ -16,8 +16,8 @@
 #include "hinge/core/vec3.hpp"
 #include "hinge/detail/batch/frame_lanes.hpp"
 #include "hinge/detail/batch/lane_kinematics.hpp"
-#include "hinge/detail/model/selected_model.hpp"
 #include "hinge/detail/simd/lanes.hpp"
+#include "hinge/model/selected_model.hpp"
 #include "hinge/policy/primitive.hpp"
 
 namespace hinge {

@@ -17,9 +17,9 @@
 #include "hinge/detail/batch/frame_lanes.hpp"
 #include "hinge/detail/batch/lane_travel.hpp"
 #include "hinge/detail/bounds/float_box.hpp"
-#include "hinge/detail/model/selected_model.hpp"
 #include "hinge/detail/query/pair_rules.hpp"
 #include "hinge/detail/simd/lanes.hpp"
+#include "hinge/model/selected_model.hpp"
 #include "hinge/policy/primitive.hpp"
 #include "hinge/primitive/point.hpp"
 

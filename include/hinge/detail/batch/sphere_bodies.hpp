@@ -12,12 +12,12 @@
 #include <utility>
 #include <vector>
 
+#include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/detail/batch/lane_error.hpp"
 #include "hinge/detail/batch/lane_kinematics.hpp"
 #include "hinge/detail/bounds/float_box.hpp"
-#include "hinge/detail/core/finite.hpp"
-#include "hinge/detail/model/selected_model.hpp"
+#include "hinge/model/selected_model.hpp"
 #include "hinge/policy/pair_filter.hpp"
 #include "hinge/primitive/sphere.hpp"
 

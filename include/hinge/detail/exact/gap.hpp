@@ -5,37 +5,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hinge/core/finite.hpp"
+#include "hinge/core/radius_sum.hpp"
 #include "hinge/detail/core/assert.hpp"
-#include "hinge/detail/core/finite.hpp"
 #include "hinge/detail/exact/integer.hpp"
 #include "hinge/detail/exact/orient.hpp"
 
 namespace hinge::exact {
 
-/// Two radii and a clearance, each >= 0, whose sum is not rounded where a verdict is about it.
-struct Reach {
-  double first = 0.0;
-  double second = 0.0;
-  double clearance = 0.0;
+/// The largest exponent e, not above `unit`, of which each term of the sum is a whole multiple of 2^e.
+inline int common_unit(const RadiusSum& sum, int unit) noexcept {
+  return std::min({unit, unit_exponent(sum.first, no_unit), unit_exponent(sum.second, no_unit),
+                   unit_exponent(sum.clearance, no_unit)});
+}
 
-  /// Rounded twice.
-  operator double() const noexcept { return first + second + clearance; }
-  friend Reach operator+(const Reach& reach, double more) noexcept {
-    return {reach.first, reach.second, reach.clearance + more};
-  }
-
-  /// Of which each is a whole multiple of 2^e; never above `unit`.
-  int unit(int unit) const noexcept {
-    return std::min(
-        {unit, unit_exponent(first, no_unit), unit_exponent(second, no_unit), unit_exponent(clearance, no_unit)});
-  }
-  /// The sum in units of 2^unit.
-  Integer whole(int unit) const noexcept {
-    return Integer::of(first, unit) + Integer::of(second, unit) + Integer::of(clearance, unit);
-  }
-  /// Closed solids that touch count as near; at a clearance they have to be nearer.
-  bool counts_touching() const noexcept { return !(clearance > 0.0); }
-};
+/// The sum in units of 2^unit, which common_unit() gave.
+inline Integer whole(const RadiusSum& sum, int unit) noexcept {
+  return Integer::of(sum.first, unit) + Integer::of(sum.second, unit) + Integer::of(sum.clearance, unit);
+}
 
 /// Does a squared length, a fraction, fall short of reach^2, or reach it where touching counts?
 inline bool within(const Integer& numerator, const Integer& denominator, const Integer& reach,

@@ -5,8 +5,9 @@
 #include <array>
 #include <cstddef>
 
+#include "hinge/core/finite.hpp"
+#include "hinge/core/radius_sum.hpp"
 #include "hinge/core/vec3.hpp"
-#include "hinge/detail/core/finite.hpp"
 #include "hinge/detail/exact/gap.hpp"
 #include "hinge/detail/exact/integer.hpp"
 #include "hinge/detail/exact/orient.hpp"
@@ -18,11 +19,11 @@ namespace hinge::exact {
 /// numbers have at most 12,600 bits.
 class WholeSegments {
  public:
-  WholeSegments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Reach& reach) noexcept
+  WholeSegments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const RadiusSum& reach) noexcept
       : ends_{{{a, b}, {c, d}}}, counts_touching_(reach.counts_touching()) {
-    unit_ = reach.unit(common_unit(ends_[0], common_unit(ends_[1])));
+    unit_ = common_unit(reach, common_unit(ends_[0], common_unit(ends_[1])));
     if (unit_ == no_unit) unit_ = 0;
-    reach_ = reach.whole(unit_);
+    reach_ = whole(reach, unit_);
   }
 
   bool closer_than_reach() const noexcept {
@@ -126,14 +127,14 @@ class WholeSegments {
 };
 
 [[gnu::cold, gnu::noinline]] inline bool segments_closer_than(const Vec3& a, const Vec3& b, const Vec3& c,
-                                                              const Vec3& d, const Reach& reach) noexcept {
+                                                              const Vec3& d, const RadiusSum& reach) noexcept {
   if (!is_finite(reach.clearance)) return true;
   return WholeSegments(a, b, c, d, reach).closer_than_reach();
 }
 
 [[gnu::cold, gnu::noinline]] inline WholeSegments::Nearest nearest_of_segments(const Vec3& a, const Vec3& b,
                                                                                const Vec3& c, const Vec3& d,
-                                                                               const Reach& reach) noexcept {
+                                                                               const RadiusSum& reach) noexcept {
   return WholeSegments(a, b, c, d, reach).nearest();
 }
 

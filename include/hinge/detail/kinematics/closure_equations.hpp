@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/core/pose.hpp"
-#include "hinge/detail/core/finite.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/kinematics/joint.hpp"
 #include "hinge/kinematics/kinematic_tree.hpp"
@@ -48,6 +48,7 @@ class ClosureEquations {
 
   std::size_t rows() const noexcept { return residuals_.size(); }
   std::size_t columns() const noexcept { return column_dof_.size(); }
+  std::size_t dof_count() const noexcept { return dof_count_; }
   /// Position of a column's DOF in the configuration.
   std::size_t position(std::size_t column) const noexcept { return column_dof_[column]; }
   /// Row by row, model length unit.
@@ -60,6 +61,11 @@ class ClosureEquations {
   double worst() const noexcept { return worst_; }
 
   std::size_t closure_count() const noexcept { return cycles_.size(); }
+  /// A closure's residual as closure_residual() has it.
+  double residual(std::size_t closure) const noexcept {
+    const Cycle& cycle = cycles_[closure];
+    return closure_residual(cycle.closure, poses_[cycle.first], poses_[cycle.second]);
+  }
   /// First row of a closure, and the columns of its cycle.
   std::size_t first_row(std::size_t closure) const noexcept { return cycles_[closure].first_row; }
   std::size_t row_count(std::size_t closure) const noexcept { return keeps_lengths(closure) ? 3 : 6; }

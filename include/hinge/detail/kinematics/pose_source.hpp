@@ -13,11 +13,12 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/core/pose.hpp"
-#include "hinge/detail/core/finite.hpp"
-#include "hinge/detail/kinematics/frame.hpp"
+#include "hinge/detail/kinematics/compose_frames.hpp"
 #include "hinge/detail/kinematics/joint_batch.hpp"
+#include "hinge/kinematics/frame.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 
 namespace hinge {

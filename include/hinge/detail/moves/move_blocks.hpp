@@ -21,12 +21,13 @@
 #include "hinge/detail/engine/wide/threshold_classes.hpp"
 #include "hinge/detail/engine/wide/unit_boxes.hpp"
 #include "hinge/detail/engine/wide/wide_state.hpp"
-#include "hinge/detail/kinematics/frame.hpp"
+#include "hinge/detail/kinematics/compose_frames.hpp"
 #include "hinge/detail/moves/moved_blocks.hpp"
 #include "hinge/detail/moves/moving_parts.hpp"
 #include "hinge/detail/primitive/batch.hpp"
 #include "hinge/detail/simd/gather_bits.hpp"
 #include "hinge/detail/simd/lanes.hpp"
+#include "hinge/kinematics/frame.hpp"
 #include "hinge/query/query_options.hpp"
 
 namespace hinge {

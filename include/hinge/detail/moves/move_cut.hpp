@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// DofChange and MoveCut: the changes a move is made of, checked, and the parts they cut the tree into.
+// MoveCut: the changes a move is made of, checked, and the parts they cut the tree into.
 #pragma once
 
 #include <algorithm>
@@ -11,17 +11,13 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
-#include "hinge/detail/core/finite.hpp"
 #include "hinge/detail/moves/moving_parts.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
+#include "hinge/moves/dof_change.hpp"
 
 namespace hinge {
-
-struct DofChange {
-  std::size_t dof = 0;  ///< position in the selected configuration
-  double value = 0.0;   ///< its value after the move: rad or model length unit
-};
 
 /// A joint that changes: its place in MovingParts, and its new value.
 using JointValue = std::pair<std::uint32_t, double>;

@@ -15,10 +15,11 @@
 #include "hinge/core/pose.hpp"
 #include "hinge/core/vec3.hpp"
 #include "hinge/detail/core/sincos.hpp"
-#include "hinge/detail/kinematics/frame.hpp"
+#include "hinge/detail/kinematics/compose_frames.hpp"
 #include "hinge/detail/moves/move_cut.hpp"
 #include "hinge/detail/moves/moving_parts.hpp"
 #include "hinge/detail/moves/placing_bounds.hpp"
+#include "hinge/kinematics/frame.hpp"
 #include "hinge/kinematics/joint.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 

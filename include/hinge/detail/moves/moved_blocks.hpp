@@ -12,9 +12,9 @@
 
 #include "hinge/core/id.hpp"
 #include "hinge/detail/engine/wide/block_layout.hpp"
-#include "hinge/detail/model/selected_model.hpp"
 #include "hinge/detail/moves/moving_parts.hpp"
 #include "hinge/detail/simd/lanes.hpp"
+#include "hinge/model/selected_model.hpp"
 #include "hinge/policy/primitive.hpp"
 
 namespace hinge {

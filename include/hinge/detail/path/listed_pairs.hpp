@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "hinge/core/id.hpp"
-#include "hinge/detail/model/selected_model.hpp"
 #include "hinge/detail/path/group_rates.hpp"
 #include "hinge/detail/path/path_segments.hpp"
 #include "hinge/detail/path/prove_apart.hpp"
 #include "hinge/detail/path/relative_motion.hpp"
+#include "hinge/model/selected_model.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/policy/distance_matrix.hpp"
 #include "hinge/policy/primitive.hpp"

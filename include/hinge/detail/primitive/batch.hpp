@@ -12,8 +12,9 @@
 #include <span>
 
 #include "hinge/detail/bounds/float_box.hpp"
-#include "hinge/detail/kinematics/frame.hpp"
+#include "hinge/detail/kinematics/compose_frames.hpp"
 #include "hinge/detail/simd/lanes.hpp"
+#include "hinge/kinematics/frame.hpp"
 #include "hinge/policy/primitive.hpp"
 #include "hinge/primitive/point.hpp"
 

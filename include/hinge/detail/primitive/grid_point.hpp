@@ -9,10 +9,10 @@
 #include <optional>
 
 #include "hinge/bounds/aabb.hpp"
+#include "hinge/core/finite.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/core/vec3.hpp"
 #include "hinge/detail/bounds/round.hpp"
-#include "hinge/detail/core/finite.hpp"
 #include "hinge/detail/exact/error_free.hpp"
 #include "hinge/detail/exact/integer.hpp"
 #include "hinge/policy/primitive.hpp"

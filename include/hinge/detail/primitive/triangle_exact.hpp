@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "hinge/core/radius_sum.hpp"
 #include "hinge/core/vec3.hpp"
 #include "hinge/detail/exact/gap.hpp"
 #include "hinge/detail/exact/integer.hpp"
@@ -23,11 +24,11 @@ namespace hinge::detail {
 class ExactTriangles {
  public:
   /// `reach`: finite lengths to compare with.
-  ExactTriangles(const Corners& x, const Corners& y, const exact::Reach& reach = {}) noexcept
+  ExactTriangles(const Corners& x, const Corners& y, const RadiusSum& reach = {}) noexcept
       : corners_{x, y}, counts_touching_(reach.counts_touching()) {
-    unit_ = reach.unit(exact::common_unit(x, exact::common_unit(y)));
+    unit_ = exact::common_unit(reach, exact::common_unit(x, exact::common_unit(y)));
     if (unit_ == exact::no_unit) unit_ = 0;
-    reach_ = reach.whole(unit_);
+    reach_ = exact::whole(reach, unit_);
   }
 
   /// d below the reach, or not above it where there is no clearance.
@@ -177,7 +178,7 @@ class ExactTriangles {
 }
 
 [[gnu::cold, gnu::noinline]] inline bool closer_in_integers(const Corners& x, const Corners& y,
-                                                            const exact::Reach& reach) noexcept {
+                                                            const RadiusSum& reach) noexcept {
   return ExactTriangles(x, y, reach).closer_than_reach();
 }
 

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "hinge/core/finite.hpp"
 #include "hinge/core/vec3.hpp"
-#include "hinge/detail/core/finite.hpp"
 #include "hinge/detail/exact/error_free.hpp"
 #include "hinge/detail/exact/orient.hpp"
 #include "hinge/detail/primitive/triangle_corners.hpp"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "hinge/core/id.hpp"
-#include "hinge/detail/exact/gap.hpp"
+#include "hinge/core/radius_sum.hpp"
 #include "hinge/model/model.hpp"
 #include "hinge/policy/distance_matrix.hpp"
 #include "hinge/policy/pair_filter.hpp"
@@ -34,13 +34,13 @@ class LinkMargins {
   /// a pair of a link with itself or named twice.
   explicit LinkMargins(const Robot& robot, double clearance = 0.0, std::span<const PairClearance> overrides = {});
 
-  exact::Reach sum(PrimitiveId i, PrimitiveId j) const noexcept {
+  RadiusSum sum(PrimitiveId i, PrimitiveId j) const noexcept {
     if (data_->plain) return {0.0, 0.0, data_->clearance};
     return {radius(i), radius(j), clearance(link_of(i), link_of(j))};
   }
   /// Between two models: each brings half of its clearance of all pairs, the most that boxes grown by reach() bear.
   /// RobotChecker adds what is missing to the larger of the two clearances.
-  exact::Reach sum(PrimitiveId i, const LinkMargins& other, PrimitiveId j) const noexcept {
+  RadiusSum sum(PrimitiveId i, const LinkMargins& other, PrimitiveId j) const noexcept {
     return {radius(i), other.radius(j), data_->clearance / 2 + other.data_->clearance / 2};
   }
   /// Both rounded.

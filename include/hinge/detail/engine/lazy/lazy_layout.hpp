@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "hinge/core/id.hpp"
-#include "hinge/detail/model/selected_model.hpp"
+#include "hinge/model/selected_model.hpp"
 #include "hinge/policy/pair_filter.hpp"
 #include "hinge/policy/primitive.hpp"
 

@@ -13,8 +13,8 @@
 #include "hinge/core/id.hpp"
 #include "hinge/core/vec3.hpp"
 #include "hinge/detail/engine/wide/cut_blocks.hpp"
-#include "hinge/detail/model/selected_model.hpp"
 #include "hinge/detail/simd/lanes.hpp"
+#include "hinge/model/selected_model.hpp"
 #include "hinge/policy/primitive.hpp"
 
 namespace hinge {

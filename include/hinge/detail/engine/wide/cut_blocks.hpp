@@ -13,9 +13,9 @@
 #include "hinge/bounds/aabb.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/detail/kinematics/pose_source.hpp"
-#include "hinge/detail/model/selected_model.hpp"
 #include "hinge/detail/simd/lanes.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
+#include "hinge/model/selected_model.hpp"
 #include "hinge/policy/primitive.hpp"
 
 namespace hinge {

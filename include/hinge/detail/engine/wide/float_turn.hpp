@@ -12,8 +12,9 @@
 #include "hinge/core/vec3.hpp"
 #include "hinge/detail/bounds/float_box.hpp"
 #include "hinge/detail/engine/wide/rigid_blocks.hpp"
-#include "hinge/detail/kinematics/frame.hpp"
+#include "hinge/detail/kinematics/compose_frames.hpp"
 #include "hinge/detail/simd/lanes.hpp"
+#include "hinge/kinematics/frame.hpp"
 
 namespace hinge {
 

@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
-#include "hinge/detail/core/finite.hpp"
 #include "hinge/detail/engine/wide/float_turn.hpp"
 #include "hinge/detail/engine/wide/run_tasks.hpp"
 #include "hinge/detail/engine/wide/threshold_classes.hpp"

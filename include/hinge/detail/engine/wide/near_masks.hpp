@@ -10,8 +10,8 @@
 
 #include "hinge/core/id.hpp"
 #include "hinge/detail/engine/wide/block_layout.hpp"
-#include "hinge/detail/model/selected_model.hpp"
 #include "hinge/detail/simd/lanes.hpp"
+#include "hinge/model/selected_model.hpp"
 #include "hinge/policy/pair_filter.hpp"
 #include "hinge/policy/primitive.hpp"
 

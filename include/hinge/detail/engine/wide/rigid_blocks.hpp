@@ -12,8 +12,8 @@
 #include "hinge/detail/bounds/float_box.hpp"
 #include "hinge/detail/engine/wide/block_layout.hpp"
 #include "hinge/detail/engine/wide/threshold_classes.hpp"
-#include "hinge/detail/model/selected_model.hpp"
 #include "hinge/detail/primitive/batch.hpp"
+#include "hinge/model/selected_model.hpp"
 
 namespace hinge {
 

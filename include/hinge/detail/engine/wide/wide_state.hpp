@@ -17,8 +17,8 @@
 #include "hinge/detail/engine/wide/float_turn.hpp"
 #include "hinge/detail/engine/wide/rigid_blocks.hpp"
 #include "hinge/detail/engine/wide/unit_boxes.hpp"
-#include "hinge/detail/kinematics/frame.hpp"
 #include "hinge/detail/primitive/batch.hpp"
+#include "hinge/kinematics/frame.hpp"
 #include "hinge/model/placement.hpp"
 
 namespace hinge {

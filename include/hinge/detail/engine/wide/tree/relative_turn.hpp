@@ -9,8 +9,9 @@
 
 #include "hinge/core/vec3.hpp"
 #include "hinge/detail/engine/wide/tree/static_tree.hpp"
-#include "hinge/detail/kinematics/frame.hpp"
+#include "hinge/detail/kinematics/compose_frames.hpp"
 #include "hinge/detail/simd/lanes.hpp"
+#include "hinge/kinematics/frame.hpp"
 
 namespace hinge {
 
