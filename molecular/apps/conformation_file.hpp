@@ -79,9 +79,7 @@ class ConformationFile {
 
  private:
   void check(const hinge::molecular::Structure& molecule) const {
-    if (path_.empty()) return;
-    if (format_ == hinge::molecular::TrajectoryFormat::pdb) check_fits_pdb(molecule);
-    if (format_ == hinge::molecular::TrajectoryFormat::cif) check_fits_cif(molecule);
+    if (!path_.empty() && format_ == hinge::molecular::TrajectoryFormat::pdb) check_fits_pdb(molecule);
   }
 
   bool only_free_;

@@ -284,6 +284,43 @@ TEST(ReadStructure, RefusesModelsThatAreThereTwice) {
   EXPECT_NE(refusal("MODEL        1\n" + alanine() + "ENDMDL\nMODEL        1\n" + alanine() + "ENDMDL\n"), "");
 }
 
+TEST(ReadStructure, NumbersModelsAsTheirRecordsDo) {
+  const auto numbers = [](const std::string& text, const std::string& extension = ".pdb") {
+    const TemporaryFile file(text, extension);
+    return read_structure(file.path()).model_numbers;
+  };
+  const std::string model = alanine() + "ENDMDL\n";
+  EXPECT_EQ(numbers("MODEL        0\n" + model + "MODEL        1\n" + model), (std::vector<int>{0, 1}));
+  EXPECT_EQ(numbers("MODEL 7\n" + model + "MODEL   \n" + model), (std::vector<int>{7, 2}));  // blank: its position
+  EXPECT_EQ(numbers(model + model), (std::vector<int>{1, 2}));
+  EXPECT_EQ(numbers("data_x\nloop_\n_atom_site.id\n_atom_site.type_symbol\n_atom_site.label_atom_id\n"
+                    "_atom_site.label_alt_id\n_atom_site.label_comp_id\n_atom_site.label_asym_id\n"
+                    "_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n_atom_site.occupancy\n"
+                    "_atom_site.B_iso_or_equiv\n_atom_site.auth_seq_id\n_atom_site.auth_asym_id\n"
+                    "_atom_site.pdbx_PDB_model_num\n1 C CA . ALA A 1 2 3 1 0 1 A 0\n2 C CA . ALA A 1 2 3 1 0 1 A 4\n",
+                    ".cif"),
+            (std::vector<int>{0, 4}));
+  std::string many;
+  for (int k = 0; k < 10001; ++k)
+    many += "MODEL     " + std::to_string(k % 9999 + 1) + "\n" + atom(1, "CA", "ALA", 1, 0, 0, 0) + "ENDMDL\n";
+  EXPECT_EQ(numbers(many).size(), 10001U);  // the numbers start again
+  EXPECT_NE(refusal("MODEL 1\n" + model + "MODEL 2\nENDMDL\n").find(":8: the MODEL has no ATOM or HETATM record"),
+            std::string::npos);
+}
+
+TEST(ReadStructure, TakesARecordedBondOfTwoSulphursForADisulphide) {
+  const std::string cysteines = atom(1, "CB", "CYS", 1, 1.5, 0, 0) + atom(2, "SG", "CYS", 1, 3.3, 0, 0, ' ', 1, "S") +
+                                atom(3, "CB", "CYS", 5, 7.1, 0.5, 0) +
+                                atom(4, "SG", "CYS", 5, 5.3, 0.5, 0, ' ', 1, "S");
+  const TemporaryFile file("LINK         SG  CYS A   1                 SG  CYS A   5     1555   1555  2.06\n" +
+                           cysteines);
+  ReadOptions options;
+  options.bonds = BondSearch::recorded;
+  const Structure s = read_structure(file.path(), options);
+  EXPECT_TRUE(std::any_of(s.bonds.begin(), s.bonds.end(),
+                          [](const Bond& bond) { return bond.origin == BondOrigin::disulphide; }));
+}
+
 /// CG of LEU `number` at A, B ... with these occupancies, x = 10 * number + 0, 1 ...
 std::string alternatives(int number, const std::vector<std::pair<char, double>>& occupancies) {
   std::string text;

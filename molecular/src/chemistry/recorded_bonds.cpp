@@ -164,9 +164,12 @@ void take_recorded_bonds(Structure& s, const RecordedBonds& recorded) {
     if (pair.closes ? is_recorded : !broken.contains(pair.atoms))
       list.add(pair.atoms.first, pair.atoms.second, pair.origin);
   }
-  for (const auto& [atoms, order] : between)
-    list.add(atoms.first, atoms.second, disulphides.contains(atoms) ? BondOrigin::disulphide : BondOrigin::record,
-             order);
+  for (const auto& [atoms, order] : between) {
+    // SSBOND names no atom of a residue that bears another's number.
+    const bool disulphide =
+        disulphides.contains(atoms) || (s.atoms[atoms.first].name == "SG" && s.atoms[atoms.second].name == "SG");
+    list.add(atoms.first, atoms.second, disulphide ? BondOrigin::disulphide : BondOrigin::record, order);
+  }
   std::sort(s.bonds.begin(), s.bonds.end(),
             [](const Bond& a, const Bond& b) { return Pair(a.first, a.second) < Pair(b.first, b.second); });
   by_name.say();

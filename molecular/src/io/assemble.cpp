@@ -194,11 +194,15 @@ class Assembler {
         if (s_.atoms[i].name == a.atom) return i;
       return std::nullopt;
     };
+    const auto sulphurs = [&](std::uint32_t i, std::uint32_t j) {
+      return s_.atoms[i].name == "SG" && s_.atoms[j].name == "SG";
+    };
     std::size_t dangling = 0;
     for (const RawLink& link : raw_.links) {
       const auto a = atom(link.first), b = atom(link.second);
       if (a && b && *a != *b)
-        s_.links.push_back({std::min(*a, *b), std::max(*a, *b), link.disulphide, false, BondOrder::unknown});
+        s_.links.push_back(
+            {std::min(*a, *b), std::max(*a, *b), link.disulphide || sulphurs(*a, *b), false, BondOrder::unknown});
       else
         ++dangling;
     }

@@ -51,8 +51,10 @@ Vec3 read_pdb_coordinates(std::string_view line, const std::string& path, std::s
 
 void check_pdb(std::string_view text, const std::string& path, std::size_t number, std::vector<std::string>* notes) {
   const std::size_t lines_before = number;
-  std::size_t atoms = 0;
-  std::set<std::string_view> models;
+  std::size_t atoms = 0, atoms_before = 0;  // before: when the model began
+  std::set<int> models;                     // their numbers
+  std::size_t model_count = 0;
+  std::string twice;                  // what is wrong with the first number that is there again
   std::size_t open_model = 0;         // its line; 0: none is open
   std::size_t longest = 0, last = 0;  // atom records' lengths without blanks at their ends
   bool is_closed = false;             // by a record that stands behind all models
@@ -75,19 +77,24 @@ void check_pdb(std::string_view text, const std::string& path, std::size_t numbe
       if (open_model != 0)
         throw LoadError(where + ": MODEL " + std::string(name) + " begins, but the one of line " +
                         std::to_string(open_model) + " has no ENDMDL");
-      if (!models.insert(name).second) throw LoadError(where + ": MODEL " + std::string(name) + " is there twice");
+      const int model = model_number(line, static_cast<int>(++model_count));
+      if (!models.insert(model).second && twice.empty()) twice = where + ": MODEL " + std::to_string(model);
       open_model = number;
+      atoms_before = atoms;
     } else if (line.starts_with("ENDMDL")) {
+      if (open_model != 0 && atoms == atoms_before)
+        throw LoadError(path + ":" + std::to_string(open_model) + ": the MODEL has no ATOM or HETATM record");
       open_model = 0;
     } else if (line.starts_with("CONECT") || line.starts_with("MASTER") || ends_pdb_model(line)) {
       is_closed = true;
     }
   }
+  if (!twice.empty() && model_count <= most_model_numbers) throw LoadError(twice + " is there twice");
   if (atoms == 0)
     throw LoadError(path + ": no ATOM or HETATM record in " + std::to_string(number - lines_before) + " lines");
   if (open_model == 0) return;
   const std::string what = ":" + std::to_string(open_model) + ": MODEL has no ENDMDL";
-  const bool is_whole = is_closed || (notes != nullptr && models.size() == 1 && last == longest);
+  const bool is_whole = is_closed || (notes != nullptr && model_count == 1 && last == longest);
   if (!is_whole) throw LoadError(path + what + ", the file may be cut short");
   if (notes != nullptr)
     notes->push_back("line " + std::to_string(open_model) +

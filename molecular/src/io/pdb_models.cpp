@@ -3,7 +3,6 @@
 #include "io/pdb_models.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <utility>
 
@@ -15,8 +14,6 @@ namespace hinge::molecular {
 namespace {
 
 constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
-/// MODEL numbers have four columns: beyond, writers start again.
-constexpr std::size_t most_numbers = 9999;
 
 /// Columns of an atom record that say which atom it is: what, name, altloc, residue; occupancy; segment, element.
 struct Columns {
@@ -54,13 +51,9 @@ class PdbModels::Finder {
     const bool is_model = line.starts_with("MODEL ");
     if (!open_ && (is_model || is_atom_record(line))) {
       open_ = true;
-      Model model{at_, at_, lines_, static_cast<int>(models_.size()) + 1};
-      if (is_model) {
-        const std::size_t digits = std::min(line.find_first_not_of(' ', 6), line.size());
-        std::from_chars(line.data() + digits, line.data() + line.size(), model.number);
-        named_ = true;
-      }
-      models_.push_back(model);
+      const int position = static_cast<int>(models_.size()) + 1;
+      models_.push_back({at_, at_, lines_, is_model ? model_number(line, position) : position});
+      named_ = named_ || is_model;
     }
     at_ += line.size() + 1;
     ++lines_;
@@ -99,7 +92,7 @@ void PdbModels::find_models() {
     }
   }
   if (models_.empty()) throw LoadError(path_ + ": expected DCD, XTC, NumPy, PDB or mmCIF, found no ATOM record");
-  if (!finder.named() || models_.size() > most_numbers) return;
+  if (!finder.named() || models_.size() > most_model_numbers) return;
   std::vector<int> numbers;
   for (const Model& model : models_) numbers.push_back(model.number);
   std::sort(numbers.begin(), numbers.end());

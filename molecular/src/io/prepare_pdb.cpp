@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The text of a PDB file as the parser gets it.
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -22,19 +23,38 @@ bool is_record(std::string_view line, std::string_view name) {
 
 }  // namespace
 
-std::string prepare_pdb(const std::string& text, std::size_t columns, std::vector<int>& serials) {
+int model_number(std::string_view line, int otherwise) {
+  constexpr std::size_t name = 5;
+  line.remove_prefix(std::min(line.find_first_not_of(' ', name), line.size()));
+  std::from_chars(line.data(), line.data() + line.size(), otherwise);
+  return otherwise;
+}
+
+PreparedPdb prepare_pdb(const std::string& text, std::size_t columns) {
   constexpr std::size_t length_column = 72;
   constexpr std::size_t most_atoms = 100000 + 26UL * 36 * 36 * 36 * 36;  // that gemmi reads from five columns
-  serials.clear();
-  std::string kept;
+  PreparedPdb result;
+  std::vector<int>& serials = result.serials;
+  std::string& kept = result.text;
   kept.reserve(text.size());
+  int model = 1;  // number of the one that is open or to come
+  bool open = false;
   for (std::size_t first = 0; first < text.size();) {
     const std::size_t end = std::min(text.find('\n', first), text.size());
     std::string_view line = std::string_view(text).substr(first, end - first);
     line =
         line.substr(0, is_record(line, "LINK") || is_record(line, "SSBO") ? std::min(columns, length_column) : columns);
-    kept += line;
+    const bool is_model = is_record(line, "MODE");
+    const int next = static_cast<int>(result.model_numbers.size()) + 1;
+    if (is_model) model = model_number(line, next);
+    if (ends_pdb_model(line)) {
+      model = next;
+      open = false;
+    }
+    kept += is_model ? "REMARK" : line;
     if ((is_record(line, "ATOM") || is_record(line, "HETA")) && line.size() > 11) {
+      if (!open) result.model_numbers.push_back(model);
+      open = true;
       if (serials.size() == most_atoms)
         throw std::runtime_error("more than " + std::to_string(most_atoms) + " atoms, expected mmCIF of so many");
       const std::string number = hybrid36(serials.size());
@@ -44,7 +64,7 @@ std::string prepare_pdb(const std::string& text, std::size_t columns, std::vecto
     if (end < text.size()) kept += '\n';
     first = end + 1;
   }
-  return kept;
+  return result;
 }
 
 }  // namespace hinge::molecular

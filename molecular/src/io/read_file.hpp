@@ -35,10 +35,16 @@ inline bool ends_pdb_model(std::string_view line) {
          (line.substr(0, 3) == "END" && line.find_first_not_of(" \t\r", 3) == std::string_view::npos);
 }
 
+/// MODEL numbers have four columns: in files of more models writers start again, in others none is there twice.
+constexpr std::size_t most_model_numbers = 9999;
+
+/// What a MODEL record says behind its name, or `otherwise` where that starts with no number.
+int model_number(std::string_view line, int otherwise);
+
 /// Coordinates of an atom record, angstrom. LoadError names the line, atom and coordinate: blank or no number.
 Vec3 read_pdb_coordinates(std::string_view line, const std::string& path, std::size_t line_number);
 
-/// Refuses what the parser would silently repair: blank or malformed coordinates, repeated or nested MODEL records.
+/// Refuses what the parser would silently repair: blank or malformed coordinates, repeated, empty or nested MODELs.
 /// LoadError names the line; the text starts with line `number` + 1. A single MODEL without ENDMDL in a file that is
 /// whole otherwise (its last line is END or CONECT) is accepted, with a note.
 void check_pdb(std::string_view text, const std::string& path, std::size_t number = 0,
@@ -105,11 +111,17 @@ struct RawFile {
   std::vector<std::string> notes;
 };
 
-/// A PDB file's text for the parser; serials: the file's serial number of each atom record.
+/// What the parser gets of a PDB file, and what it is not handed.
+struct PreparedPdb {
+  std::string text;
+  std::vector<int> serials;        ///< the file's serial number of each atom record
+  std::vector<int> model_numbers;  ///< of each model, by its MODEL record, else its position from 1
+};
 /// Atoms are numbered from 0, lines cut after so many columns: gemmi would start a new line behind some characters of
 /// what it cuts off. And without the lengths behind LINK and SSBOND records, which nobody asks for: it would read the
-/// start of "nan" or "inf" beyond the end of the record, of which the end of the line is the last character.
-std::string prepare_pdb(const std::string& text, std::size_t columns, std::vector<int>& serials);
+/// start of "nan" or "inf" beyond the end of the record, of which the end of the line is the last character. Without
+/// MODEL records: it takes 0 and a blank for the same number, and counts models without them by itself.
+PreparedPdb prepare_pdb(const std::string& text, std::size_t columns);
 
 /// Parses the bytes with gemmi (PDB or mmCIF). LoadError carries the parser's message.
 RawFile parse_with_gemmi(const std::string& bytes, const std::string& path, bool cif);

@@ -4,7 +4,6 @@
 #include <cctype>
 #include <charconv>
 #include <cstdint>
-#include <cstdlib>
 #include <exception>
 #include <limits>
 #include <map>
@@ -33,14 +32,16 @@ RawAddress address(const gemmi::AtomAddress& a) {
   return {a.chain_name, *a.res_id.seqid.num, or_null(a.res_id.seqid.icode), a.atom_name};
 }
 
-/// 0 where a model has none. From gemmi 0.7 on it is a number, before a text.
+/// What an mmCIF file says. From gemmi 0.7 on it is a number, before a text.
 template <class Model>
 auto number_of(const Model& model, int) -> decltype(model.num) {
   return model.num;
 }
 template <class Model>
-int number_of(const Model& model, long) {
-  return std::atoi(model.name.c_str());
+int number_of(const Model& model, long position) {
+  int number = static_cast<int>(position);
+  std::from_chars(model.name.data(), model.name.data() + model.name.size(), number);
+  return number;
 }
 
 ResidueKind kind_of(const std::string& name) {
@@ -55,16 +56,21 @@ ResidueKind kind_of(const std::string& name) {
 
 /// gemmi joins residues and chains that a file has in parts, and keeps no order of atoms through that. So atoms are
 /// numbered from 0 in the place of their serial numbers, which are kept here.
-using Serials = std::vector<int>;
+struct AtomIds {
+  std::vector<int> serials;
+  std::vector<std::uint32_t> labels;  ///< mmCIF alone: a number for each label_asym_id and label_seq_id
+  std::vector<int> model_numbers;     ///< PDB alone
+};
 
-RawModel convert(const gemmi::Model& model, int number, const Serials& serials) {
+RawModel convert(const gemmi::Model& model, int number, const AtomIds& ids) {
   RawModel raw;
   raw.number = number;
   int first = std::numeric_limits<int>::max();  // of the model
   for (const gemmi::Chain& chain : model.chains)
     for (const gemmi::Residue& residue : chain.residues)
       for (const gemmi::Atom& atom : residue.atoms) first = std::min(first, atom.serial);
-  for (const gemmi::Chain& chain : model.chains)
+  for (const gemmi::Chain& chain : model.chains) {
+    const auto chain_start = static_cast<std::ptrdiff_t>(raw.residues.size());
     for (const gemmi::Residue& residue : chain.residues) {
       RawResidue r;
       r.chain = chain.name;
@@ -73,19 +79,27 @@ RawModel convert(const gemmi::Model& model, int number, const Serials& serials) 
       r.insertion_code = or_null(residue.seqid.icode);
       r.hetero = residue.het_flag == 'H';
       r.kind = kind_of(residue.name);
+      std::map<std::uint32_t, std::vector<RawAtom>> parts;  // by label: residues that the authors call the same
       for (const gemmi::Atom& atom : residue.atoms) {
         RawAtom a;
         a.name = atom.name;
         if (atom.element != gemmi::El::X) a.element = atom.element == gemmi::El::D ? "H" : atom.element.name();
         a.altloc = atom.altloc;
-        a.serial = serials.at(static_cast<std::size_t>(atom.serial));
+        const auto id = static_cast<std::size_t>(atom.serial);
+        a.serial = ids.serials.at(id);
         a.record = static_cast<std::uint32_t>(atom.serial - first);
         a.occupancy = static_cast<double>(atom.occ);
         a.position = Vec3(atom.pos.x, atom.pos.y, atom.pos.z);
-        r.atoms.push_back(std::move(a));
+        parts[ids.labels.empty() ? 0 : ids.labels.at(id)].push_back(std::move(a));
       }
-      raw.residues.push_back(std::move(r));
+      for (auto& part : parts) {
+        r.atoms = std::move(part.second);
+        raw.residues.push_back(r);
+      }
     }
+    std::stable_sort(raw.residues.begin() + chain_start, raw.residues.end(),
+                     [](const RawResidue& a, const RawResidue& b) { return a.atoms[0].record < b.atoms[0].record; });
+  }
   return raw;
 }
 
@@ -197,29 +211,37 @@ std::optional<RecordedBonds> recorded_of(gemmi::cif::Document& document) {
   throw LoadError(what.find(path) != std::string::npos ? what : path + ": " + what);
 }
 
-void number_atoms(gemmi::cif::Document& document, Serials& serials) {
-  for (gemmi::cif::Block& block : document.blocks)
-    for (std::string& id : block.find_values("_atom_site.id")) {
-      const std::string number = std::to_string(serials.size());
-      serials.push_back(gemmi::string_to_int(id, false));
-      id = number;
+void number_atoms(gemmi::cif::Document& document, AtomIds& ids) {
+  std::map<std::pair<std::string, std::string>, std::uint32_t> labels;
+  for (gemmi::cif::Block& block : document.blocks) {
+    gemmi::cif::Table atoms = block.find("_atom_site.", {"id", "?label_asym_id", "?label_seq_id"});
+    for (auto row : atoms) {
+      const std::string number = std::to_string(ids.serials.size());
+      ids.serials.push_back(gemmi::string_to_int(row[0], false));
+      row[0] = number;
+      const auto value = [&](std::size_t column) { return row.has(column) ? row[column] : std::string(); };
+      const auto count = static_cast<std::uint32_t>(labels.size());
+      ids.labels.push_back(labels.emplace(std::pair(value(1), value(2)), count).first->second);
     }
+  }
 }
 
-gemmi::Structure parse(const std::string& bytes, const std::string& path, bool cif, RawFile& raw, Serials& serials) {
+gemmi::Structure parse(const std::string& bytes, const std::string& path, bool cif, RawFile& raw, AtomIds& ids) {
   if (cif) {
     gemmi::cif::Document document = gemmi::cif::read_memory(bytes.data(), bytes.size(), path.c_str());
     raw.components = components_of(document, path);
     raw.recorded = recorded_of(document);
     keep_what_is_read(document);
-    number_atoms(document, serials);
+    number_atoms(document, ids);
     return gemmi::make_structure(std::move(document));
   }
   gemmi::PdbReadOptions options;
   const auto read = [&](int columns) {
     options.max_line_length = columns;
-    const std::string text = prepare_pdb(bytes, static_cast<std::size_t>(columns), serials);
-    return gemmi::read_pdb_from_memory(text.data(), text.size(), path, options);
+    PreparedPdb pdb = prepare_pdb(bytes, static_cast<std::size_t>(columns));
+    ids.serials = std::move(pdb.serials);
+    ids.model_numbers = std::move(pdb.model_numbers);
+    return gemmi::read_pdb_from_memory(pdb.text.data(), pdb.text.size(), path, options);
   };
   try {
     return read(120);  // more than it looks at
@@ -250,19 +272,18 @@ std::vector<Component> parse_components(const std::string& bytes, const std::str
 RawFile parse_with_gemmi(const std::string& bytes, const std::string& path, bool cif) {
   RawFile raw;
   gemmi::Structure st;
-  Serials serials;
+  AtomIds ids;
   try {
-    st = parse(bytes, path, cif, raw, serials);
+    st = parse(bytes, path, cif, raw, ids);
   } catch (const std::exception& error) {
     refuse_file(error, path);
   }
   st.merge_chain_parts();
   raw.name = st.name;
-  int position = 0;
   for (const gemmi::Model& model : st.models) {
-    ++position;
-    const int number = number_of(model, 0);
-    raw.models.push_back(convert(model, number != 0 ? number : position, serials));
+    const int position = static_cast<int>(raw.models.size()) + 1;
+    const int number = cif ? number_of(model, position) : ids.model_numbers.at(raw.models.size());
+    raw.models.push_back(convert(model, number, ids));
   }
   for (const gemmi::Connection& link : st.connections)
     if (link.type == gemmi::Connection::Covale || link.type == gemmi::Connection::Disulf ||

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "chemistry/recorded_bonds.hpp"
-#include "hinge/core/error.hpp"
 #include "hinge/molecular/write_structure.hpp"
 
 namespace hinge::molecular {
@@ -43,6 +42,25 @@ std::string sequence_id(const Structure& s, std::uint32_t r) {
   return is_hetero_record(s.residues[r]) ? "." : std::to_string(r - s.chains[s.residues[r].chain].first_residue + 1);
 }
 
+/// label_asym_id of every residue: its chain's name. Hetero residues that the authors call as one before them, which no
+/// label_seq_id tells apart, get a name of their own: "A-1", "A-2" ...
+std::vector<std::string> label_chains(const Structure& s) {
+  std::set<std::string> names;
+  for (const Chain& chain : s.chains) names.insert(chain.name);
+  const std::vector<std::uint32_t> copies = copies_of_residues(s);
+  std::map<std::pair<std::string, std::uint32_t>, std::string> of_copies;
+  std::vector<std::string> chains;
+  for (std::uint32_t r = 0; r < s.residues.size(); ++r) {
+    chains.push_back(chain_name_of(s, s.residues[r]));
+    if (copies[r] == 0 || !is_hetero_record(s.residues[r])) continue;
+    std::string& name = of_copies[{chains.back(), copies[r]}];
+    for (std::uint32_t k = copies[r]; name.empty(); ++k)
+      if (std::string free = chains.back() + '-' + std::to_string(k); names.insert(free).second) name = free;
+    chains.back() = name;
+  }
+  return chains;
+}
+
 std::string insertion_code(const Residue& residue) {
   return residue.insertion_code == '\0' ? "?" : value(std::string(1, residue.insertion_code));
 }
@@ -57,10 +75,10 @@ std::string_view order_word(BondOrder order) {
   return "?";
 }
 
-/// "CYS A 12 32 ?": name, chain, label_seq_id, auth_seq_id, insertion code.
-std::string residue_values(const Structure& s, std::uint32_t r) {
+/// "CYS A 12 32 ? A": name, label_asym_id, label_seq_id, auth_seq_id, insertion code, auth_asym_id.
+std::string residue_values(const Structure& s, const std::vector<std::string>& labels, std::uint32_t r) {
   const Residue& residue = s.residues[r];
-  return value(residue.name) + ' ' + value(chain_name_of(s, residue)) + ' ' + sequence_id(s, r) + ' ' +
+  return value(residue.name) + ' ' + value(labels[r]) + ' ' + sequence_id(s, r) + ' ' +
          std::to_string(residue.sequence_number) + ' ' + insertion_code(residue) + ' ' +
          value(chain_name_of(s, residue));
 }
@@ -73,7 +91,7 @@ std::string residue_tags(const std::string& category, const std::string& partner
   return text + dot + "pdbx_" + partner + "_PDB_ins_code\n" + category + partner + "_auth_asym_id\n";
 }
 
-void write_cif_elements(std::ostream& out, const Structure& s) {
+void write_cif_elements(std::ostream& out, const Structure& s, const std::vector<std::string>& labels) {
   using Kind = SecondaryStructure::Kind;
   for (const Kind kind : {Kind::helix, Kind::strand}) {
     const std::string category = kind == Kind::helix ? "_struct_conf." : "_struct_sheet_range.";
@@ -86,14 +104,14 @@ void write_cif_elements(std::ostream& out, const Structure& s) {
                                     : "_struct_sheet_range.sheet_id\n_struct_sheet_range.id\n")
             << residue_tags(category, "beg") << residue_tags(category, "end");
       const std::string id = std::to_string(count);
-      out << (kind == Kind::helix ? "HELX_P HELX_P" + id : id + " 1") << ' ' << residue_values(s, element.first) << ' '
-          << residue_values(s, element.last) << "\n";
+      out << (kind == Kind::helix ? "HELX_P HELX_P" + id : id + " 1") << ' ' << residue_values(s, labels, element.first)
+          << ' ' << residue_values(s, labels, element.last) << "\n";
     }
     if (count > 0) out << "#\n";
   }
 }
 
-void write_connections(std::ostream& out, const Structure& s) {
+void write_connections(std::ostream& out, const Structure& s, const std::vector<std::string>& labels) {
   int count = 0;
   for (const Bond& bond : s.bonds) {
     const Atom &a = s.atoms[bond.first], &b = s.atoms[bond.second];
@@ -107,8 +125,8 @@ void write_connections(std::ostream& out, const Structure& s) {
     const char* type = bond.origin == BondOrigin::disulphide   ? "disulf"
                        : bond.order == BondOrder::coordination ? "metalc"
                                                                : "covale";
-    out << type << count << ' ' << type << ' ' << residue_values(s, a.residue) << ' ' << value(a.name) << ' '
-        << residue_values(s, b.residue) << ' ' << value(b.name) << " 1_555 1_555\n";
+    out << type << count << ' ' << type << ' ' << residue_values(s, labels, a.residue) << ' ' << value(a.name) << ' '
+        << residue_values(s, labels, b.residue) << ' ' << value(b.name) << " 1_555 1_555\n";
   }
   if (count > 0) out << "#\n";
 }
@@ -141,21 +159,14 @@ void write_recorded(std::ostream& out, const RecordedBonds& recorded) {
 
 }  // namespace
 
-void check_fits_cif(const Structure& s) {
-  const std::vector<std::uint32_t> copies = copies_of_residues(s);
-  for (std::uint32_t r = 0; r < s.residues.size(); ++r)
-    if (copies[r] > 0)
-      throw ModelError("residue " + label(s, s.residues[r].first_atom) +
-                       " is there twice, which mmCIF would take for one; a .pdb file holds both, as two segments");
-}
-
 void write_cif_head(std::ostream& out, const Structure& structure) {
   std::string name;
   for (const char c : structure.name) name += c > ' ' && c <= '~' && c != '"' && c != '\'' ? c : '_';
   if (name.empty()) name = "hinge";
   out << "data_" << name << "\n#\n_entry.id \"" << name << "\"\n#\n";
-  write_cif_elements(out, structure);
-  write_connections(out, structure);
+  const std::vector<std::string> labels = label_chains(structure);
+  write_cif_elements(out, structure, labels);
+  write_connections(out, structure, labels);
   const RecordedBonds recorded = record_bonds(structure);
   write_components(out, structure, recorded);
   write_recorded(out, recorded);
@@ -169,12 +180,13 @@ void write_cif_head(std::ostream& out, const Structure& structure) {
 
 void write_cif_model(std::ostream& out, const Structure& s, std::span<const Vec3> positions, int model,
                      std::size_t first_id) {
+  const std::vector<std::string> labels = label_chains(s);
   std::string text;
   for (std::uint32_t r = 0; r < s.residues.size(); ++r) {
     const Residue& residue = s.residues[r];
     const std::string chain = value(chain_name_of(s, residue)), name = value(residue.name);
     const std::string behind_name =
-        " . " + name + ' ' + chain + " ? " + sequence_id(s, r) + ' ' + insertion_code(residue) + ' ';
+        " . " + name + ' ' + value(labels[r]) + " ? " + sequence_id(s, r) + ' ' + insertion_code(residue) + ' ';
     const std::string behind =
         " 1.0 0.0 " + std::to_string(residue.sequence_number) + ' ' + chain + ' ' + std::to_string(model) + "\n";
     for (std::uint32_t i = residue.first_atom; i < residue.last_atom; ++i) {

@@ -83,7 +83,6 @@ TrajectoryWriter::TrajectoryWriter(std::ostream& out, TrajectoryFormat format, c
                                    std::size_t atom_count, bool single)
     : out_(out), format_(format), molecule_(molecule), atoms_(atom_count), single_(single) {
   if (format_ == TrajectoryFormat::pdb) check_fits_pdb(molecule_);
-  if (format_ == TrajectoryFormat::cif) check_fits_cif(molecule_);
   write_head();
 }
 

@@ -27,8 +27,6 @@ void write_pdb_model(std::ostream& out, const Structure& structure, std::span<co
 /// CONECT, a double bond or another multiple one as a repeated partner, and END.
 void write_pdb_tail(std::ostream& out, const Structure& structure);
 
-/// ModelError, naming the residue: two of one name and number in a chain, which PDB files tell apart by segment.
-void check_fits_cif(const Structure& structure);
 /// The same as mmCIF, which holds names of any length and any number of atoms: struct_conf, struct_sheet_range,
 /// struct_conn, chem_comp_bond, and the category hinge_bond, which stands for REMARK 999. At least one model follows.
 void write_cif_head(std::ostream& out, const Structure& structure);
