@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A loop of ubiquitin from one conformation to another, both of its ends held, planned by OMPL on the set where the
 // loop is closed; every step of every motion is proved free.
-#include <hinge/detail/kinematics/closure_equations.hpp>
+#include <hinge/kinematics/closure_equations.hpp>
 #include <hinge/kinematics/closure_solver.hpp>
 #include <hinge/molecular/checker.hpp>
 #include <hinge/molecular/closed_sampler.hpp>

@@ -7,11 +7,13 @@
 #include <iterator>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "architecture/conventions.hpp"
 #include "architecture/floors.hpp"
+#include "architecture/public_face.hpp"
 #include "architecture/source_tree.hpp"
 
 namespace architecture_test {
@@ -43,6 +45,19 @@ TEST(Floors, OraclesStayInTheirFolders) {
   EXPECT_EQ(joined(architecture::oracle_violations(
                 architecture::read_sources(root, {"include", "molecular", "robotics", "tests", "bench", "docs"}))),
             "");
+}
+
+TEST(PublicFace, NamesNothingPrivate) { EXPECT_EQ(joined(architecture::private_names_in_public(library())), ""); }
+
+TEST(PublicFace, IsOneIncludeAway) { EXPECT_EQ(joined(architecture::not_under_umbrella(library())), ""); }
+
+/// Examples, pages and the program that links an installed library.
+TEST(PublicFace, IsAllThatUsersAreShown) {
+  SourceTree shown = architecture::read_sources(root, {"docs", "tests/consumer"}, {".hpp", ".cpp", ".md"});
+  EXPECT_GE(shown.size(), 10U);
+  std::ifstream in(root / "README.md");
+  for (std::string line; std::getline(in, line);) shown["README.md"].push_back(line);
+  EXPECT_EQ(joined(architecture::private_includes(shown)), "");
 }
 
 TEST(Conventions, EveryFileKeepsThem) { EXPECT_EQ(joined(architecture::convention_violations(library())), ""); }
@@ -121,6 +136,39 @@ TEST(PlantedInclude, OracleOutsideItsFolderIsCaught) {
   const std::vector<std::string> lines = {"#include <fcl/fcl.h>"};
   EXPECT_EQ(architecture::oracle_violations({{"tests/engine/x.cpp", lines}}).size(), 1U);
   EXPECT_EQ(architecture::oracle_violations({{"tests/oracle/x.cpp", lines}}).size(), 0U);
+}
+
+/// Private names that a public header with this text shows.
+std::size_t shown_by(const std::string& text, const std::string& path = "include/hinge/core/x.hpp") {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return architecture::private_names_in_public({{path, lines}}).size();
+}
+
+TEST(PlantedPrivateName, IsCaught) {
+  EXPECT_EQ(shown_by("namespace hinge {\ndetail::Frame frame();\n}"), 1U);
+  EXPECT_EQ(shown_by("namespace hinge {\ninline void f(const detail::Frame& frame) { g(); }\n}"), 1U);
+  EXPECT_EQ(shown_by("namespace hinge {\nusing Frame = detail::Frame;\n}"), 1U);
+  EXPECT_EQ(shown_by("namespace hinge {\nstruct A {\n  detail::Frame frame{};\n};\n}"), 1U);
+  EXPECT_EQ(shown_by("class A {\n public:\n  A() {}\n  detail::Frame frame() { return f; }\n};"), 1U);
+  EXPECT_EQ(shown_by("template <detail::Concept T>\nstruct A {\n  int a;\n};"), 1U);
+  EXPECT_EQ(shown_by("detail::Frame f();", "molecular/include/hinge/molecular/x.hpp"), 1U);
+}
+
+TEST(PlantedPrivateName, IsFineWhereUsersDoNotSeeIt) {
+  EXPECT_EQ(shown_by("detail::Frame f();", "include/hinge/detail/core/x.hpp"), 0U);
+  EXPECT_EQ(shown_by("detail::Frame f();", "molecular/src/io/x.hpp"), 0U);
+  EXPECT_EQ(shown_by("class A {\n  detail::Frame f_;\n};"), 0U);
+  EXPECT_EQ(shown_by("class A {\n public:\n  A() : a_(detail::f()) {}\n private:\n  detail::Frame f_;\n};"), 0U);
+  EXPECT_EQ(shown_by("int f() {\n  detail::Frame frame;\n  if (g()) { h(); }\n  return detail::k(frame);\n}"), 0U);
+  EXPECT_EQ(shown_by("class A {\n  detail::Frame f();\n};\ninline detail::Frame A::f() { return {}; }"), 0U);
+  EXPECT_EQ(shown_by("struct A {\n  double a = detail::one;\n};\n// detail::Frame"), 0U);
+}
+
+TEST(PlantedPrivateName, IncludeIsCaught) {
+  EXPECT_EQ(architecture::private_includes({{"README.md", {"#include <hinge/detail/core/assert.hpp>"}}}).size(), 1U);
+  EXPECT_EQ(architecture::private_includes({{"README.md", {"#include <hinge/hierarchy.hpp>"}}}).size(), 0U);
 }
 
 /// Breaches of a header that is sound but for its name and the lines added.

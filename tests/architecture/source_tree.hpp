@@ -6,6 +6,7 @@
 #include <fstream>
 #include <map>
 #include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,14 +21,15 @@ struct Include {
   bool quoted = false;
 };
 
-inline SourceTree read_sources(const std::filesystem::path& root, const std::vector<std::string>& folders) {
+inline SourceTree read_sources(const std::filesystem::path& root, const std::vector<std::string>& folders,
+                               const std::set<std::string>& extensions = {".hpp", ".cpp"}) {
   namespace fs = std::filesystem;
   SourceTree tree;
   for (const std::string& folder : folders) {
     if (!fs::exists(root / folder)) continue;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
       const std::string extension = entry.path().extension().string();
-      if (!entry.is_regular_file() || (extension != ".hpp" && extension != ".cpp")) continue;
+      if (!entry.is_regular_file() || !extensions.contains(extension)) continue;
       std::ifstream in(entry.path());
       std::vector<std::string>& lines = tree[fs::relative(entry.path(), root).generic_string()];
       for (std::string line; std::getline(in, line);) lines.push_back(line);

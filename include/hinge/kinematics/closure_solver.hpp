@@ -12,7 +12,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
 #include "hinge/detail/kinematics/cholesky.hpp"
-#include "hinge/detail/kinematics/closure_equations.hpp"
+#include "hinge/kinematics/closure_equations.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/kinematics/kinematic_tree.hpp"
 

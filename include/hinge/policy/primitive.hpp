@@ -5,6 +5,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <tuple>
 #include <utility>
 
 #include "hinge/bounds/aabb.hpp"
@@ -43,6 +44,15 @@ concept HasHull = Primitive<P> && requires(const P& p) {
   { p.hull_radius() }
   noexcept->std::same_as<double>;
 };
+
+/// Is the primitive one point with a radius, an atom or a ball?
+template <HasHull P>
+inline constexpr bool has_one_point = std::tuple_size_v<decltype(std::declval<P>().hull())> == 1;
+
+/// A primitive whose motion can be bounded, so that CertifiedPath can prove paths free: one point, or closest points
+/// that give the direction in which to measure.
+template <class P>
+concept Certifiable = HasHull<P> &&(HasClosestPoints<P> || has_one_point<P>);
 
 /// Optional refinement: can tell that turning about the line (point, unit axis) leaves it where it is, so that its
 /// distance to what lies across that joint is constant. `axis_point` in the primitive's frame.

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "hinge/detail/kinematics/cholesky.hpp"
-#include "hinge/detail/kinematics/closure_equations.hpp"
+#include "hinge/kinematics/closure_equations.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/kinematics/kinematic_tree.hpp"
 

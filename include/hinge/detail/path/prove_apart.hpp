@@ -20,14 +20,6 @@ struct ProvedRadii {
   double after = 0.0;
 };
 
-/// An atom or a ball.
-template <HasHull P>
-inline constexpr bool has_one_point = std::tuple_size_v<decltype(std::declval<P>().hull())> == 1;
-
-/// A primitive whose motion can be bounded: points, and what has closest points to tell the direction to look along.
-template <class P>
-concept Certifiable = HasHull<P> &&(HasClosestPoints<P> || has_one_point<P>);
-
 namespace detail {
 
 /// Corners of a primitive along a direction: at(s) = value + s rate, and how far they are from a reference point.
