@@ -54,11 +54,11 @@ inline std::size_t print_batch(Scene& scene, const std::string& name) {
     std::size_t colliding = 0;
     for (int round = 0; round < rounds; ++round)
       for (std::size_t b = 0; b < count; ++b) {
-        simd::Bits expected = 0, answer = 0;
+        detail::simd::Bits expected = 0, answer = 0;
         single_us[b] = std::min(single_us[b], microseconds([&] {
                                   for (std::size_t s = 0; s < 16; ++s) {
                                     single.update(std::span(blocks[b]).subspan(s * dof, dof));
-                                    if (single.self_collides()) expected |= simd::Bits{1} << s;
+                                    if (single.self_collides()) expected |= detail::simd::Bits{1} << s;
                                   }
                                 }));
         batch_us[b] = std::min(batch_us[b], microseconds([&] { answer = batch.collides(blocks[b]); }));

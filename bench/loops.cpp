@@ -138,9 +138,9 @@ int main(int argc, char** argv) {
   std::vector<double> times;
   std::size_t solutions = 0;
   for (std::uint64_t k = 0; k < starts; ++k) {
-    OpenChain chain;
+    detail::OpenChain chain;
     Vec3 at = Vec3::Zero();
-    for (Pivot& pivot : chain.pivots) {
+    for (detail::Pivot& pivot : chain.pivots) {
       pivot = {at + 1.46 * direction(), at, at + 1.53 * direction()};
       at += 3.8 * direction();
     }

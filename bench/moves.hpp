@@ -84,7 +84,7 @@ class ChainMover {
     for (const std::uint32_t i : moved_) {
       const double* x = frames_.model().primitives()[i].position.data();
       std::array<double, 4> placed;
-      FrameColumns(poses_[index(group_of_[i])]).place(x[0], x[1], x[2]).store(placed.data());
+      detail::FrameColumns(poses_[index(group_of_[i])]).place(x[0], x[1], x[2]).store(placed.data());
       std::copy_n(placed.data(), 3, next_.data() + 3 * std::size_t{i});
     }
     const bool is_free = !tree_.move_collides(next_);
@@ -98,7 +98,7 @@ class ChainMover {
  private:
   ChainSearch<Leaves> tree_;
   Molecular<Wide> frames_;
-  MovingParts parts_;
+  detail::MovingParts parts_;
   std::vector<std::uint32_t> place_of_, joints_, body_, moved_;
   std::vector<GroupId> group_of_;
   std::vector<double> xyz_, next_;

@@ -21,7 +21,7 @@ using namespace hinge;
 using namespace hinge::bench;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t n = simd::width;
+constexpr std::size_t n = detail::simd::width;
 constexpr std::uint64_t seed = 1;
 /// Everything stays in the first-level cache: 96 blocks are 20 KiB, 48 rows are 18 KiB.
 constexpr std::size_t block_count = 96, task_count = 480, row_count = 48, box_count = 10;
@@ -33,8 +33,8 @@ struct Input {
   std::vector<float> packed = std::vector<float>(block_count * 3 * n), squares = std::vector<float>(n * n);
   std::vector<std::uint8_t> classes = std::vector<std::uint8_t>(block_count * n);
   std::vector<std::uint32_t> slots, blocks;
-  std::vector<FloatBox> boxes;
-  std::vector<BoxRow> rows = std::vector<BoxRow>(row_count);
+  std::vector<detail::FloatBox> boxes;
+  std::vector<detail::BoxRow> rows = std::vector<detail::BoxRow>(row_count);
 
   Input() {
     std::mt19937_64 random(seed);
@@ -49,7 +49,7 @@ struct Input {
       blocks.push_back(static_cast<std::uint32_t>(random() % block_count));
     }
     const auto random_box = [&] {
-      FloatBox box;
+      detail::FloatBox box;
       for (std::size_t k = 0; k < 3; ++k) {
         const float middle = uniform(-16, 16), half = uniform(2, 8);
         box.lower[k] = middle - half;
@@ -58,7 +58,7 @@ struct Input {
       return box;
     };
     for (std::size_t b = 0; b < box_count; ++b) boxes.push_back(random_box());
-    for (BoxRow& row : rows)
+    for (detail::BoxRow& row : rows)
       for (std::size_t lane = 0; lane < n; ++lane) row.set(lane, random_box());
   }
 };
@@ -99,10 +99,10 @@ void measure(const char* level, const char* what, std::size_t calls, const Kerne
 }
 
 /// Returns whether both libraries answer as `expected`.
-template <simd::InstructionSet Level>
+template <detail::simd::InstructionSet Level>
 bool run(const Input& in, const Answers& expected) {
-  const std::string level(simd::name(Level));
-  if (simd::of_this_cpu() < Level) {
+  const std::string level(detail::simd::name(Level));
+  if (detail::simd::of_this_cpu() < Level) {
     std::printf("%-9s left out: this CPU does not run it\n", level.c_str());
     return true;
   }
@@ -128,16 +128,16 @@ bool run(const Input& in, const Answers& expected) {
 int main() {
   const Input in;
   Answers expected;
-  expected.points(hinge_kernels<simd::InstructionSet::baseline>(), in);
-  expected.boxes(hinge_kernels<simd::InstructionSet::baseline>(), in);
+  expected.points(hinge_kernels<detail::simd::InstructionSet::baseline>(), in);
+  expected.boxes(hinge_kernels<detail::simd::InstructionSet::baseline>(), in);
   std::size_t near = 0;
   for (const std::uint32_t bits : expected.bits) near += static_cast<std::size_t>(std::popcount(bits));
   std::printf("seed %d; %.1f of 16 points near, %.1f of 16 boxes touch; ns a call, least of %d repetitions in turns\n",
               static_cast<int>(seed), static_cast<double>(near) / task_count,
               static_cast<double>(expected.hit_count) / (box_count * row_count), repetitions);
   std::printf("level     loop                      hinge  highway    ratio   Highway's static target\n");
-  bool right = run<simd::InstructionSet::baseline>(in, expected);
-  right = run<simd::InstructionSet::avx2>(in, expected) && right;
-  right = run<simd::InstructionSet::avx512>(in, expected) && right;
+  bool right = run<detail::simd::InstructionSet::baseline>(in, expected);
+  right = run<detail::simd::InstructionSet::avx2>(in, expected) && right;
+  right = run<detail::simd::InstructionSet::avx512>(in, expected) && right;
   return right ? 0 : 1;
 }

@@ -124,20 +124,20 @@ int compare(const char* name, const Subject& robot, SphereBatch& batch, const Co
   const std::size_t dof = batch.dof_count();
   const auto block = [&](std::size_t b) { return std::span(all).subspan(b * n * dof, n * dof); };
   std::vector<std::uint8_t> any(blocks);
-  std::vector<simd::Bits> each(blocks);
+  std::vector<detail::simd::Bits> each(blocks);
   const double any_ns = time(blocks, passes, [&](std::size_t b) { any[b] = batch.any(block(b)) ? 1 : 0; });
   const double each_ns = time(blocks, passes, [&](std::size_t b) { each[b] = batch.each(block(b)); });
 
   const Model<Sphere> model = spheres_of(robot.robot);
   Hierarchy<Sphere, LinkPairFilter, UniformClearance> wide(model, robot.filter, UniformClearance{0.0});
   Hierarchy<Sphere, LinkPairFilter, UniformClearance, Brute> brute(model, robot.filter, UniformClearance{0.0});
-  std::vector<simd::Bits> expected(blocks), by_wide(blocks);
-  const auto one_by_one = [&](auto& hierarchy, std::vector<simd::Bits>& to) {
+  std::vector<detail::simd::Bits> expected(blocks), by_wide(blocks);
+  const auto one_by_one = [&](auto& hierarchy, std::vector<detail::simd::Bits>& to) {
     return [&](std::size_t b) {
       to[b] = 0;
       for (std::size_t k = 0; k < n; ++k) {
         hierarchy.update(block(b).subspan(k * dof, dof));
-        if (hierarchy.self_collides()) to[b] |= simd::Bits{1} << k;
+        if (hierarchy.self_collides()) to[b] |= detail::simd::Bits{1} << k;
       }
     };
   };
@@ -165,7 +165,8 @@ int main() {
   SphereBatch batch(spheres_of(robot.robot), robot.filter);
   std::printf("%s: %zu spheres, %zu DOF, %zu pairs of links, %zu of spheres; %s; ns per configuration\n",
               robot.robot.name().c_str(), spheres_of(robot.robot).size(), batch.dof_count(),
-              robot.filter.tested().size(), batch.pair_count(), std::string(simd::name(simd::compiled_for())).c_str());
+              robot.filter.tested().size(), batch.pair_count(),
+              std::string(detail::simd::name(detail::simd::compiled_for())).c_str());
   batch.learn(independent(robot.robot, 1));
   int wrong = compare("independent", robot, batch, independent(robot.robot, 3));
   wrong += compare("edges", robot, batch, edges(robot.robot));

@@ -68,7 +68,7 @@ class Subject {
   std::vector<Posture> postures_at(std::span<const std::vector<double>> configurations) const {
     const KinematicTree& tree = robot_.model().tree();
     const auto groups = std::make_shared<const RigidGroups>(tree, DofSelection::all(tree));
-    PoseSource source(groups, tree.dof_count());
+    detail::PoseSource source(groups, tree.dof_count());
     std::vector<Posture> postures;
     for (const std::vector<double>& q : configurations) {
       source.set_configuration(q);

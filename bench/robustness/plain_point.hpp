@@ -43,7 +43,7 @@ namespace hinge {
 
 /// That of Point, which is all a PlainPoint consists of.
 template <>
-struct Batch<bench::PlainPoint> {
+struct detail::Batch<bench::PlainPoint> {
   using Same = Batch<Point>;
   using Grown = Same::Grown;
   using One = Same::One;
@@ -68,6 +68,6 @@ struct Batch<bench::PlainPoint> {
   }
 };
 
-static_assert(HasClosestPoints<bench::PlainPoint> && TurnsBatch<bench::PlainPoint>);
+static_assert(HasClosestPoints<bench::PlainPoint> && detail::TurnsBatch<bench::PlainPoint>);
 
 }  // namespace hinge

@@ -26,7 +26,7 @@ namespace plain_double {
 
 using Heights = std::array<double, 3>;
 
-inline Heights heights(const Corners& t, const Corners& points) noexcept {
+inline Heights heights(const detail::Corners& t, const detail::Corners& points) noexcept {
   const Vec3 normal = cross(Vec3(t[1] - t[0]), Vec3(t[2] - t[0]));
   return {dot(normal, Vec3(points[0] - t[0])), dot(normal, Vec3(points[1] - t[0])),
           dot(normal, Vec3(points[2] - t[0]))};
@@ -44,7 +44,7 @@ inline detail::Cut cut(const Heights& h) noexcept {
   return {lone, above(lone)};
 }
 
-inline bool in_plane(const Corners& x, const Corners& y, const Vec3& normal) noexcept {
+inline bool in_plane(const detail::Corners& x, const detail::Corners& y, const Vec3& normal) noexcept {
   int axis = 0;
   for (int k = 1; k < 3; ++k)
     if (std::abs(normal[k]) > std::abs(normal[axis])) axis = k;
@@ -57,14 +57,14 @@ inline bool in_plane(const Corners& x, const Corners& y, const Vec3& normal) noe
       const Vec3 &p = x[k], &q = x[(k + 1) % 3], &r = y[l], &s = y[(l + 1) % 3];
       if (turn(p, q, r) * turn(p, q, s) <= 0.0 && turn(r, s, p) * turn(r, s, q) <= 0.0) return true;
     }
-  const auto holds = [&](const Corners& t, const Vec3& p) {
+  const auto holds = [&](const detail::Corners& t, const Vec3& p) {
     const double u = turn(t[0], t[1], p), v = turn(t[1], t[2], p), w = turn(t[2], t[0], p);
     return (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
   };
   return holds(x, y[0]) || holds(y, x[0]);
 }
 
-inline bool intersect(const Corners& x, const Corners& y) noexcept {
+inline bool intersect(const detail::Corners& x, const detail::Corners& y) noexcept {
   const Heights of_x = heights(y, x);
   if (one_side(of_x)) return false;
   const Heights of_y = heights(x, y);
@@ -95,14 +95,14 @@ struct PlainTriangle {
   Aabb bounds() const noexcept { return triangle.bounds(); }
 
   friend double squared_distance(const PlainTriangle& p, const PlainTriangle& q) noexcept {
-    const Corners x = p.corners(), y = q.corners();
+    const detail::Corners x = p.corners(), y = q.corners();
     if (!apart(p.bounds(), q.bounds(), 0.0) && plain_double::intersect(x, y)) return 0.0;
     return plain_double::squared(detail::TrianglePair(x, y));
   }
   friend bool closer_than(const PlainTriangle& p, const PlainTriangle& q, double m) noexcept {
     const Aabb around_p = p.bounds(), around_q = q.bounds();
     if (apart(around_p, around_q, m)) return false;
-    const Corners x = p.corners(), y = q.corners();
+    const detail::Corners x = p.corners(), y = q.corners();
     if (!apart(around_p, around_q, 0.0) && plain_double::intersect(x, y)) return true;
     if (!(m > 0.0)) return false;
     const detail::TrianglePair pair(x, y);
@@ -116,7 +116,7 @@ struct PlainTriangle {
   }
 
  private:
-  Corners corners() const noexcept { return {triangle.a, triangle.b, triangle.c}; }
+  detail::Corners corners() const noexcept { return {triangle.a, triangle.b, triangle.c}; }
   static bool apart(const Aabb& p, const Aabb& q, double m) noexcept {
     bool any = false;
     for (int k = 0; k < 3; ++k) any |= p.lower[k] - q.upper[k] > m || q.lower[k] - p.upper[k] > m;
@@ -130,7 +130,7 @@ namespace hinge {
 
 /// That of Triangle.
 template <>
-struct Leaf<bench::PlainTriangle> {
+struct detail::Leaf<bench::PlainTriangle> {
   using Same = Leaf<Triangle>;
   using Turned = Same::Turned;
   static constexpr bool keeps_trees = true;
@@ -144,7 +144,7 @@ struct Leaf<bench::PlainTriangle> {
 
 /// That of Triangle.
 template <>
-class PairQueue<bench::PlainTriangle> {
+class detail::PairQueue<bench::PlainTriangle> {
  public:
   void set(std::size_t place, const float* own, std::size_t i, const Leaf<Triangle>::Turned& turned, std::size_t k,
            float error) noexcept {
@@ -156,6 +156,6 @@ class PairQueue<bench::PlainTriangle> {
   PairQueue<Triangle> queue_;
 };
 
-static_assert(HasClosestPoints<bench::PlainTriangle> && KeepsTrees<bench::PlainTriangle>);
+static_assert(HasClosestPoints<bench::PlainTriangle> && detail::KeepsTrees<bench::PlainTriangle>);
 
 }  // namespace hinge

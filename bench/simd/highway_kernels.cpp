@@ -15,7 +15,7 @@ namespace hinge::bench {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
-constexpr std::size_t n = simd::width;
+constexpr std::size_t n = detail::simd::width;
 const hn::CappedTag<float, n> floats;
 const hn::RebindToSigned<decltype(floats)> ints;
 const hn::RebindToUnsigned<decltype(floats)> indices;
@@ -65,7 +65,7 @@ std::size_t touching_boxes(const BoxTasks& tasks, std::uint32_t* hits) {
   const auto counting = hn::Iota(indices, 0);
   std::size_t count = 0;
   for (std::size_t b = 0; b < tasks.box_count; ++b) {
-    const FloatBox& box = tasks.boxes[b];
+    const detail::FloatBox& box = tasks.boxes[b];
     for (std::size_t r = 0; r < tasks.row_count; ++r)
       for (std::size_t first = 0; first < n; first += lanes) {
         const auto along = [&](std::size_t k) {
@@ -86,7 +86,7 @@ std::size_t touching_boxes(const BoxTasks& tasks, std::uint32_t* hits) {
 }  // namespace
 
 template <>
-Kernels highway_kernels<simd::compiled_for()>() {
+Kernels highway_kernels<detail::simd::compiled_for()>() {
   return {hwy::TargetName(HWY_TARGET), near_points, touching_boxes};
 }
 

@@ -13,10 +13,10 @@ namespace hinge::bench {
 
 namespace {
 
-constexpr std::size_t n = simd::width;
+constexpr std::size_t n = detail::simd::width;
 
 void near_points(const PointTasks& tasks, std::uint32_t* bits) {
-  using simd::Float16;
+  using detail::simd::Float16;
   for (std::size_t t = 0; t < tasks.size; ++t) {
     const std::uint32_t slot = tasks.slots[t], block = tasks.blocks[t];
     const float* one = tasks.packed + slot / n * 3 * n + slot % n;
@@ -24,17 +24,19 @@ void near_points(const PointTasks& tasks, std::uint32_t* bits) {
     const Float16 x = Float16(sixteen) - Float16(one[0]), y = Float16(sixteen + n) - Float16(one[n]),
                   z = Float16(sixteen + 2 * n) - Float16(one[2 * n]);
     const Float16 squared = x * x + y * y + z * z;
-    const Float16 near = look_up(tasks.squares + tasks.classes[slot] * n, simd::Index16(tasks.classes + block * n));
-    bits[t] = ~less(near, squared) & simd::all_bits;
+    const Float16 near =
+        look_up(tasks.squares + tasks.classes[slot] * n, detail::simd::Index16(tasks.classes + block * n));
+    bits[t] = ~less(near, squared) & detail::simd::all_bits;
   }
 }
 
 std::size_t touching_boxes(const BoxTasks& tasks, std::uint32_t* hits) {
   std::size_t count = 0;
   for (std::size_t b = 0; b < tasks.box_count; ++b) {
-    const BoxLanes box(tasks.boxes[b]);
+    const detail::BoxLanes box(tasks.boxes[b]);
     for (std::size_t r = 0; r < tasks.row_count; ++r)
-      count += simd::append_lanes(overlapping(tasks.rows[r], box), static_cast<std::uint32_t>(r * n), hits + count);
+      count +=
+          detail::simd::append_lanes(overlapping(tasks.rows[r], box), static_cast<std::uint32_t>(r * n), hits + count);
   }
   return count;
 }
@@ -42,7 +44,7 @@ std::size_t touching_boxes(const BoxTasks& tasks, std::uint32_t* hits) {
 }  // namespace
 
 template <>
-Kernels hinge_kernels<simd::compiled_for()>() {
+Kernels hinge_kernels<detail::simd::compiled_for()>() {
   return {"<experimental/simd>", near_points, touching_boxes};
 }
 

@@ -22,9 +22,9 @@ struct PointTasks {
 
 /// "One box against sixteen": every box against every row.
 struct BoxTasks {
-  const FloatBox* boxes;
+  const detail::FloatBox* boxes;
   std::size_t box_count;
-  const BoxRow* rows;
+  const detail::BoxRow* rows;
   std::size_t row_count;
 };
 
@@ -38,9 +38,9 @@ struct Kernels {
 };
 
 /// Specialised by the files that are compiled for the level.
-template <simd::InstructionSet Level>
+template <detail::simd::InstructionSet Level>
 Kernels hinge_kernels();
-template <simd::InstructionSet Level>
+template <detail::simd::InstructionSet Level>
 Kernels highway_kernels();
 
 }  // namespace hinge::bench

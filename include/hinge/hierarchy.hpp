@@ -255,7 +255,7 @@ class Hierarchy {
   F filter_;
   D matrix_;
   E engine_;
-  LargestThreshold<D> largest_threshold_;  // after the engine: by then the matrix was checked against the model
+  detail::LargestThreshold<D> largest_threshold_;  // after the engine: by then the matrix was checked against the model
 };
 
 template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>

@@ -23,19 +23,19 @@ namespace hinge::tool {
 
 /// What the environment variable HINGE_ISA names, or the best of this CPU. ModelError: another word, or one the CPU
 /// lacks.
-inline simd::InstructionSet wanted_instruction_set() {
-  using simd::InstructionSet;
-  const InstructionSet best = simd::of_this_cpu();
+inline detail::simd::InstructionSet wanted_instruction_set() {
+  using detail::simd::InstructionSet;
+  const InstructionSet best = detail::simd::of_this_cpu();
   const char* chosen = std::getenv("HINGE_ISA");
   if (chosen == nullptr || *chosen == '\0') return best;
-  const auto& names = simd::instruction_set_names;
+  const auto& names = detail::simd::instruction_set_names;
   const auto found = std::find(names.begin(), names.end(), chosen);
   if (found == names.end())
     throw ModelError("HINGE_ISA is '" + std::string(chosen) + "': expected baseline, avx2 or avx512");
   const auto set = static_cast<InstructionSet>(found - names.begin());
   if (set > best)
-    throw ModelError("HINGE_ISA is '" + std::string(chosen) + "', but this CPU has " + std::string(simd::name(best)) +
-                     " at most");
+    throw ModelError("HINGE_ISA is '" + std::string(chosen) + "', but this CPU has " +
+                     std::string(detail::simd::name(best)) + " at most");
   return set;
 }
 
@@ -59,15 +59,15 @@ inline bool file_holds(int file, std::string_view text) {
 /// one, or the other is not there. Answers are the same on all. LoadError: the other program does not hold build_id,
 /// which all programs of one build do; it is not run.
 inline void pick_instruction_set(char** argv, std::string_view build_id) {
-  using simd::InstructionSet;
+  using detail::simd::InstructionSet;
   // The other programs run this too, and are never replaced again.
-  if (simd::compiled_for() != InstructionSet::baseline) return;
+  if (detail::simd::compiled_for() != InstructionSet::baseline) return;
   for (InstructionSet set = wanted_instruction_set(); set != InstructionSet::baseline;
        set = static_cast<InstructionSet>(static_cast<unsigned char>(set) - 1)) {
     std::error_code error;
     const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe", error);
     if (error) return;
-    const std::string other = own.string() + "-" + std::string(simd::name(set));
+    const std::string other = own.string() + "-" + std::string(detail::simd::name(set));
     const int file = ::open(other.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (file < 0 && errno == ENOENT) continue;
     if (file < 0 || !file_holds(file, build_id))

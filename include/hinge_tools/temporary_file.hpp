@@ -22,7 +22,7 @@
 
 namespace hinge::tool {
 
-namespace detail {
+namespace temporary {
 
 /// What a signal handler has to remove. A handler may neither lock nor allocate, so the paths stand in a fixed place.
 struct TemporaryPath {
@@ -50,7 +50,7 @@ inline void remove_temporary_files_on_signals() {
   }
 }
 
-}  // namespace detail
+}  // namespace temporary
 
 /// An empty file beside `target`, under a name that no other program uses: it is created exclusively. It is removed
 /// with the object, and when SIGHUP, SIGINT, SIGTERM or SIGPIPE ends the program, unless it has taken its target's
@@ -59,10 +59,10 @@ class TemporaryFile {
  public:
   /// LoadError naming the target: cannot be created, or 16 exist already.
   explicit TemporaryFile(std::filesystem::path target) : target_(std::move(target)) {
-    for (detail::TemporaryPath& entry : detail::temporary_paths)
+    for (temporary::TemporaryPath& entry : temporary::temporary_paths)
       if (bool taken = false; entry_ == nullptr && entry.taken.compare_exchange_strong(taken, true)) entry_ = &entry;
     if (entry_ == nullptr) throw LoadError(target_.string() + ": cannot be written: too many files at once");
-    detail::remove_temporary_files_on_signals();
+    temporary::remove_temporary_files_on_signals();
     try {
       create();
     } catch (...) {
@@ -119,7 +119,7 @@ class TemporaryFile {
   }
 
   std::filesystem::path target_;
-  detail::TemporaryPath* entry_ = nullptr;
+  temporary::TemporaryPath* entry_ = nullptr;
 };
 
 }  // namespace hinge::tool

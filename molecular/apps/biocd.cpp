@@ -60,8 +60,8 @@ Exit run(int argc, char** argv) {
   std::function<Exit(const Options&)> command;
   CLI::App app{"biocd: self-collision of proteins and other molecules as articulated mechanisms"};
   app.footer(footer);
-  app.set_version_flag(
-      "--version", fmt::format("biocd {} ({})", hinge::version_string, hinge::simd::name(hinge::simd::compiled_for())));
+  app.set_version_flag("--version", fmt::format("biocd {} ({})", hinge::version_string,
+                                                hinge::detail::simd::name(hinge::detail::simd::compiled_for())));
   app.require_subcommand(1);
 
   CLI::App* info = app.add_subcommand("info", "what the file holds, its degrees of freedom and rigid groups");

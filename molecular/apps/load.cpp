@@ -90,7 +90,7 @@ void explain(const Options& options, const Job& job) {
   const std::size_t type_i = t.matrix.type(a), type_j = t.matrix.type(b);
   const hinge::Point p{s.models.front()[i]}, q{s.models.front()[j]};
   const double threshold = t.between(type_i, type_j);
-  const bool closer = hinge::closer_as_written(p, q, threshold);
+  const bool closer = hinge::detail::closer_as_written(p, q, threshold);
 
   fmt::print("pair {} {} - {} {}\n", i, label(s, i), j, label(s, j));
   fmt::print("  types        {} - {} ({} v{}, {}, hydrogen-bond rule {})\n", t.type_names[type_i], t.type_names[type_j],

@@ -130,7 +130,7 @@ class BodyReader {
   static hinge::Mat3 turned(const Vec3& angles) {
     hinge::Mat3 r = hinge::Mat3::Identity();
     for (int axis = 0; axis < 3; ++axis) {
-      const hinge::SinCos sc = hinge::sincos(angles[axis]);
+      const hinge::detail::SinCos sc = hinge::detail::sincos(angles[axis]);
       const int u = (axis + 1) % 3, v = (axis + 2) % 3;
       hinge::Mat3 turn = hinge::Mat3::Identity();
       turn(u, u) = turn(v, v) = sc.cos;

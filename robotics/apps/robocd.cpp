@@ -168,7 +168,7 @@ Exit run(int argc, char** argv) {
   CLI::App app{"robocd: self-collision of robots as articulated mechanisms"};
   app.footer(footer);
   app.set_version_flag("--version", fmt::format("robocd {} ({})", hinge::version_string,
-                                                hinge::simd::name(hinge::simd::compiled_for())));
+                                                hinge::detail::simd::name(hinge::detail::simd::compiled_for())));
   app.require_subcommand(1);
 
   CLI::App* info = app.add_subcommand("info", "links, joints, rigid groups and tested pairs");

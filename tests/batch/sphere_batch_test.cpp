@@ -84,12 +84,12 @@ struct Tally {
 template <class F>
 void compare(SphereBatch& batch, Single<F>& single, std::span<const double> block, Tally& tally) {
   const std::size_t dof = batch.dof_count(), count = block.size() / dof;
-  simd::Bits expected = 0;
+  detail::simd::Bits expected = 0;
   for (std::size_t k = 0; k < count; ++k) {
     single.update(block.subspan(k * dof, dof));
-    if (single.self_collides()) expected |= simd::Bits{1} << k;
+    if (single.self_collides()) expected |= detail::simd::Bits{1} << k;
   }
-  const simd::Bits answer = batch.each(block);
+  const detail::simd::Bits answer = batch.each(block);
   tally.lanes += count;
   tally.hits += static_cast<std::size_t>(std::popcount(expected));
   tally.wrong += static_cast<std::size_t>(std::popcount(answer ^ expected));

@@ -52,10 +52,10 @@ TEST(FrameLanes, HaveTheBitsOfPoseSource) {
     const auto groups = std::make_shared<const RigidGroups>(model.tree(), selection);
     const std::size_t dof = selection.size(), count = 1 + random.below(16);
     const std::vector<double> block = neighbours(random, dof, count, 3.0);
-    FrameLanes lanes(*groups);
+    detail::FrameLanes lanes(*groups);
     lanes.set(block, dof, [](GroupId) {});
-    PoseSource single(groups, dof);
-    for (std::size_t k = 0; k < FrameLanes::size; ++k) {
+    detail::PoseSource single(groups, dof);
+    for (std::size_t k = 0; k < detail::FrameLanes::size; ++k) {
       single.set_configuration(std::span(block).subspan(std::min(k, count - 1) * dof, dof));
       for (std::size_t g = 0; g < groups->size(); ++g)
         ASSERT_TRUE(lanes.pose(id<GroupId>(g), k) == single.pose(id<GroupId>(g))) << round << " " << k << " " << g;
@@ -80,7 +80,7 @@ void compare(const Model<P>& model, Random& random, BatchCounts& total, Tally& t
     const std::size_t count = dof == 0 ? 1 : 1 + random.below(16);
     std::vector<double> block = neighbours(random, dof, count, spread);
     for (int step = 0; step < 3; ++step) {  // on the way, where lists are kept
-      const simd::Bits hit = batch.collides(block);
+      const detail::simd::Bits hit = batch.collides(block);
       std::vector<std::vector<Hit>> hits(count);
       batch.collisions(block, [&](std::size_t k, const Hit& h) { hits[k].push_back(h); });
       for (std::size_t k = 0; k < count; ++k) {
@@ -171,9 +171,9 @@ TEST(StateBatch, AnswersAsSingleQueriesDoBetweenNeighbouringDoubles) {
       (at(middle) == first ? low : high) = middle;
     }
     std::vector<double> block;
-    simd::Bits expected = 0;
+    detail::simd::Bits expected = 0;
     for (std::size_t k = 0; k < 16; ++k) {
-      expected |= (at(low + (static_cast<double>(k) - 7.0) * 0x1p-54) ? simd::Bits{1} : 0) << k;
+      expected |= (at(low + (static_cast<double>(k) - 7.0) * 0x1p-54) ? detail::simd::Bits{1} : 0) << k;
       block.insert(block.end(), q.begin(), q.end());
     }
     EXPECT_EQ(batch.collides(block), expected) << round;
@@ -199,7 +199,7 @@ TEST(StateBatch, AnswersAsSingleQueriesDoAtAnySize) {
       for (std::size_t k = 0; k < dof; ++k) centre.push_back(random.uniform(-2.0, 2.0) * (k == 1 ? unit : 1.0));
       for (std::size_t k = 0; k < 16 * dof; ++k)
         block.push_back(centre[k % dof] + random.uniform(-0.01, 0.01) * (k % dof == 1 ? unit : 1.0));
-      const simd::Bits hit = batch.collides(block);
+      const detail::simd::Bits hit = batch.collides(block);
       for (std::size_t k = 0; k < 16; ++k) {
         single.update(std::span(block).subspan(k * dof, dof));
         EXPECT_EQ((hit >> k & 1U) != 0, single.self_collides()) << round << " " << k;
@@ -220,7 +220,7 @@ TEST(StateBatch, RefusesWhatASingleQueryRefusesAndGoesOn) {
     }
     return std::string();
   };
-  const simd::Bits before = batch.collides(good);
+  const detail::simd::Bits before = batch.collides(good);
   std::vector<double> bad = good;
   bad[6] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(refusal(bad), "configuration 1 of the block, value 2 is nan, expected a finite number");

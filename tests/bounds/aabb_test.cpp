@@ -16,8 +16,8 @@ using test::Random;
 
 TEST(Round, GivesTheNeighbouringDoubles) {
   for (const double x : {0.0, -0.0, 1.0, -1.0, 0x1p-1074, -0x1p-1074, 0x1p-1022, 1e300, -1e300, 3.7}) {
-    EXPECT_EQ(next_up(x), std::nextafter(x, std::numeric_limits<double>::infinity()));
-    EXPECT_EQ(next_down(x), std::nextafter(x, -std::numeric_limits<double>::infinity()));
+    EXPECT_EQ(detail::next_up(x), std::nextafter(x, std::numeric_limits<double>::infinity()));
+    EXPECT_EQ(detail::next_down(x), std::nextafter(x, -std::numeric_limits<double>::infinity()));
   }
 }
 

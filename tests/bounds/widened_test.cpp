@@ -11,7 +11,8 @@ namespace hinge {
 namespace widened_test {
 
 [[gnu::noinline]] std::array<double, 3> through_floats(const double* x) {
-  return {widened(static_cast<float>(x[0])), widened(static_cast<float>(x[1])), widened(static_cast<float>(x[2]))};
+  return {detail::widened(static_cast<float>(x[0])), detail::widened(static_cast<float>(x[1])),
+          detail::widened(static_cast<float>(x[2]))};
 }
 
 TEST(Widened, IsTheRoundedNumberWhereTwoAreConvertedAtOnce) {

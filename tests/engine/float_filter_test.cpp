@@ -25,7 +25,7 @@ namespace hinge {
 namespace float_filter_test {
 
 using test::Random;
-constexpr std::size_t n = simd::width;
+constexpr std::size_t n = detail::simd::width;
 constexpr double u = 0x1p-24;
 
 /// One model as engine/wide keeps it, all of it placed.
@@ -33,9 +33,9 @@ struct Placed {
   Placed(const Model<Point>& model, bool inside_groups, double clearance = 0.0)
       : selected(std::make_shared<const SelectedModel<Point>>(model, DofSelection::all(model.tree()))),
         placement(selected),
-        side(std::make_shared<const WideParts<Point>>(
-                 inside_groups ? BlockLayout::by_index(*selected) : BlockLayout::by_groups(*selected),
-                 ThresholdClasses(UniformClearance(clearance), model.size()), *selected),
+        side(std::make_shared<const detail::WideParts<Point>>(
+                 inside_groups ? detail::BlockLayout::by_index(*selected) : detail::BlockLayout::by_groups(*selected),
+                 detail::ThresholdClasses(UniformClearance(clearance), model.size()), *selected),
              *selected, AdmitAll{}, inside_groups) {}
 
   void make() {
@@ -52,7 +52,7 @@ struct Placed {
 
   std::shared_ptr<const SelectedModel<Point>> selected;
   Placement<Point> placement;
-  WideSide<Point> side;
+  detail::WideSide<Point> side;
 };
 
 /// Worst share of the band that an error took, by what the two points belong to.
@@ -75,7 +75,7 @@ void check_pairs(Placed& m, Random& random, std::size_t count, Worst& worst) {
     const std::size_t i = random.below(m.slots());
     const std::size_t b = random.below(m.slots()) / n;
     float squared[n];
-    Batch<Point>::One(m.side.state().packed(static_cast<std::uint32_t>(i / n)) + i % n)
+    detail::Batch<Point>::One(m.side.state().packed(static_cast<std::uint32_t>(i / n)) + i % n)
         .squared_distances(m.side.state().packed(static_cast<std::uint32_t>(b)))
         .store(squared);
     const Vec3 x = m.at(i);
@@ -89,9 +89,9 @@ void check_pairs(Placed& m, Random& random, std::size_t count, Worst& worst) {
 
 /// How far points stick out of their boxes: two boxes may take half of the band each.
 void check_boxes(Placed& m, Worst& worst) {
-  const BlockLayout& layout = m.side.layout();
+  const detail::BlockLayout& layout = m.side.layout();
   const double half_band = m.side.state().band(0.0) / 2;
-  const auto outside = [&](const FloatBox& box, std::uint32_t block) {
+  const auto outside = [&](const detail::FloatBox& box, std::uint32_t block) {
     double out = 0.0;
     for (std::size_t lane = 0; lane < n; ++lane)
       for (int k = 0; k < 3; ++k) {
@@ -102,15 +102,15 @@ void check_boxes(Placed& m, Worst& worst) {
     return out / half_band;
   };
   for (std::size_t w = 0; w < layout.units.size(); ++w) {
-    const Unit& unit = layout.units[w];
+    const detail::Unit& unit = layout.units[w];
     for (std::uint32_t b = unit.first_block; b < unit.first_block + unit.block_count; ++b) {
       worst.take(worst.boxes, outside(m.side.state().units().get(w), b));
       if (unit.block_count == 1) continue;
       const std::uint32_t child = b - unit.first_block;
       const auto& levels = m.side.parts().rigid.tree[w].levels;
       std::uint32_t place = child;
-      for (const BlockTree::Level& level : levels) {
-        const BoxRow& row =
+      for (const detail::BlockTree::Level& level : levels) {
+        const detail::BoxRow& row =
             m.side.state().tree_row(w, level.first_row + place / static_cast<std::uint32_t>(n), m.placement);
         worst.take(worst.trees, outside(row.get(place % n), b));
         place /= static_cast<std::uint32_t>(n);
@@ -234,7 +234,7 @@ TEST(FloatFilter, BandCoversTwoModels) {
           b(model_of(3, repetition % 3 == 0 ? 5 : 40, random.uniform(0.1, 20), away, random), false);
       turn(a, offset, 1.0, random);
       turn(b, away, 1.0, random);
-      const Into<Point> into(a.side, b.side);
+      const detail::Into<Point> into(a.side, b.side);
       const double scale = b.side.layout().scale, ratio = static_cast<double>(into.scale);
       for (int k = 0; k < 500; ++k) {
         const std::size_t i = random.below(a.slots()), block = random.below(b.slots()) / n;
@@ -262,7 +262,8 @@ TEST(FloatFilter, ArithmeticTakesLessThanItsShare) {
   double thresholds = 0.0, extras = 0.0, distances = 0.0, roots = 0.0;
   for (int k = 0; k < 2'000'000; ++k) {
     const double t = std::exp(random.uniform(-8, 8)), m = t * std::exp(random.uniform(-20, 2));
-    const float row = float_above(t), margin = float_above(m), more = float_above(t * random.uniform(0, 1));
+    const float row = detail::float_above(t), margin = detail::float_above(m),
+                more = detail::float_above(t * random.uniform(0, 1));
     const float near = row + margin, square = near * near;
     const double whole = static_cast<double>(row) + static_cast<double>(margin);
     thresholds = std::max(thresholds, (whole - std::sqrt(static_cast<double>(square))) / (u * whole));

@@ -19,12 +19,12 @@ namespace lazy_tree_test {
 
 using test::Random;
 
-void split_all(LazyTree& tree) {
+void split_all(detail::LazyTree& tree) {
   for (std::uint32_t k = 0; k < tree.node_count(); ++k)
     if (!tree.node(k).is_leaf()) tree.split(k);
 }
 
-std::uint32_t depth(const LazyTree& tree) {
+std::uint32_t depth(const detail::LazyTree& tree) {
   std::uint32_t deepest = 0;
   for (std::uint32_t k = 0; k < tree.node_count(); ++k) deepest = std::max(deepest, tree.node(k).depth);
   return deepest;
@@ -37,7 +37,7 @@ TEST(LazyTree, IsWellFormedForSizesOneToForty) {
   for (std::size_t n = 1; n <= 40; ++n) {
     std::vector<Aabb> boxes;
     for (std::size_t k = 0; k < n; ++k) boxes.push_back(Aabb(random.vector(5.0)).inflated(random.uniform(0.0, 2.0)));
-    LazyTree tree;
+    detail::LazyTree tree;
     tree.reset(boxes);
     EXPECT_EQ(tree.node_count(), 1U);
     split_all(tree);
@@ -49,7 +49,7 @@ TEST(LazyTree, IsWellFormedForSizesOneToForty) {
 TEST(LazyTree, SplitsAtTheMiddleOfTheWidestAxis) {
   std::vector<Aabb> boxes;
   for (const double x : {0.0, 1.0, 2.0, 9.0}) boxes.emplace_back(Vec3(x, 0.0, 0.0), Vec3(x + 0.5, 1.0, 1.0));
-  LazyTree tree;
+  detail::LazyTree tree;
   tree.reset(boxes);
   ASSERT_TRUE(tree.split(0));
   EXPECT_FALSE(tree.split(0));
@@ -60,7 +60,7 @@ TEST(LazyTree, SplitsAtTheMiddleOfTheWidestAxis) {
 TEST(LazyTree, PutsALongBoxAloneToTheLeft) {
   std::vector<Aabb> boxes{Aabb(Vec3(0, 0, 0), Vec3(1, 1, 1)), Aabb(Vec3(1, 0, 0), Vec3(8, 1, 1)),
                           Aabb(Vec3(9, 0, 0), Vec3(10, 1, 1))};
-  LazyTree tree;
+  detail::LazyTree tree;
   tree.reset(boxes);
   tree.split(0);
   ASSERT_TRUE(tree.node(1).is_leaf());
@@ -78,13 +78,13 @@ TEST(LazyTree, StaysWithinItsDepthBoundOnClusteredInput) {
     inputs[3].push_back(Aabb(Vec3(static_cast<double>(k), 0, 0)));                       // on a line
   }
   for (const auto& boxes : inputs) {
-    LazyTree tree;
+    detail::LazyTree tree;
     tree.reset(boxes);
     split_all(tree);
     EXPECT_LE(depth(tree), depth_bound(n));
     EXPECT_TRUE(check_well_formed(tree, boxes));
   }
-  LazyTree line;
+  detail::LazyTree line;
   line.reset(inputs[3]);
   split_all(line);
   EXPECT_LE(depth(line), 15U + 6U) << "natural input never reaches the guard";
@@ -95,9 +95,9 @@ TEST(Traversal, VisitsEveryOverlappingPairOnceAndNoLeafWithItself) {
   for (const std::size_t n : {1U, 2U, 3U, 50U}) {
     std::vector<Aabb> boxes;
     for (std::size_t k = 0; k < n; ++k) boxes.push_back(Aabb(random.vector(3.0)).inflated(0.5));
-    LazyTree tree;
+    detail::LazyTree tree;
     tree.reset(boxes);
-    NodePairs stack;
+    detail::NodePairs stack;
     QueryCounts counts;
     std::multiset<std::pair<std::uint32_t, std::uint32_t>> found, expected;
     traverse(

@@ -29,9 +29,10 @@ namespace tree_test {
 using test::Random;
 
 /// Walks a tree; every box must hold what is below it. Returns the primitives of its leaves.
-std::vector<std::uint32_t> collect(const TreeStore& store, BoxId root, const std::vector<BuildItem>& items) {
+std::vector<std::uint32_t> collect(const detail::TreeStore& store, detail::BoxId root,
+                                   const std::vector<detail::BuildItem>& items) {
   std::vector<std::uint32_t> found;
-  std::vector<std::pair<BoxId, std::vector<BoxId>>> stack{{root, {}}};
+  std::vector<std::pair<detail::BoxId, std::vector<detail::BoxId>>> stack{{root, {}}};
   while (!stack.empty()) {
     auto [id, above] = stack.back();
     stack.pop_back();
@@ -40,7 +41,7 @@ std::vector<std::uint32_t> collect(const TreeStore& store, BoxId root, const std
     if (!store.is_leaf(id)) {
       EXPECT_NE(store.nodes[id / 16].inner >> id % 16 & 1U, 0U);
       const std::uint32_t node = store.child(id);
-      for (BoxId lane = 0; lane < 16; ++lane)
+      for (detail::BoxId lane = 0; lane < 16; ++lane)
         if ((store.nodes[node].used >> lane & 1U) != 0) stack.push_back({node * 16 + lane, above});
       continue;
     }
@@ -49,8 +50,8 @@ std::vector<std::uint32_t> collect(const TreeStore& store, BoxId root, const std
       const std::uint32_t primitive = store.slots[leaf * 16 + k];
       if ((store.real[leaf] >> k & 1U) == 0) continue;
       found.push_back(primitive);
-      for (const BoxId box_id : above) {
-        const TreeBox box = store.box(box_id);
+      for (const detail::BoxId box_id : above) {
+        const detail::TreeBox box = store.box(box_id);
         for (std::size_t axis = 0; axis < 3; ++axis) {
           const auto middle = static_cast<double>(box.middle[axis]), half = static_cast<double>(box.half[axis]);
           EXPECT_LE(middle - half, static_cast<double>(items[primitive].lower[axis]));
@@ -63,19 +64,19 @@ std::vector<std::uint32_t> collect(const TreeStore& store, BoxId root, const std
   return found;
 }
 
-void expect_whole(std::vector<BuildItem> items, std::size_t deepest) {
-  const std::vector<BuildItem> as_given = items;
-  TreeStore store;
-  TreeBuilder builder;
-  const TreeBuilder::Tree tree = builder.build(items, store);
+void expect_whole(std::vector<detail::BuildItem> items, std::size_t deepest) {
+  const std::vector<detail::BuildItem> as_given = items;
+  detail::TreeStore store;
+  detail::TreeBuilder builder;
+  const detail::TreeBuilder::Tree tree = builder.build(items, store);
   const std::vector<std::uint32_t> found = collect(store, tree.root, as_given);
   ASSERT_EQ(found.size(), as_given.size());
   for (std::uint32_t k = 0; k < found.size(); ++k) EXPECT_EQ(found[k], k);
   EXPECT_LE(tree.depth, deepest);
 }
 
-BuildItem item(std::size_t k, const Vec3& at, double size) {
-  BuildItem made{{}, {}, static_cast<std::uint32_t>(k)};
+detail::BuildItem item(std::size_t k, const Vec3& at, double size) {
+  detail::BuildItem made{{}, {}, static_cast<std::uint32_t>(k)};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     made.lower[axis] = static_cast<float>(at[static_cast<Eigen::Index>(axis)] - size);
     made.upper[axis] = static_cast<float>(at[static_cast<Eigen::Index>(axis)] + size);
@@ -87,14 +88,14 @@ TEST(StaticTree, HoldsEveryPrimitiveOnceInsideAllItsBoxes) {
   Random random(11);
   for (const std::size_t n : {1U, 2U, 16U, 17U, 100U, 255U, 256U, 257U, 5000U}) {
     SCOPED_TRACE(n);
-    std::vector<BuildItem> items;
+    std::vector<detail::BuildItem> items;
     for (std::size_t k = 0; k < n; ++k) items.push_back(item(k, random.vector(30.0), random.uniform(0.0, 1.0)));
     expect_whole(items, n <= 16 ? 1 : n <= 256 ? 4 : 8);
   }
 }
 
 TEST(StaticTree, StaysShallowOnInputThatCannotBeCutWell) {
-  std::vector<BuildItem> one_point, line, exponential;
+  std::vector<detail::BuildItem> one_point, line, exponential;
   constexpr std::size_t n = 20'000;
   for (std::size_t k = 0; k < n; ++k) {
     one_point.push_back(item(k, Vec3(1, 2, 3), 0.5));
@@ -111,7 +112,7 @@ TEST(EarlierParts, KeepWhatIsLeftOutInMemoryForThatAlone) {
   for (const std::size_t n : {1U, 16U, 17U, 100U, 1000U})
     for (const std::size_t one_in : {2U, 30U, 3000U}) {
       SCOPED_TRACE(testing::Message() << "seed 12, " << n << " parts, one pair in " << one_in << " left out");
-      EarlierParts parts;
+      detail::EarlierParts parts;
       std::vector<std::vector<bool>> tested(n, std::vector<bool>(n, false));
       for (std::size_t p = 0; p < n; ++p) {
         const std::size_t end = p - random.below(std::min<std::size_t>(p + 1, 20));
@@ -127,7 +128,7 @@ TEST(EarlierParts, KeepWhatIsLeftOutInMemoryForThatAlone) {
     }
   // A chain of links, each left out with its neighbour and the base.
   const std::size_t n = 100'000;
-  EarlierParts chain;
+  detail::EarlierParts chain;
   for (std::size_t p = 0; p < n; ++p) {
     chain.add(p);
     if (p > 0) chain.leave_out(0);
@@ -225,7 +226,7 @@ TEST(TreeQueries, EqualBruteForceWhereLinksOfAGroupAreTestedWithOthers) {
     const DifferentLinks filter({model.links().begin(), model.links().end()}, ignored);
     Hierarchy<Triangle, DifferentLinks, UniformClearance, Wide> tested(model, filter, UniformClearance(0.0));
     Hierarchy<Triangle, DifferentLinks, UniformClearance, Brute> reference(model, filter, UniformClearance(0.0));
-    const TreeParts<Triangle> parts(tested.model(), filter, UniformClearance(0.0));
+    const detail::TreeParts<Triangle> parts(tested.model(), filter, UniformClearance(0.0));
     merged += parts.alike.size() == 0 ? 0 : 1;
     std::vector<double> q(tested.dof_count());
     for (int step = 0; step < 8; ++step) {

@@ -258,7 +258,8 @@ TEST(WideSizes, EqualsBruteOnLargeModels) {
 /// Small groups, groups of a row of blocks, of the most that go without a tree of their own, and 4097 points, whose
 /// boxes stand in three levels.
 TEST(WideSizes, EqualsBruteWhereGroupsHaveTrees) {
-  constexpr std::size_t row = simd::width * simd::width, flat = BlockLayout::largest_flat_group * simd::width;
+  constexpr std::size_t row = detail::simd::width * detail::simd::width,
+                        flat = detail::BlockLayout::largest_flat_group * detail::simd::width;
   Random random(4);
   std::size_t turn = 0;
   for (const std::vector<std::size_t>& links : {std::vector<std::size_t>{0, row + 1},
@@ -373,7 +374,7 @@ TEST(WideSizes, PassesOverTypesWithoutThresholdsBetweenModels) {
   QueryOptions options;
   options.counts = &counts;
   EXPECT_EQ(a.collisions(b, AdmitAll{}, options).size(), 4U);
-  EXPECT_LE(counts.pairs_tested + counts.boxes_tested, 16 * simd::width);
+  EXPECT_LE(counts.pairs_tested + counts.boxes_tested, 16 * detail::simd::width);
 }
 
 }  // namespace wide_sizes_test

@@ -18,7 +18,7 @@
 #if __has_include(<boost/multiprecision/cpp_int.hpp>)
 #include <boost/multiprecision/cpp_int.hpp>
 
-namespace hinge::exact {
+namespace hinge::detail::exact {
 namespace orient_test {
 
 using test::Random;
@@ -209,7 +209,7 @@ TEST(Orient, IsRightWhereDoublesEnd) {
 }
 
 }  // namespace orient_test
-}  // namespace hinge::exact
+}  // namespace hinge::detail::exact
 
 #else
 TEST(Orient, NeedsBoostMultiprecision) { GTEST_SKIP() << "boost/multiprecision was not found (libboost-dev)"; }

@@ -51,7 +51,7 @@ std::vector<Vec3> exponentially_spaced(std::size_t n) {
 void expect_bounded_depth(const std::vector<Vec3>& points) {
   std::vector<Aabb> boxes;
   for (const Vec3& x : points) boxes.push_back(Aabb(x).inflated(0.5));
-  LazyTree tree;
+  detail::LazyTree tree;
   tree.reset(boxes);
   std::uint32_t depth = 0;
   for (std::uint32_t k = 0; k < tree.node_count(); ++k) {

@@ -12,7 +12,7 @@
 #include "isa/mechanism.hpp"
 #include "isa/ties.hpp"
 
-const unsigned char needed_instruction_set = static_cast<unsigned char>(hinge::simd::compiled_for());
+const unsigned char needed_instruction_set = static_cast<unsigned char>(hinge::detail::simd::compiled_for());
 
 namespace hinge::isa {
 namespace {
@@ -63,7 +63,7 @@ int compare_ties(const char* what, std::uint64_t seed, Grid grid, const Model<P>
 int compare_answers() {
   using namespace hinge;
   using namespace hinge::isa;
-  std::printf("compiled for %s\n", simd::name(simd::compiled_for()).data());
+  std::printf("compiled for %s\n", detail::simd::name(detail::simd::compiled_for()).data());
   int different = 0;
   {
     Random random(11);

@@ -3,7 +3,7 @@
 #pragma once
 
 extern "C" {
-/// The hinge::simd::InstructionSet answers.cpp was compiled for, as a number. Data: looking at it runs no code.
+/// The hinge::detail::simd::InstructionSet answers.cpp was compiled for, as a number. Data: looking at it runs no code.
 extern const unsigned char needed_instruction_set;
 
 /// Asks everything and prints what differs from the literals; the number of differences.

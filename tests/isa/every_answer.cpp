@@ -17,7 +17,7 @@
 #include "isa/mechanism.hpp"
 #include "isa/ties.hpp"
 
-const unsigned char needed_instruction_set = static_cast<unsigned char>(hinge::simd::compiled_for());
+const unsigned char needed_instruction_set = static_cast<unsigned char>(hinge::detail::simd::compiled_for());
 
 namespace hinge::isa {
 namespace {

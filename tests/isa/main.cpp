@@ -7,7 +7,7 @@
 #include "isa/answers.hpp"
 
 int main() {
-  const auto best = static_cast<unsigned>(hinge::simd::of_this_cpu());
+  const auto best = static_cast<unsigned>(hinge::detail::simd::of_this_cpu());
   if (needed_instruction_set > best) {
     std::printf("skipped: compiled for instruction set %u, this CPU has %u (baseline 0, avx2 1, avx512 2)\n",
                 static_cast<unsigned>(needed_instruction_set), best);

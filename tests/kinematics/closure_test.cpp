@@ -69,7 +69,7 @@ std::vector<Vec3> boat() {
   return {{0, y, z}, {a, bond / 2, 0}, {a, -bond / 2, 0}, {0, -y, z}, {-a, -bond / 2, 0}, {-a, bond / 2, 0}};
 }
 
-std::size_t held(const KinematicTree& tree, const GeometryError& error = {}) {
+std::size_t held(const KinematicTree& tree, const detail::GeometryError& error = {}) {
   return rigid_cycle_dofs(tree, DofSelection::all(tree), error).size();
 }
 
@@ -217,7 +217,7 @@ TEST(ClosureSolver, RefusesBadNumbers) {
 TEST(RigidCycles, HoldTheChairButNotTheBoat) {
   EXPECT_EQ(held(ring(chair())), 5U);
   EXPECT_EQ(held(ring(boat())), 0U);
-  const GeometryError decimals{8.7e-4, 1.5e-3};
+  const detail::GeometryError decimals{8.7e-4, 1.5e-3};
   EXPECT_EQ(held(ring(chair()), decimals), 5U);
   // The boat as a file has it is rigid if its decimals are taken for exact, and may move if they are not.
   std::vector<Vec3> rounded = boat();
@@ -260,13 +260,14 @@ TEST(RigidCycles, AreFoundWhereSeveralCyclesTogetherHoldThem) {
   tree.add_link(LinkId{2}, Revolute{Vec3::UnitX(), Vec3::Zero(), {}, {}});
   EXPECT_EQ(held(tree), 0U);
   tree.add_closure({LinkId{5}, LinkId{1}, {x[1], x[4]}, {x[1], x[4]}, "across"});
-  const std::vector<DofId> dofs = rigid_cycle_dofs(tree, DofSelection::all(tree));
+  const std::vector<DofId> dofs = detail::rigid_cycle_dofs(tree, DofSelection::all(tree));
   EXPECT_EQ(dofs.size(), 6U);
   EXPECT_EQ(std::count(dofs.begin(), dofs.end(), DofId{6}), 0);
   // A blocked DOF is none: the ring of seven with one of its turns not selected is held.
   const KinematicTree seven = ring(x);
-  EXPECT_EQ(rigid_cycle_dofs(seven, DofSelection(seven, {DofId{0}, DofId{1}, DofId{2}, DofId{4}, DofId{5}})).size(),
-            5U);
+  EXPECT_EQ(
+      detail::rigid_cycle_dofs(seven, DofSelection(seven, {DofId{0}, DofId{1}, DofId{2}, DofId{4}, DofId{5}})).size(),
+      5U);
 }
 
 TEST(RigidCycles, AreNoneWhereTheReferenceIsOpen) {

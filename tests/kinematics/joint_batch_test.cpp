@@ -132,7 +132,7 @@ struct Mechanism {
   KinematicTree tree;
   DofSelection selection;
   std::shared_ptr<const RigidGroups> groups;
-  PoseSource source;
+  detail::PoseSource source;
   std::vector<double> q;
 };
 
@@ -141,22 +141,23 @@ constexpr std::array<std::size_t, 14> joint_counts = {0, 1, 2, 7, 8, 9, 15, 16, 
 TEST(JointBatch, HasTheBitsOfEachJointsMotion) {
   Random random(1);
   for (int round = 0; round < 20000; ++round) {
-    const std::size_t used = 1 + random.below(JointBatch::size);
+    const std::size_t used = 1 + random.below(detail::JointBatch::size);
     std::vector<double> q(1 + random.below(20));
     for (double& value : q) value = any_value(random);
     KinematicTree tree;  // makes the axes unit vectors
-    JointBatch batch;
+    detail::JointBatch batch;
     std::vector<std::size_t> position;
     for (std::size_t k = 0; k < used; ++k) {
       position.push_back(random.below(q.size()));
       batch.set(k, tree.joint(tree.add_link(world, any_joint(random))), position.back());
     }
-    JointMotions motions;
+    detail::JointMotions motions;
     compute_motions(batch, q.data(), motions);
     for (std::size_t k = 0; k < used; ++k) {
       const Joint& joint = tree.joint(id<LinkId>(1 + k));
       Bits found;
-      for (std::size_t e = 0; e < 12; ++e) found[e] = std::bit_cast<std::uint64_t>(motions[e * JointBatch::size + k]);
+      for (std::size_t e = 0; e < 12; ++e)
+        found[e] = std::bit_cast<std::uint64_t>(motions[e * detail::JointBatch::size + k]);
       ASSERT_EQ(found, bits_of(motion(joint, q[position[k]]))) << "round " << round << ", value " << q[position[k]];
     }
   }
@@ -187,7 +188,7 @@ TEST(PoseSource, HasTheseBitsWhateverChangedAndWasAskedBefore) {
       for (int step = 0; step < 40; ++step) {
         const std::size_t n = m.q.size();
         // None, one, and about the share up to which frames are kept from before.
-        const std::size_t few = n / few_changes_divisor;
+        const std::size_t few = n / detail::few_changes_divisor;
         const std::array<std::size_t, 6> counts = {0, 1, few, few + 1, n / 20 + 1, n};
         for (std::size_t changes = counts[random.below(counts.size())]; changes > 0 && n > 0; --changes)
           m.change(random.below(n), random);

@@ -87,7 +87,7 @@ TEST(PoseSource, EqualsTheProductOfTransformsForEverySelection) {
     const KinematicTree& tree = model.tree();
     const DofSelection selection = test::random_selection(tree, random);
     const auto groups = std::make_shared<const RigidGroups>(tree, selection);
-    PoseSource source(groups, selection.size());
+    detail::PoseSource source(groups, selection.size());
     std::vector<double> q(selection.size()), full(tree.dof_count(), 0.0);
     for (std::size_t k = 0; k < q.size(); ++k) full[index(selection.dofs()[k])] = q[k] = random.uniform(-3.0, 3.0);
     source.set_configuration(q);
@@ -116,7 +116,7 @@ TEST(PoseSource, KnowsWhatMovedAndWhatMovedTogether) {
                b = tree.add_link(a, Revolute{Vec3::UnitX(), Vec3(1, 0, 0), {}, {}});
   tree.add_link(b, Revolute{Vec3::UnitY(), Vec3(2, 0, 0), {}, {}});
   const DofSelection all = DofSelection::all(tree);
-  PoseSource source(std::make_shared<const RigidGroups>(tree, all), 3);
+  detail::PoseSource source(std::make_shared<const RigidGroups>(tree, all), 3);
   const double first[] = {0.1, 0.2, 0.3}, second[] = {0.1, 0.5, 0.3};
   source.set_configuration(first);
   EXPECT_TRUE(source.moved(id<GroupId>(1)));
@@ -134,7 +134,7 @@ TEST(PoseSource, CallsEverythingMovedOnceItWasToldToForget) {
   KinematicTree tree;
   tree.add_link(world, Revolute{});
   const DofSelection all = DofSelection::all(tree);
-  PoseSource source(std::make_shared<const RigidGroups>(tree, all), 1);
+  detail::PoseSource source(std::make_shared<const RigidGroups>(tree, all), 1);
   const std::vector<Pose> poses(2);
   source.set_poses(poses);
   source.set_poses(poses);
@@ -149,7 +149,7 @@ TEST(PoseSource, RefusesBadInputAndKeepsItsState) {
   KinematicTree tree;
   tree.add_link(world, Revolute{});
   const DofSelection all = DofSelection::all(tree);
-  PoseSource source(std::make_shared<const RigidGroups>(tree, all), 1);
+  detail::PoseSource source(std::make_shared<const RigidGroups>(tree, all), 1);
   const double good[] = {0.5}, bad[] = {nan}, infinite[] = {INFINITY};
   source.set_configuration(good);
   const Pose before = source.pose(id<GroupId>(1));
@@ -170,7 +170,7 @@ TEST(PoseSource, IsDoubleAndWithoutRecursionOnAHundredThousandJoints) {
   for (std::size_t k = 0; k < n; ++k)
     parent = tree.add_link(parent, Revolute{k % 2 == 0 ? Vec3::UnitX() : Vec3::UnitZ(), Vec3::Zero(), step, {}});
   const DofSelection all = DofSelection::all(tree);
-  PoseSource source(std::make_shared<const RigidGroups>(tree, all), n);
+  detail::PoseSource source(std::make_shared<const RigidGroups>(tree, all), n);
   // Straight: turns about x only keep the chain on its line.
   std::vector<double> q(n, 0.0);
   for (std::size_t k = 0; k < n; k += 2) q[k] = 0.3;

@@ -20,10 +20,10 @@ namespace pivot_closure_test {
 using test::Random;
 
 /// Three residues' worth of a chain: directions of bonds at each pivot, peptide units between them.
-OpenChain any_chain(Random& random) {
-  OpenChain chain;
+detail::OpenChain any_chain(Random& random) {
+  detail::OpenChain chain;
   Vec3 at = random.vector(1.0);
-  for (Pivot& pivot : chain.pivots) {
+  for (detail::Pivot& pivot : chain.pivots) {
     pivot.at = at;
     pivot.before = at + 1.46 * random.vector(1.0).normalized();
     pivot.behind = at + 1.53 * random.vector(1.0).normalized();
@@ -35,21 +35,21 @@ OpenChain any_chain(Random& random) {
 }
 
 /// The same as a tree: five turns and the hinge that closes it.
-KinematicTree as_tree(const OpenChain& chain) {
+KinematicTree as_tree(const detail::OpenChain& chain) {
   KinematicTree tree;
   LinkId at = tree.add_link(world, Fixed{});
   const LinkId base = at;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Pivot& p = chain.pivots[k];
+    const detail::Pivot& p = chain.pivots[k];
     at = tree.add_link(at, Revolute{p.at - p.before, p.before, {}, {}});
     if (k < 2) at = tree.add_link(at, Revolute{p.behind - p.at, p.at, {}, {}});
   }
-  const Pivot& last = chain.pivots[2];
+  const detail::Pivot& last = chain.pivots[2];
   tree.add_closure({at, base, {last.at, last.behind}, {chain.end_at, chain.end_behind}, "end"});
   return tree;
 }
 
-double residual(const KinematicTree& tree, const PivotTurns& q) {
+double residual(const KinematicTree& tree, const detail::PivotTurns& q) {
   Pose pose;
   const Closure& closure = tree.closures()[0];
   for (LinkId link = closure.first; link != world; link = tree.parent(link)) {
@@ -80,15 +80,15 @@ TEST(PivotClosures, AllCloseAndHoldTheConformationTheChainWasClosedIn) {
   Random random(21);
   std::size_t most = 0;
   for (int round = 0; round < 300; ++round) {
-    const OpenChain chain = any_chain(random);
+    const detail::OpenChain chain = any_chain(random);
     const KinematicTree tree = as_tree(chain);
     const auto solutions = close_pivots(chain);
     most = std::max(most, solutions.size());
     EXPECT_LE(solutions.size(), 16U);
     EXPECT_EQ(solutions.size() % 2, 0U) << round;  // roots of a periodic function come in pairs
-    for (const PivotTurns& q : solutions) EXPECT_LE(residual(tree, q), 1e-8) << round;
-    EXPECT_TRUE(std::any_of(solutions.begin(), solutions.end(), [](const PivotTurns& q) {
-      return apart(q, PivotTurns{}) < 1e-6;
+    for (const detail::PivotTurns& q : solutions) EXPECT_LE(residual(tree, q), 1e-8) << round;
+    EXPECT_TRUE(std::any_of(solutions.begin(), solutions.end(), [](const detail::PivotTurns& q) {
+      return apart(q, detail::PivotTurns{}) < 1e-6;
     })) << round;
   }
   EXPECT_GE(most, 8U);
@@ -98,7 +98,7 @@ TEST(PivotClosures, AreThoseThatASearchFinds) {
   Random random(22);
   const int rounds = std::getenv("HINGE_TEST_ALL") != nullptr ? 200 : 8;
   for (int round = 0; round < rounds; ++round) {
-    OpenChain chain = any_chain(random);
+    detail::OpenChain chain = any_chain(random);
     const KinematicTree closed = as_tree(chain);
     const auto solutions = close_pivots(chain);
     ClosureSolver solver(closed, DofSelection::all(closed));
@@ -108,7 +108,7 @@ TEST(PivotClosures, AreThoseThatASearchFinds) {
       for (double& value : q) value = random.uniform(-3.1, 3.1);
       if (!solver.close(q)) continue;
       const auto found = std::find_if(solutions.begin(), solutions.end(),
-                                      [&](const PivotTurns& known) { return apart(known, q) < 1e-4; });
+                                      [&](const detail::PivotTurns& known) { return apart(known, q) < 1e-4; });
       EXPECT_NE(found, solutions.end()) << round;
       if (found != solutions.end()) seen[static_cast<std::size_t>(found - solutions.begin())] = true;
     }
@@ -119,12 +119,12 @@ TEST(PivotClosures, AreThoseThatASearchFinds) {
 TEST(PivotClosures, AreTheSameWhereverTheChainStartsFrom) {
   Random random(23);
   for (int round = 0; round < 50; ++round) {
-    const OpenChain chain = any_chain(random);
+    const detail::OpenChain chain = any_chain(random);
     const KinematicTree tree = as_tree(chain);
     // The same chain, opened by turns of its own.
-    PivotTurns by;
+    detail::PivotTurns by;
     for (double& value : by) value = random.uniform(-3.0, 3.0);
-    OpenChain open = chain;
+    detail::OpenChain open = chain;
     std::array<Pose, 6> poses;
     for (std::size_t link = 2; link <= 6; ++link)
       poses[link - 1] = poses[link - 2] * motion(tree.joint(LinkId{static_cast<std::uint32_t>(link)}), by[link - 2]);
@@ -135,9 +135,9 @@ TEST(PivotClosures, AreTheSameWhereverTheChainStartsFrom) {
                       poses[5] * chain.pivots[2].behind};
     const auto from_closed = close_pivots(chain), from_open = close_pivots(open);
     ASSERT_EQ(from_closed.size(), from_open.size()) << round;
-    for (PivotTurns q : from_open) {
+    for (detail::PivotTurns q : from_open) {
       for (std::size_t k = 0; k < q.size(); ++k) q[k] += by[k];
-      EXPECT_TRUE(std::any_of(from_closed.begin(), from_closed.end(), [&](const PivotTurns& other) {
+      EXPECT_TRUE(std::any_of(from_closed.begin(), from_closed.end(), [&](const detail::PivotTurns& other) {
         return apart(q, other) < 1e-6;
       })) << round;
     }
@@ -146,7 +146,7 @@ TEST(PivotClosures, AreTheSameWhereverTheChainStartsFrom) {
 
 TEST(PivotClosures, AreNoneWhereTheEndIsOutOfReach) {
   Random random(24);
-  OpenChain chain = any_chain(random);
+  detail::OpenChain chain = any_chain(random);
   chain.end_at += Vec3(100, 0, 0);
   chain.end_behind += Vec3(100, 0, 0);
   EXPECT_TRUE(close_pivots(chain).empty());

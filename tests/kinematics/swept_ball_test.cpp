@@ -19,13 +19,13 @@ Vec3 random_vector(SampleStream& stream, double scale) {
 }
 
 struct Chain {
-  std::vector<AxisInterval> joints;
+  std::vector<detail::AxisInterval> joints;
   Vec3 start;
 
   Chain(SampleStream& stream, double widest) : start(random_vector(stream, 1.0)) {
     const std::size_t count = 1 + static_cast<std::size_t>(stream.uniform() * 15);
     for (std::size_t k = 0; k < count; ++k) {
-      AxisInterval joint;
+      detail::AxisInterval joint;
       joint.kind = stream.uniform() < 0.25 ? JointKind::prismatic : JointKind::revolute;
       joint.axis = random_vector(stream, 1.0).normalized();
       joint.point = random_vector(stream, 1.0);
@@ -34,14 +34,14 @@ struct Chain {
       joints.push_back(joint);
     }
   }
-  SweptBall swept() const {
-    SweptBall ball(start);
-    for (const AxisInterval& joint : joints) ball.sweep(joint);
+  detail::SweptBall swept() const {
+    detail::SweptBall ball(start);
+    for (const detail::AxisInterval& joint : joints) ball.sweep(joint);
     return ball;
   }
   /// Where x is at one choice of joint values, ends of intervals included; the same joints first.
   Vec3 moved(Vec3 x, SampleStream& stream) const {
-    for (const AxisInterval& joint : joints) {
+    for (const detail::AxisInterval& joint : joints) {
       const double q =
           joint.half * (stream.uniform() < 0.5 ? (stream.uniform() < 0.5 ? -1.0 : 1.0) : 2 * stream.uniform() - 1);
       if (joint.kind == JointKind::prismatic) {
@@ -55,7 +55,7 @@ struct Chain {
 };
 
 /// A convex set holds a point when along no direction the point lies farther.
-void expect_inside(const SweptBall& ball, const Vec3& x, double more, SampleStream& stream) {
+void expect_inside(const detail::SweptBall& ball, const Vec3& x, double more, SampleStream& stream) {
   constexpr double rounding = 1e-12;
   for (int k = 0; k < 20; ++k) {
     const Vec3 n = k == 0 ? Vec3((x - ball.centre()).normalized()) : Vec3(random_vector(stream, 1.0).normalized());
@@ -70,7 +70,7 @@ TEST(SweptBall, HoldsEveryPositionOfItsCentre) {
     SampleStream stream(seed, c);
     // From tiny intervals to more than a full turn.
     const Chain chain(stream, c % 3 == 0 ? 0.01 : c % 3 == 1 ? 0.7 : 7.0);
-    const SweptBall ball = chain.swept();
+    const detail::SweptBall ball = chain.swept();
     for (int k = 0; k < 200; ++k) expect_inside(ball, chain.moved(chain.start, stream), 0.0, stream);
   }
 }
@@ -80,7 +80,7 @@ TEST(SweptBall, TellsHowFarWhatIsCarriedAlongCanTurn) {
   for (std::uint64_t c = 0; c < 300; ++c) {
     SampleStream stream(seed, c);
     const Chain chain(stream, c % 2 == 0 ? 0.05 : 1.0);
-    const SweptBall ball = chain.swept();
+    const detail::SweptBall ball = chain.swept();
     const Vec3 offset = random_vector(stream, 0.5);
     for (int k = 0; k < 100; ++k) {
       SampleStream first = stream, second = stream;
@@ -92,18 +92,18 @@ TEST(SweptBall, TellsHowFarWhatIsCarriedAlongCanTurn) {
 }
 
 TEST(SweptBall, GrowsBySecondOrderAcrossSmallMotions) {
-  AxisInterval joint;
+  detail::AxisInterval joint;
   joint.set_half(1e-3);
-  SweptBall ball(Vec3(1, 0, 0));
+  detail::SweptBall ball(Vec3(1, 0, 0));
   ball.sweep(joint);
   EXPECT_NEAR(ball.generators_along(Vec3::UnitY()), 1e-3, 1e-9);
   EXPECT_LT(ball.growth() + ball.generators_along(Vec3::UnitX()), 1e-6);
 }
 
 TEST(SweptBall, OfAFullTurnLiesOnTheAxis) {
-  AxisInterval joint;
+  detail::AxisInterval joint;
   joint.set_half(3.2);
-  SweptBall ball(Vec3(1, 0, 2));
+  detail::SweptBall ball(Vec3(1, 0, 2));
   ball.sweep(joint);
   EXPECT_EQ(ball.centre(), Vec3(0, 0, 2));
   EXPECT_DOUBLE_EQ(ball.growth(), 1.0);
@@ -112,7 +112,7 @@ TEST(SweptBall, OfAFullTurnLiesOnTheAxis) {
 TEST(SweptBall, SharesAddUpToTheExtent) {
   SampleStream stream(seed, 1);
   const Chain chain(stream, 0.7);
-  const SweptBall ball = chain.swept();
+  const detail::SweptBall ball = chain.swept();
   std::vector<double> shares(chain.joints.size(), 0.0);
   const Vec3 n = Vec3(1, 2, 3).normalized();
   ball.add_shares(n, shares);

@@ -16,7 +16,7 @@
 namespace hinge::molecular {
 namespace biocd_bytes_test {
 
-using simd::InstructionSet;
+using detail::simd::InstructionSet;
 using test::run_biocd;
 using test::Said;
 
@@ -85,8 +85,8 @@ TEST(BiocdBytes, AreTheSameOnEveryInstructionSet) {
   ASSERT_NE(sampled.said().out.find(",0,"), std::string::npos) << "no model is free: the comparison says too little";
   std::string compared;
   for (const InstructionSet set : {InstructionSet::avx2, InstructionSet::avx512}) {
-    const std::string name(simd::name(set)), environment = "HINGE_ISA=" + name;
-    if (set > simd::of_this_cpu()) {
+    const std::string name(detail::simd::name(set)), environment = "HINGE_ISA=" + name;
+    if (set > detail::simd::of_this_cpu()) {
       EXPECT_EQ(run_biocd("--version 2>&1", environment).status, 2) << "this CPU lacks " << name;
       continue;
     }

@@ -137,9 +137,10 @@ TEST(BiocdLoop, GivesTheSameBytesEverywhere) {
   ASSERT_FALSE(expected.out.empty());
   for (const char* more : {" --threads 2", " --threads 8", " --engine brute"})
     EXPECT_TRUE(run_biocd(question + more + " 2>/dev/null").out == expected.out) << more;
-  for (const simd::InstructionSet set : {simd::InstructionSet::avx2, simd::InstructionSet::avx512}) {
-    const std::string name(simd::name(set)), environment = "HINGE_ISA=" + name;
-    if (set > simd::of_this_cpu() ||
+  for (const detail::simd::InstructionSet set :
+       {detail::simd::InstructionSet::avx2, detail::simd::InstructionSet::avx512}) {
+    const std::string name(detail::simd::name(set)), environment = "HINGE_ISA=" + name;
+    if (set > detail::simd::of_this_cpu() ||
         run_biocd("--version", environment).out.find("(" + name + ")") == std::string::npos)
       continue;
     EXPECT_TRUE(run_biocd(question + " 2>/dev/null", environment).out == expected.out) << name;

@@ -62,7 +62,7 @@ TEST(PlacedPart, IsAnsweredInBatchesAsAlone) {
       const auto by = scene.sample(2, 16 * k + lane, 0.02);
       for (std::size_t d = 0; d < centre.size(); ++d) block.push_back(centre[d] + by[d]);
     }
-    const simd::Bits hits = batch.collides(block);
+    const detail::simd::Bits hits = batch.collides(block);
     std::vector<std::vector<Hit>> pairs(16);
     batch.collisions(block, [&](std::size_t lane, const Hit& hit) { pairs[lane].push_back(hit); });
     for (std::size_t lane = 0; lane < 16; ++lane) {

@@ -43,7 +43,7 @@ Structure atoms(std::size_t count) {
 
 /// A chain of atoms about 1.5 angstrom apart, all doubles; floats when `single`.
 Vec3 through_floats(Vec3 x) {
-  for (Eigen::Index k = 0; k < 3; ++k) x[k] = widened(static_cast<float>(x[k]));
+  for (Eigen::Index k = 0; k < 3; ++k) x[k] = detail::widened(static_cast<float>(x[k]));
   return x;
 }
 

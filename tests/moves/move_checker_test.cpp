@@ -239,7 +239,7 @@ TEST(MoveChecker, AnswersForThousandsOfPointsAsFullQueries) {
   // More than 256 blocks: there are boxes above rows of boxes, and rows that move as a whole.
   Random random(seed + 6);
   const Model<Point> model = comb(random, 1400, Vec3::Zero());
-  ASSERT_GT(model.size(), 256 * simd::width);
+  ASSERT_GT(model.size(), 256 * detail::simd::width);
   MoveChecker moves(one_threshold<Chain>(model, 0.3));
   auto reference = one_threshold<Chain>(model, 0.3);
   std::size_t verdicts[2] = {0, 0};

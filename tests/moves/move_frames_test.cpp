@@ -36,9 +36,9 @@ TEST(MoveFrames, StayWithinTheirBound) {
     const RigidGroups& groups = *selected.groups();
     const std::size_t dofs = groups.size() - 1;
     if (dofs == 0) continue;
-    const PlacingBounds bounds(selected, 10.0);
-    MoveCut cut(groups, dofs);
-    MoveFrames moved(selected.groups(), cut.parts()), fresh = moved;
+    const detail::PlacingBounds bounds(selected, 10.0);
+    detail::MoveCut cut(groups, dofs);
+    detail::MoveFrames moved(selected.groups(), cut.parts()), fresh = moved;
     std::vector<double> q(dofs, 0.0);
     moved.set(q, cut.parts());
     for (int step = 0; step < 80; ++step) {

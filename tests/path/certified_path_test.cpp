@@ -450,7 +450,7 @@ TEST(RelativeMotion, BoundsFiniteDifferences) {
     std::vector<double> from(plain.dof_count()), to(from);
     for (double& q : from) q = random.uniform(-pi, pi);
     for (std::size_t k = 0; k < to.size(); ++k) to[k] = from[k] + random.uniform(-3.0, 3.0);
-    GroupRates rates(plain.model());
+    detail::GroupRates rates(plain.model());
     rates.begin(StraightPath(from, to, from.size()));
     plain.update(state(from, to, 0.5));
     rates.set_middle(plain.frames());
@@ -458,15 +458,15 @@ TEST(RelativeMotion, BoundsFiniteDifferences) {
       const auto a = static_cast<std::uint32_t>(random.below(groups)),
                  b = static_cast<std::uint32_t>(random.below(groups));
       if (a == b) continue;
-      RelativeMotion motion;
-      FindRelativeMotion()(rates.groups(), a, b, half, motion);
+      detail::RelativeMotion motion;
+      detail::FindRelativeMotion()(rates.groups(), a, b, half, motion);
       // Lengths in the unit of the model.
       const double scale = rates.scale();
       double change = 0.0, bound = motion.points / scale;
       for (const bool second : {false, true}) {
         const std::uint32_t g = second ? b : a;
         const Vec3 local = random.vector(2.0);
-        const Twist twist = second ? motion.second : motion.first;
+        const detail::Twist twist = second ? motion.second : motion.first;
         plain.update(state(from, to, 0.5));
         const Vec3 at = plain.frames()[g].pose() * local;
         const Mat3 turned = plain.frames()[motion.held].pose().rotation;
@@ -496,7 +496,7 @@ TEST(RelativeMotion, BoundsHowTurningChanges) {
     bool slides = false;
     double speed = 0.0;
   };
-  Change change;
+  detail::Change change;
   pass_joint(Joint{false, 2.0}, 0.1, 2.0, change);
   EXPECT_EQ(change.turning_change, 0.0);
   EXPECT_EQ(change.turning, 2.0);
@@ -509,7 +509,7 @@ TEST(RelativeMotion, BoundsHowTurningChanges) {
 
 TEST(Displacements, BoundHowCloseGroupsAndPairsOfThemCome) {
   double tightest = 0.0, tightest_pair = 0.0;
-  RelativeMotions motions;
+  detail::RelativeMotions motions;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed + 9000);
@@ -519,11 +519,11 @@ TEST(Displacements, BoundHowCloseGroupsAndPairsOfThemCome) {
     std::vector<double> from(plain.dof_count()), to(from);
     for (double& q : from) q = random.uniform(-pi, pi);
     for (std::size_t k = 0; k < to.size(); ++k) to[k] = from[k] + random.uniform(-2.0, 2.0);
-    GroupRates rates(model);
+    detail::GroupRates rates(model);
     rates.begin(StraightPath(from, to, from.size()));
     plain.update(state(from, to, 0.5));
     rates.set_middle(plain.frames());
-    Displacements displacements;
+    detail::Displacements displacements;
     displacements.begin(rates.groups());
     const double half = random.uniform(0.001, 0.3);
     displacements.find(rates.groups(), half);
@@ -543,7 +543,7 @@ TEST(Displacements, BoundHowCloseGroupsAndPairsOfThemCome) {
           tightest = std::max(tightest, closer / (of(i) + of(j) + 1e-12));
           const std::size_t g = index(model.group_of(id<PrimitiveId>(i))),
                             h = index(model.group_of(id<PrimitiveId>(j)));
-          const RelativeMotion& motion =
+          const detail::RelativeMotion& motion =
               motions(rates.groups(), static_cast<std::uint32_t>(g), static_cast<std::uint32_t>(h), half);
           const double bound = approach(motion, rates.groups()[g], rates.groups()[h], half) / rates.scale();
           ASSERT_LE(closer, bound + 1e-12) << i << ' ' << j;

@@ -31,7 +31,7 @@ TEST(Outline, BoundsTheSpeedOfEveryPoint) {
     const Vec3 centre = random.vector(0.1 * unit);
     double extent = 0.0;
     for (const Vec3& x : points) extent = std::max(extent, norm(Vec3(x - centre)) + size);
-    const Outline outline(points, centre, size, extent);
+    const detail::Outline outline(points, centre, size, extent);
     ASSERT_FALSE(outline.is_empty());
     const double fast = std::pow(10.0, random.uniform(-100.0, 100.0));
     const Vec3 turn = random.vector(1.0) * fast, velocity = random.vector(unit * random.uniform(0.0, 2.0)) * fast;
@@ -53,9 +53,9 @@ TEST(Outline, BoundsTheSpeedOfEveryPoint) {
 }
 
 TEST(Outline, IsLeftOutForFewPoints) {
-  EXPECT_TRUE(Outline().is_empty());
+  EXPECT_TRUE(detail::Outline().is_empty());
   const std::vector<Vec3> three{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
-  EXPECT_TRUE(Outline(three, Vec3::Zero(), 0.0, 1.0).is_empty());
+  EXPECT_TRUE(detail::Outline(three, Vec3::Zero(), 0.0, 1.0).is_empty());
 }
 
 }  // namespace outline_test

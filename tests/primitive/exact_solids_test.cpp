@@ -246,20 +246,22 @@ Bound bound(const Sphere&) { return {8, 0, 10}; }
 Bound bound(const Capsule&) { return {28, 17, 2}; }
 
 bool last_rung(const Point& p, const Point& q, double m) {
-  return exact::points_closer_than(p.position, q.position, m);
+  return detail::exact::points_closer_than(p.position, q.position, m);
 }
 bool last_rung(const Sphere& p, const Sphere& q, double m) {
-  return exact::balls_closer_than(p.center, q.center, {p.radius, q.radius, m});
+  return detail::exact::balls_closer_than(p.center, q.center, {p.radius, q.radius, m});
 }
 bool last_rung(const Capsule& p, const Capsule& q, double m) {
-  return exact::segments_closer_than(p.a, p.b, q.a, q.b, {p.radius, q.radius, m});
+  return detail::exact::segments_closer_than(p.a, p.b, q.a, q.b, {p.radius, q.radius, m});
 }
-double last_distance(const Point& p, const Point& q) { return exact::squared_gap_of_balls(p.position, q.position, {}); }
+double last_distance(const Point& p, const Point& q) {
+  return detail::exact::squared_gap_of_balls(p.position, q.position, {});
+}
 double last_distance(const Sphere& p, const Sphere& q) {
-  return exact::squared_gap_of_balls(p.center, q.center, {p.radius, q.radius, 0.0});
+  return detail::exact::squared_gap_of_balls(p.center, q.center, {p.radius, q.radius, 0.0});
 }
 double last_distance(const Capsule& p, const Capsule& q) {
-  return exact::nearest_of_segments(p.a, p.b, q.a, q.b, {p.radius, q.radius, 0.0}).squared_gap;
+  return detail::exact::nearest_of_segments(p.a, p.b, q.a, q.b, {p.radius, q.radius, 0.0}).squared_gap;
 }
 
 std::string text(const Vec3& v) {

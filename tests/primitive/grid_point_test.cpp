@@ -34,7 +34,7 @@ Whole3 random_whole(Random& r, std::int64_t below) {
   return {x, y, z};
 }
 
-GridPoint moved(const GridPoint& p, const Whole3& by) {
+detail::GridPoint moved(const detail::GridPoint& p, const Whole3& by) {
   return {{p.thousandths[0] + by[0], p.thousandths[1] + by[1], p.thousandths[2] + by[2]}};
 }
 
@@ -52,8 +52,8 @@ TEST(GridPoint, DecidesAMillionDecimalTiesAsIntegersDo) {
   constexpr std::size_t count = 1'000'000;
   for (std::size_t k = 0; k < count; ++k) {
     std::int64_t length = 0;
-    const GridPoint p{random_whole(random, 100'000)};
-    const GridPoint q = moved(p, of_whole_length(random, 45, length));
+    const detail::GridPoint p{random_whole(random, 100'000)};
+    const detail::GridPoint q = moved(p, of_whole_length(random, 45, length));
     const double m = static_cast<double>(length) / 1000.0;
     const double next = static_cast<double>(length + 1) / 1000.0;
     // As thresholds are made: a product and a sum.
@@ -64,7 +64,7 @@ TEST(GridPoint, DecidesAMillionDecimalTiesAsIntegersDo) {
       wrong += closer_than(p, q, nanos) || !closer_than(p, q, static_cast<double>(1'000'000 * length + 1) / 1e9);
     }
     below_as_doubles += closer_than(Point{p.position()}, Point{q.position()}, m) ? 1 : 0;
-    wrong += closer_as_written(Point{p.position()}, Point{q.position()}, m);
+    wrong += detail::closer_as_written(Point{p.position()}, Point{q.position()}, m);
   }
   EXPECT_EQ(wrong, 0U) << "seed " << seed;
   std::cout << "of " << count << " decimal ties the stored doubles are below the stored threshold in "
@@ -77,9 +77,9 @@ TEST(GridPoint, DecidesAnyPairAsIntegersDo) {
   Random random(seed + 1);
   for (std::size_t k = 0; k < 100'000; ++k) {
     const std::int64_t size = std::int64_t{1} << random.below(20);
-    const GridPoint p{random_whole(random, 1'000'000)};
+    const detail::GridPoint p{random_whole(random, 1'000'000)};
     const Whole3 by = random_whole(random, size);
-    const GridPoint q = moved(p, by);
+    const detail::GridPoint q = moved(p, by);
     const std::int64_t squared = by[0] * by[0] + by[1] * by[1] + by[2] * by[2];
     const auto around = static_cast<std::int64_t>(std::sqrt(static_cast<double>(squared)));
     const std::int64_t n = std::max<std::int64_t>(0, around - 2 + static_cast<std::int64_t>(random.below(5)));
@@ -91,47 +91,47 @@ TEST(GridPoint, DecidesAnyPairAsIntegersDo) {
 }
 
 TEST(GridPoint, HoldsAtTheEndsOfItsRange) {
-  constexpr std::int64_t most = GridPoint::most;
-  const GridPoint p{{-most, -most, -most}}, q{{most, most, most}}, o;
+  constexpr std::int64_t most = detail::GridPoint::most;
+  const detail::GridPoint p{{-most, -most, -most}}, q{{most, most, most}}, o;
   EXPECT_FALSE(closer_than(p, q, 3.8e9));
   EXPECT_TRUE(closer_than(p, q, 3.9e9));
   EXPECT_FALSE(closer_than(o, o, 0.0));
   EXPECT_TRUE(closer_than(o, o, 0x1p-1074));
   EXPECT_TRUE(closer_than(p, q, std::numeric_limits<double>::max()));
   EXPECT_TRUE(closer_than(p, q, std::numeric_limits<double>::infinity()));
-  EXPECT_FALSE(closer_than(o, GridPoint{{1, 0, 0}}, 0x1p-1074));
-  EXPECT_FALSE(closer_than(o, GridPoint{{most, 0, 0}}, static_cast<double>(most) / 1000.0));
+  EXPECT_FALSE(closer_than(o, detail::GridPoint{{1, 0, 0}}, 0x1p-1074));
+  EXPECT_FALSE(closer_than(o, detail::GridPoint{{most, 0, 0}}, static_cast<double>(most) / 1000.0));
 }
 
 TEST(GridPoint, IsReadFromDecimalsOnly) {
   Random random(seed + 2);
   for (std::size_t k = 0; k < 10'000; ++k) {
     const std::int64_t size = std::int64_t{1} << random.below(40);
-    const GridPoint p{random_whole(random, size)};
+    const detail::GridPoint p{random_whole(random, size)};
     const std::int64_t whole = std::abs(p.thousandths[0]);
     std::array<char, 40> text;
     std::snprintf(text.data(), text.size(), "%lld.%03lld", static_cast<long long>(whole / 1000),
                   static_cast<long long>(whole % 1000));
     const double read = std::copysign(std::strtod(text.data(), nullptr), p.thousandths[0] < 0 ? -1.0 : 1.0);
     ASSERT_EQ(p.position()[0], read) << text.data();
-    const auto again = GridPoint::of(p.position());
+    const auto again = detail::GridPoint::of(p.position());
     ASSERT_TRUE(again.has_value());
     ASSERT_EQ(again->thousandths, p.thousandths);
     ASSERT_EQ(p.placed(Pose{}).thousandths, p.thousandths);
     const Vec3 x = p.position();
-    ASSERT_FALSE(GridPoint::of(Vec3(x[0], std::nextafter(x[1], 1e300), x[2])).has_value());
+    ASSERT_FALSE(detail::GridPoint::of(Vec3(x[0], std::nextafter(x[1], 1e300), x[2])).has_value());
     ASSERT_TRUE(p.bounds().contains(Aabb(x)));
   }
-  EXPECT_FALSE(GridPoint::of(Vec3(1.2345, 0, 0)).has_value());
-  EXPECT_FALSE(GridPoint::of(Vec3(0, 1e30, 0)).has_value());
-  EXPECT_FALSE(GridPoint::of(Vec3(0, 0, std::numeric_limits<double>::quiet_NaN())).has_value());
-  EXPECT_FALSE(GridPoint::of(Vec3(0, 0, -std::numeric_limits<double>::infinity())).has_value());
+  EXPECT_FALSE(detail::GridPoint::of(Vec3(1.2345, 0, 0)).has_value());
+  EXPECT_FALSE(detail::GridPoint::of(Vec3(0, 1e30, 0)).has_value());
+  EXPECT_FALSE(detail::GridPoint::of(Vec3(0, 0, std::numeric_limits<double>::quiet_NaN())).has_value());
+  EXPECT_FALSE(detail::GridPoint::of(Vec3(0, 0, -std::numeric_limits<double>::infinity())).has_value());
 }
 
 TEST(GridPoint, LeavesOtherCoordinatesToTheDoubles) {
   const Point p{Vec3(0.0001, 0, 0)}, q{Vec3(3.0001, 0, 0)};
-  EXPECT_EQ(closer_as_written(p, q, 3.0), closer_than(p, q, 3.0));
-  EXPECT_FALSE(closer_as_written(Point{Vec3(0.1, 0, 0)}, Point{Vec3(0.4, 0, 0)}, 0.3));
+  EXPECT_EQ(detail::closer_as_written(p, q, 3.0), closer_than(p, q, 3.0));
+  EXPECT_FALSE(detail::closer_as_written(Point{Vec3(0.1, 0, 0)}, Point{Vec3(0.4, 0, 0)}, 0.3));
 }
 
 #if __has_include(<boost/multiprecision/cpp_int.hpp>)
@@ -140,7 +140,7 @@ TEST(GridPoint, TakesOtherThresholdsForWhatTheyAre) {
   using Big = boost::multiprecision::cpp_int;
   Random random(seed + 3);
   for (std::size_t k = 0; k < 20'000; ++k) {
-    const GridPoint p{random_whole(random, 10'000)};
+    const detail::GridPoint p{random_whole(random, 10'000)};
     const Whole3 by = random_whole(random, 4000);
     const std::int64_t squared = by[0] * by[0] + by[1] * by[1] + by[2] * by[2];
     double m = std::sqrt(static_cast<double>(squared)) / 1000.0;

@@ -24,7 +24,7 @@ using test::Random;
 template <class P>
 struct Scene {
   Pose a, b;
-  std::array<P, simd::width> mine, theirs;
+  std::array<P, detail::simd::width> mine, theirs;
 };
 
 Vec3 point_of(const Triangle& t, Random& random) {
@@ -40,7 +40,7 @@ double gap(Random& random, double size) {
 Scene<Triangle> touching_triangles(Random& random, double size) {
   Scene<Triangle> scene{random.pose(size), random.pose(size), {}, {}};
   const Pose back = scene.b.inverse();
-  for (std::size_t k = 0; k < simd::width; ++k) {
+  for (std::size_t k = 0; k < detail::simd::width; ++k) {
     const double edge = size * std::pow(10.0, random.uniform(-3.0, 0.0));
     const Vec3 at = random.vector(size);
     Triangle p{at, at + random.vector(edge), at + random.vector(edge)};
@@ -61,26 +61,27 @@ Scene<Triangle> touching_triangles(Random& random, double size) {
 
 template <class P>
 struct Packed {
-  Packed(const std::array<P, simd::width>& primitives) {
-    for (std::size_t k = 0; k < simd::width; ++k) {
-      Leaf<P>::set(floats.data(), k, primitives[k], Vec3::Zero(), 1.0);
+  Packed(const std::array<P, detail::simd::width>& primitives) {
+    for (std::size_t k = 0; k < detail::simd::width; ++k) {
+      detail::Leaf<P>::set(floats.data(), k, primitives[k], Vec3::Zero(), 1.0);
       const Aabb box = primitives[k].bounds();
       for (int axis = 0; axis < 3; ++axis)
-        extent = std::max({extent, float_above(std::abs(box.lower[axis])), float_above(std::abs(box.upper[axis]))});
+        extent = std::max(
+            {extent, detail::float_above(std::abs(box.lower[axis])), detail::float_above(std::abs(box.upper[axis]))});
     }
   }
-  alignas(64) std::array<float, Leaf<P>::floats> floats{};
+  alignas(64) std::array<float, detail::Leaf<P>::floats> floats{};
   float extent = 0.0F;
 };
 
 template <class P>
-RelativeTurn relative(const Scene<P>& scene, const Packed<P>& mine, const Packed<P>& theirs) {
-  return {TreeFrame(Frame(scene.a), Vec3::Zero()), 1.0, mine.extent,
-          TreeFrame(Frame(scene.b), Vec3::Zero()), 1.0, theirs.extent};
+detail::RelativeTurn relative(const Scene<P>& scene, const Packed<P>& mine, const Packed<P>& theirs) {
+  return {detail::TreeFrame(Frame(scene.a), Vec3::Zero()), 1.0, mine.extent,
+          detail::TreeFrame(Frame(scene.b), Vec3::Zero()), 1.0, theirs.extent};
 }
 
 template <class P>
-typename Leaf<P>::Turned turned(const Packed<P>& theirs, const RelativeTurn& turn) {
+typename detail::Leaf<P>::Turned turned(const Packed<P>& theirs, const detail::RelativeTurn& turn) {
   return {theirs.floats.data(), {turn.b_to_a.rotation, turn.b_to_a.size, turn.b_to_a.translation}};
 }
 
@@ -88,13 +89,13 @@ typename Leaf<P>::Turned turned(const Packed<P>& theirs, const RelativeTurn& tur
 template <class P>
 double check(const Scene<P>& scene, double margin) {
   const Packed<P> mine(scene.mine), theirs(scene.theirs);
-  const RelativeTurn turn = relative(scene, mine, theirs);
+  const detail::RelativeTurn turn = relative(scene, mine, theirs);
   const auto there = turned(theirs, turn);
-  const Nearness near{float_above(margin), turn.b_to_a.point_error, nullptr, nullptr};
+  const detail::Nearness near{detail::float_above(margin), turn.b_to_a.point_error, nullptr, nullptr};
   std::size_t left = 0, apart = 0;
-  for (std::size_t k = 0; k < simd::width; ++k) {
-    const simd::Bits lanes = there.near(k, mine.floats.data(), simd::all_bits, near);
-    for (std::size_t i = 0; i < simd::width; ++i) {
+  for (std::size_t k = 0; k < detail::simd::width; ++k) {
+    const detail::simd::Bits lanes = there.near(k, mine.floats.data(), detail::simd::all_bits, near);
+    for (std::size_t i = 0; i < detail::simd::width; ++i) {
       const bool close = closer_than(scene.mine[i].placed(scene.a), scene.theirs[k].placed(scene.b), margin);
       const bool kept = (lanes >> i & 1U) != 0;
       EXPECT_TRUE(kept || !close) << "lanes " << i << ", " << k;
@@ -138,16 +139,16 @@ TEST(TriangleLeaf, BoundsDistancesFromBothSides) {
     const double size = std::pow(10.0, random.uniform(-2.0, 2.0));
     const Scene<Triangle> scene = touching_triangles(random, size);
     const Packed<Triangle> mine(scene.mine), theirs(scene.theirs);
-    const RelativeTurn turn = relative(scene, mine, theirs);
+    const detail::RelativeTurn turn = relative(scene, mine, theirs);
     const auto there = turned(theirs, turn);
-    PairQueue<Triangle> queue;
-    const std::size_t shift = random.below(simd::width);
-    const auto other = [&](std::size_t k) { return (k + shift) % simd::width; };
-    for (std::size_t k = 0; k < simd::width; ++k)
+    detail::PairQueue<Triangle> queue;
+    const std::size_t shift = random.below(detail::simd::width);
+    const auto other = [&](std::size_t k) { return (k + shift) % detail::simd::width; };
+    for (std::size_t k = 0; k < detail::simd::width; ++k)
       queue.set(k, mine.floats.data(), k, there, other(k), turn.b_to_a.point_error);
-    Bounds16 bounds;
+    detail::Bounds16 bounds;
     queue.bound(bounds);
-    for (std::size_t k = 0; k < simd::width; ++k) {
+    for (std::size_t k = 0; k < detail::simd::width; ++k) {
       const double d =
           std::sqrt(squared_distance(scene.mine[k].placed(scene.a), scene.theirs[other(k)].placed(scene.b)));
       EXPECT_LE(static_cast<double>(bounds.lower[k]), d);

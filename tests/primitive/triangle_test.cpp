@@ -224,7 +224,8 @@ TEST(GrownTriangles, MeetAsTheSolidsTheyAreDo) {
     const bool expected = closer_than(Sphere{p, r}, Sphere{q, s}, m);
     ++cases;
     hits += expected ? 1 : 0;
-    touching += expected && m == 0.0 && !exact::balls_closer_than(p, q, {r, s > 0 ? std::nextafter(s, 0.0) : s, 0.0});
+    touching +=
+        expected && m == 0.0 && !detail::exact::balls_closer_than(p, q, {r, s > 0 ? std::nextafter(s, 0.0) : s, 0.0});
     const Vec3 along = Vec3(0, 0, random.uniform(0.1, 2.0) * distance), across = Vec3(-q[1], q[0], 0) * 0.5;
     ASSERT_EQ(closer_than(Triangle{p, p, p}, Triangle{q, q, q}, reach), expected) << k;
     ASSERT_EQ(closer_than(Triangle{q, q, q}, Triangle{p, p, p}, RadiusSum{s, r, m}), expected) << k;

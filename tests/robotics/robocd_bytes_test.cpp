@@ -36,9 +36,9 @@ TEST(Robocd, RunsNoProgramOfAnotherBuild) { test::expect_own_build_only(HINGE_RO
 TEST(RobocdBytes, AreTheSameOnEveryInstructionSet) {
   const ArmFolder arm;
   std::string compared;
-  for (const auto set : {simd::InstructionSet::avx2, simd::InstructionSet::avx512}) {
-    const std::string name(simd::name(set)), environment = "HINGE_ISA=" + name;
-    if (set > simd::of_this_cpu()) {
+  for (const auto set : {detail::simd::InstructionSet::avx2, detail::simd::InstructionSet::avx512}) {
+    const std::string name(detail::simd::name(set)), environment = "HINGE_ISA=" + name;
+    if (set > detail::simd::of_this_cpu()) {
       EXPECT_EQ(run_robocd("--version 2>&1", environment).status, 2) << "this CPU lacks " << name;
       continue;
     }

@@ -87,10 +87,10 @@ TEST(SphereModel, BatchesOfPandaAgreeWithSingleQueries) {
       const std::size_t d = k % batch.dof_count();
       block.push_back(robot.lower()[d] + (robot.upper()[d] - robot.lower()[d]) * stream.uniform());
     }
-    simd::Bits expected = 0;
+    detail::simd::Bits expected = 0;
     for (std::size_t k = 0; k < SphereBatch::size; ++k) {
       single.update(std::span(block).subspan(k * batch.dof_count(), batch.dof_count()));
-      if (single.self_collides()) expected |= simd::Bits{1} << k;
+      if (single.self_collides()) expected |= detail::simd::Bits{1} << k;
     }
     ASSERT_EQ(batch.each(block), expected) << "block " << b;
     ASSERT_EQ(batch.any(block), expected != 0) << "block " << b;

@@ -16,7 +16,7 @@
 #include "hinge/detail/simd/gather_bits.hpp"
 #include "hinge/detail/simd/sincos.hpp"
 
-namespace hinge::simd {
+namespace hinge::detail::simd {
 namespace lanes_test {
 
 using test::Random;
@@ -102,7 +102,7 @@ TEST(VectorSinCos, HasTheBitsOfTheScalarOne) {
     sine.store(s.data());
     cosine.store(c.data());
     for (std::size_t k = 0; k < 8; ++k) {
-      const SinCos expected = hinge::sincos(x[k]);
+      const SinCos expected = hinge::detail::sincos(x[k]);
       ASSERT_EQ(std::bit_cast<std::uint64_t>(s[k]), std::bit_cast<std::uint64_t>(expected.sin)) << x[k];
       ASSERT_EQ(std::bit_cast<std::uint64_t>(c[k]), std::bit_cast<std::uint64_t>(expected.cos)) << x[k];
     }
@@ -110,4 +110,4 @@ TEST(VectorSinCos, HasTheBitsOfTheScalarOne) {
 }
 
 }  // namespace lanes_test
-}  // namespace hinge::simd
+}  // namespace hinge::detail::simd

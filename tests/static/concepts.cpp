@@ -90,7 +90,7 @@ static_assert(EngineFor<Lazy<Triangle, AdmitAll, UniformClearance>, Triangle>);
 static_assert(!EngineFor<Lazy<Point, AdmitAll, UniformClearance>, Sphere>);
 static_assert(EngineFor<Wide<Point, AdmitAll, UniformClearance>, Point>);
 static_assert(EngineFor<Wide<Triangle, AdmitAll, UniformClearance>, Triangle>);
-static_assert(!EngineFor<LazyTree, Point>);
+static_assert(!EngineFor<detail::LazyTree, Point>);
 static_assert(CrossEngine<Lazy<Point, AdmitAll, UniformClearance>, Point, AdmitAll, UniformClearance, AdmitAll>);
 static_assert(!CrossEngine<Lazy<Point, AdmitAll, OwnOnly>, Point, AdmitAll, OwnOnly, AdmitAll>);
 static_assert(CrossEngine<Wide<Point, AdmitAll, TypedThresholds>, Point, AdmitAll, TypedThresholds, AdmitAll>);
@@ -111,8 +111,8 @@ template void learn(On<Triangle, Wide>&, On<Triangle, Lazy>&, On<Triangle, Brute
 
 static_assert(TypesPrimitives<TypedThresholds> && !TypesPrimitives<UniformClearance>);
 static_assert(!GrowsPrimitives<TypedThresholds> && !GrowsPrimitives<UniformClearance>);
-static_assert(TurnsBatch<Point> && !TurnsBatch<Sphere>);
-static_assert(TurnsOne<Point> && !TurnsOne<Sphere>);
+static_assert(detail::TurnsBatch<Point> && !detail::TurnsBatch<Sphere>);
+static_assert(detail::TurnsOne<Point> && !detail::TurnsOne<Sphere>);
 
 static_assert(Id<PrimitiveId> && !Id<int> && !std::is_convertible_v<LinkId, PrimitiveId>);
 

@@ -18,12 +18,12 @@ namespace hinge::test {
 /// The tool hands over to a program of another instruction set of its own build, and to no other.
 inline void expect_own_build_only(const std::filesystem::path& tool) {
   namespace fs = std::filesystem;
-  const simd::InstructionSet best = simd::of_this_cpu();
-  if (best == simd::InstructionSet::baseline) GTEST_SKIP() << "this CPU runs the baseline only";
+  const detail::simd::InstructionSet best = detail::simd::of_this_cpu();
+  if (best == detail::simd::InstructionSet::baseline) GTEST_SKIP() << "this CPU runs the baseline only";
   const std::string name = tool.filename().string();
   const fs::path folder = fs::temp_directory_path() / ("hinge-programs-" + name + std::to_string(getpid()));
   fs::create_directories(folder);
-  const fs::path own = folder / name, other = folder / (name + "-" + std::string(simd::name(best)));
+  const fs::path own = folder / name, other = folder / (name + "-" + std::string(detail::simd::name(best)));
   fs::copy_file(tool, own);
   const auto version = [&](const char* environment = "") {
     return run_tool(own.string(), "--version 2>&1", environment);

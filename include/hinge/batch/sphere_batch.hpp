@@ -33,7 +33,7 @@ namespace hinge {
 /// each keeps them apart. One per thread; no query allocates.
 class SphereBatch {
  public:
-  static constexpr std::size_t size = simd::width;  ///< configurations in a full block
+  static constexpr std::size_t size = detail::simd::width;  ///< configurations in a full block
 
   /// Every DOF free. The filter is asked here and never again. ModelError: made for another number of primitives.
   template <PairFilter F>
@@ -49,19 +49,19 @@ class SphereBatch {
 
   /// Does any configuration of the block collide? Stops at the first hit.
   bool any(std::span<const double> block) {
-    const PresentBlock present(block_, block);
-    const simd::Bits lanes = place(block);
-    for (const BodyPair& pair : bodies_.pairs())
+    const detail::PresentBlock present(block_, block);
+    const detail::simd::Bits lanes = place(block);
+    for (const detail::BodyPair& pair : bodies_.pairs())
       if (hits<true>(pair, lanes) != 0) return true;
     return false;
   }
 
   /// Bit k: configuration k collides.
   std::uint32_t each(std::span<const double> block) {
-    const PresentBlock present(block_, block);
-    const simd::Bits lanes = place(block);
-    simd::Bits hit = 0;
-    for (const BodyPair& pair : bodies_.pairs()) {
+    const detail::PresentBlock present(block_, block);
+    const detail::simd::Bits lanes = place(block);
+    detail::simd::Bits hit = 0;
+    for (const detail::BodyPair& pair : bodies_.pairs()) {
       hit |= hits<false>(pair, lanes & ~hit);
       if (hit == lanes) break;
     }
@@ -81,7 +81,7 @@ class SphereBatch {
  private:
   struct Survivor {
     std::uint32_t ball = 0;
-    simd::Bits lanes = 0;
+    detail::simd::Bits lanes = 0;
   };
 
   template <PairFilter F>
@@ -103,38 +103,41 @@ class SphereBatch {
     return model;
   }
 
-  simd::Bits place(std::span<const double> block);
+  detail::simd::Bits place(std::span<const double> block);
   void place_balls(std::size_t body) noexcept;
-  std::size_t find_near(const SphereBody& body, std::size_t other, simd::Bits& lanes, Survivor* to) const noexcept;
+  std::size_t find_near(const detail::SphereBody& body, std::size_t other, detail::simd::Bits& lanes,
+                        Survivor* to) const noexcept;
   template <bool first_only>
-  simd::Bits hits(const BodyPair& pair, simd::Bits lanes);
-  simd::Bits decide(simd::Bits lanes, PrimitiveId i, PrimitiveId j);
+  detail::simd::Bits hits(const detail::BodyPair& pair, detail::simd::Bits lanes);
+  detail::simd::Bits decide(detail::simd::Bits lanes, PrimitiveId i, PrimitiveId j);
 
-  [[gnu::always_inline]] static simd::Float16 squared_distance(const LaneVector& a, const LaneVector& b) noexcept {
-    const LaneVector d = a - b;
+  [[gnu::always_inline]] static detail::simd::Float16 squared_distance(const detail::LaneVector& a,
+                                                                       const detail::LaneVector& b) noexcept {
+    const detail::LaneVector d = a - b;
     return d.x * d.x + d.y * d.y + d.z * d.z;
   }
   /// Lanes that floats cannot rule out, NaN among them.
-  [[gnu::always_inline]] static simd::Bits not_beyond(float near_squared, const simd::Float16& squared) noexcept {
-    return ~simd::Bits(less(simd::Float16(near_squared), squared));
+  [[gnu::always_inline]] static detail::simd::Bits not_beyond(float near_squared,
+                                                              const detail::simd::Float16& squared) noexcept {
+    return ~detail::simd::Bits(less(detail::simd::Float16(near_squared), squared));
   }
 
-  SphereBodies bodies_;
+  detail::SphereBodies bodies_;
   Placement<Sphere> exact_;
   std::span<const double> block_{};  // while a query runs
   std::size_t exact_lane_ = size;    // lane that exact_ is at; size: none of this block
   std::uint64_t decided_ = 0;
-  std::vector<std::uint8_t> is_placed_;        // by body
-  std::vector<LaneVector> enclosing_centres_;  // by body
-  std::vector<LaneVector> centres_;            // by ball, of bodies that are placed
-  std::vector<Survivor> near_a_, near_b_;      // scratch
+  std::vector<std::uint8_t> is_placed_;                // by body
+  std::vector<detail::LaneVector> enclosing_centres_;  // by body
+  std::vector<detail::LaneVector> centres_;            // by ball, of bodies that are placed
+  std::vector<Survivor> near_a_, near_b_;              // scratch
 };
 
 /// Returns the lanes that hold a configuration.
-inline simd::Bits SphereBatch::place(std::span<const double> block) {
-  const std::size_t count = check_block(block, dof_count(), *exact_.model().groups());
+inline detail::simd::Bits SphereBatch::place(std::span<const double> block) {
+  const std::size_t count = detail::check_block(block, dof_count(), *exact_.model().groups());
   exact_lane_ = size;
-  LaneKinematics& kinematics = bodies_.kinematics();
+  detail::LaneKinematics& kinematics = bodies_.kinematics();
   bodies_.cover_slide(kinematics.largest_slide(block, dof_count()));
   kinematics.set(block, dof_count());
   const auto bodies = bodies_.bodies();
@@ -142,27 +145,27 @@ inline simd::Bits SphereBatch::place(std::span<const double> block) {
     is_placed_[k] = 0;
     enclosing_centres_[k] = bodies[k].ball.placed_by(kinematics[bodies[k].group]);
   }
-  return (simd::Bits{1} << count) - 1;
+  return (detail::simd::Bits{1} << count) - 1;
 }
 
 inline void SphereBatch::place_balls(std::size_t body) noexcept {
   if (is_placed_[body] != 0) return;
   is_placed_[body] = 1;
-  const SphereBody& b = bodies_.bodies()[body];
-  const LaneFrame& frame = bodies_.kinematics()[b.group];
+  const detail::SphereBody& b = bodies_.bodies()[body];
+  const detail::LaneFrame& frame = bodies_.kinematics()[b.group];
   for (std::size_t k = b.first; k < b.first + b.count; ++k) centres_[k] = bodies_.balls()[k].placed_by(frame);
 }
 
 /// The balls near the ball around another body, and the lanes in which they are; `lanes` is cut down to any of these.
-inline std::size_t SphereBatch::find_near(const SphereBody& body, std::size_t other, simd::Bits& lanes,
+inline std::size_t SphereBatch::find_near(const detail::SphereBody& body, std::size_t other, detail::simd::Bits& lanes,
                                           Survivor* to) const noexcept {
-  const LaneVector centre = enclosing_centres_[other];
+  const detail::LaneVector centre = enclosing_centres_[other];
   const float reach = bodies_.bodies()[other].ball.grown;
   std::size_t count = 0;
-  simd::Bits any = 0;
+  detail::simd::Bits any = 0;
   for (std::uint32_t k = body.first; k < body.first + body.count; ++k) {
     const float near = bodies_.balls()[k].grown + reach;
-    const simd::Bits in = not_beyond(near * near, squared_distance(centres_[k], centre)) & lanes;
+    const detail::simd::Bits in = not_beyond(near * near, squared_distance(centres_[k], centre)) & lanes;
     to[count] = {k, in};
     count += in != 0 ? 1 : 0;
     any |= in;
@@ -173,31 +176,31 @@ inline std::size_t SphereBatch::find_near(const SphereBody& body, std::size_t ot
 
 /// Lanes in which the two bodies touch; with first_only at least one of them.
 template <bool first_only>
-simd::Bits SphereBatch::hits(const BodyPair& pair, simd::Bits lanes) {
+detail::simd::Bits SphereBatch::hits(const detail::BodyPair& pair, detail::simd::Bits lanes) {
   lanes &= not_beyond(pair.near_squared, squared_distance(enclosing_centres_[pair.a], enclosing_centres_[pair.b]));
   if (lanes == 0) return 0;
-  const SphereBody& a = bodies_.bodies()[pair.a];
-  const SphereBody& b = bodies_.bodies()[pair.b];
+  const detail::SphereBody& a = bodies_.bodies()[pair.a];
+  const detail::SphereBody& b = bodies_.bodies()[pair.b];
   place_balls(pair.b);
   const std::size_t count_b = find_near(b, pair.a, lanes, near_b_.data());
   if (lanes == 0) return 0;
   place_balls(pair.a);
   const std::size_t count_a = find_near(a, pair.b, lanes, near_a_.data());
-  simd::Bits hit = 0;
+  detail::simd::Bits hit = 0;
   for (std::size_t i = 0; i < count_a; ++i) {
     const Survivor in_a = near_a_[i];
-    const LaneBall& p = bodies_.balls()[in_a.ball];
+    const detail::LaneBall& p = bodies_.balls()[in_a.ball];
     for (std::size_t j = 0; j < count_b; ++j) {
       const Survivor in_b = near_b_[j];
-      const simd::Bits open = in_a.lanes & in_b.lanes & ~hit;
+      const detail::simd::Bits open = in_a.lanes & in_b.lanes & ~hit;
       if (open == 0) continue;
-      const LaneBall& q = bodies_.balls()[in_b.ball];
-      const simd::Float16 squared = squared_distance(centres_[in_a.ball], centres_[in_b.ball]);
+      const detail::LaneBall& q = bodies_.balls()[in_b.ball];
+      const detail::simd::Float16 squared = squared_distance(centres_[in_a.ball], centres_[in_b.ball]);
       const float near = p.grown + q.grown;
-      const simd::Bits maybe = not_beyond(near * near, squared) & open;
+      const detail::simd::Bits maybe = not_beyond(near * near, squared) & open;
       if (maybe == 0 || !bodies_.admitted(pair, in_a.ball - a.first, in_b.ball - b.first)) continue;
       const float sure = p.shrunk + q.shrunk;
-      const simd::Bits surely = sure > 0 ? less(squared, simd::Float16(sure * sure)) & maybe : 0;
+      const detail::simd::Bits surely = sure > 0 ? less(squared, detail::simd::Float16(sure * sure)) & maybe : 0;
       hit |= surely | decide(maybe & ~surely, bodies_.primitive(in_a.ball), bodies_.primitive(in_b.ball));
       if (first_only && hit != 0) return hit;
     }
@@ -206,14 +209,14 @@ simd::Bits SphereBatch::hits(const BodyPair& pair, simd::Bits lanes) {
 }
 
 /// The lanes in which the double rule says that the spheres touch.
-inline simd::Bits SphereBatch::decide(simd::Bits lanes, PrimitiveId i, PrimitiveId j) {
-  simd::Bits hit = 0;
+inline detail::simd::Bits SphereBatch::decide(detail::simd::Bits lanes, PrimitiveId i, PrimitiveId j) {
+  detail::simd::Bits hit = 0;
   for (; lanes != 0; lanes &= lanes - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
     if (exact_lane_ != lane) exact_.update(block_.subspan(lane * dof_count(), dof_count()));
     exact_lane_ = lane;
     ++decided_;
-    if (closer_than(exact_.alone(i), exact_.alone(j), 0.0)) hit |= simd::Bits{1} << lane;
+    if (closer_than(exact_.alone(i), exact_.alone(j), 0.0)) hit |= detail::simd::Bits{1} << lane;
   }
   return hit;
 }
@@ -224,12 +227,12 @@ inline void SphereBatch::learn(std::span<const double> configurations) {
     throw ConfigurationError(std::to_string(configurations.size()) + " values for configurations of " +
                              std::to_string(dof));
   const auto pairs = bodies_.pairs();
-  std::vector<std::pair<std::int64_t, BodyPair>> ranked;
-  for (const BodyPair& pair : pairs) ranked.emplace_back(0, pair);
+  std::vector<std::pair<std::int64_t, detail::BodyPair>> ranked;
+  for (const detail::BodyPair& pair : pairs) ranked.emplace_back(0, pair);
   for (std::size_t k = 0; k < configurations.size(); k += size * dof) {
     const auto block = configurations.subspan(k, std::min(size * dof, configurations.size() - k));
-    const PresentBlock present(block_, block);
-    const simd::Bits lanes = place(block);
+    const detail::PresentBlock present(block_, block);
+    const detail::simd::Bits lanes = place(block);
     for (std::size_t p = 0; p < pairs.size(); ++p) ranked[p].first -= std::popcount(hits<false>(pairs[p], lanes));
   }
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& x, const auto& y) { return x.first < y.first; });

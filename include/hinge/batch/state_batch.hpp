@@ -40,7 +40,7 @@ struct BatchCounts {
 template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf = Wide>
 class StateBatch {
  public:
-  static constexpr std::size_t size = FrameLanes::size;  ///< configurations in a full block
+  static constexpr std::size_t size = detail::FrameLanes::size;  ///< configurations in a full block
 
   /// Every DOF free. Errors as Hierarchy.
   StateBatch(const Model<P>& model, F filter, D matrix)
@@ -53,26 +53,26 @@ class StateBatch {
         near_(model.size()),
         allowed_(single_.model().groups()->size(), 0.0),
         usual_(allowed_),
-        largest_threshold_(LargestThreshold<D>(single_.matrix(), model.size()).within()) {}
+        largest_threshold_(detail::LargestThreshold<D>(single_.matrix(), model.size()).within()) {}
 
   // --- a block is 1 to 16 configurations, one after the other, dof_count() values each (rad or model length unit).
   // ConfigurationError: as check_block ---
 
   /// Bit k: configuration k collides.
   std::uint32_t collides(std::span<const double> block) {
-    simd::Bits hit = 0;
+    detail::simd::Bits hit = 0;
     for_lanes(
         block,
-        [&](simd::Bits lanes) {
+        [&](detail::simd::Bits lanes) {
           near_.visit(frames_, single_.model(), travel_, lanes,
-                      [&](const auto& pair, simd::Bits surely, simd::Bits maybe) {
+                      [&](const auto& pair, detail::simd::Bits surely, detail::simd::Bits maybe) {
                         hit |= surely;
                         for (maybe &= ~hit; maybe != 0; maybe &= maybe - 1)
                           if (decide(pair, static_cast<std::size_t>(std::countr_zero(maybe)))) hit |= maybe & -maybe;
                         return (lanes & ~hit) != 0;
                       });
         },
-        [&](std::size_t lane) { hit |= single_.self_collides() ? simd::Bits{1} << lane : 0; });
+        [&](std::size_t lane) { hit |= single_.self_collides() ? detail::simd::Bits{1} << lane : 0; });
     return hit;
   }
 
@@ -82,18 +82,18 @@ class StateBatch {
   void collisions(std::span<const double> block, const Take& take) {
     for_lanes(
         block,
-        [&](simd::Bits lanes) {
-          near_.visit(
-              frames_, single_.model(), travel_, lanes, [&](const auto& pair, simd::Bits surely, simd::Bits maybe) {
-                for (simd::Bits left = surely | maybe; left != 0; left &= left - 1) {
-                  const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-                  const P p = placed(pair.first, lane), q = placed(pair.second, lane);
-                  if (closer_than(p, q, pair.threshold))
-                    take(lane,
-                         Hit{pair.first, pair.second, pair.threshold > 0.0 ? distance(p, q) : 0.0, pair.threshold});
-                }
-                return true;
-              });
+        [&](detail::simd::Bits lanes) {
+          near_.visit(frames_, single_.model(), travel_, lanes,
+                      [&](const auto& pair, detail::simd::Bits surely, detail::simd::Bits maybe) {
+                        for (detail::simd::Bits left = surely | maybe; left != 0; left &= left - 1) {
+                          const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+                          const P p = placed(pair.first, lane), q = placed(pair.second, lane);
+                          if (closer_than(p, q, pair.threshold))
+                            take(lane, Hit{pair.first, pair.second, pair.threshold > 0.0 ? distance(p, q) : 0.0,
+                                           pair.threshold});
+                        }
+                        return true;
+                      });
         },
         [&](std::size_t lane) {
           for (const Hit& hit : single_.self_collisions()) take(lane, hit);
@@ -104,7 +104,8 @@ class StateBatch {
   const BatchCounts& counts() const noexcept { return counts_; }
 
  private:
-  using List = NearList<P, decltype(threshold_of(std::declval<const D&>(), PrimitiveId{}, PrimitiveId{}))>;
+  using List =
+      detail::NearList<P, decltype(detail::threshold_of(std::declval<const D&>(), PrimitiveId{}, PrimitiveId{}))>;
   static constexpr std::size_t least_shared = 4;   // configurations that a list is made for
   static constexpr std::size_t longest_rest = 64;  // blocks
   /// What it takes to find, sort and store a pair, in lanes tested.
@@ -152,15 +153,15 @@ class StateBatch {
   }
 
   Hierarchy<P, F, D, EngineOf> single_;
-  FrameLanes frames_;
-  LaneTravel travel_;
+  detail::FrameLanes frames_;
+  detail::LaneTravel travel_;
   List near_;
   std::span<const double> block_{};  // while a query runs
   bool has_list_ = false;
   std::vector<double> allowed_;  // per group: the way the list was made for
   std::vector<double> usual_;    // per group: the way of late
   double largest_threshold_;
-  ListAllowance allowance_;
+  detail::ListAllowance allowance_;
   std::uint64_t tests_ = 0;                                 // made for the list
   std::vector<std::pair<PrimitiveId, PrimitiveId>> found_;  // scratch
   std::size_t span_ = size;                                 // lanes that share a list
@@ -173,8 +174,8 @@ template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, c
 template <class InLanes, class Alone>
 void StateBatch<P, F, D, EngineOf>::for_lanes(std::span<const double> block, const InLanes& in_lanes,
                                               const Alone& alone) {
-  const std::size_t count = check_block(block, dof_count(), *single_.model().groups());
-  const PresentBlock present(block_, block);
+  const std::size_t count = detail::check_block(block, dof_count(), *single_.model().groups());
+  const detail::PresentBlock present(block_, block);
   const auto one_by_one = [&](std::size_t first, std::size_t end) {
     for (std::size_t lane = first; lane < end; ++lane) {
       single_.update(configuration(lane));
@@ -197,7 +198,7 @@ void StateBatch<P, F, D, EngineOf>::for_lanes(std::span<const double> block, con
     if (has_list_ && end != std::exchange(measured, 0)) travel_.measure(frames_, first, end);
     if ((has_list_ && !allowance_.outlived() && covers()) || make_list(first, end)) {
       allowance_.serve();
-      in_lanes(((simd::Bits{1} << (end - first)) - 1) << first);
+      in_lanes(((detail::simd::Bits{1} << (end - first)) - 1) << first);
       shared += end - first;
       first = end;
     } else if (span_ > least_shared) {

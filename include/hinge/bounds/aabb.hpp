@@ -57,8 +57,8 @@ struct Aabb {
     Aabb grown;
     for (int k = 0; k < 3; ++k) {
       const double more = r + slack * (std::max(std::abs(lower[k]), std::abs(upper[k])) + r);
-      grown.lower[k] = next_down(lower[k] - more);
-      grown.upper[k] = next_up(upper[k] + more);
+      grown.lower[k] = detail::next_down(lower[k] - more);
+      grown.upper[k] = detail::next_up(upper[k] + more);
     }
     return grown;
   }
@@ -78,7 +78,7 @@ inline double separation(const Aabb& a, const Aabb& b) noexcept {
     if (gap > 0.0) squared += gap * gap;
   }
   // Squares beyond the range of doubles say nothing.
-  return largest > 0.0 && squared >= exact::lost_squares && squared <= exact::largest_square
+  return largest > 0.0 && squared >= detail::exact::lost_squares && squared <= detail::exact::largest_square
              ? std::max(largest, std::sqrt(squared) * down)
              : largest;
 }

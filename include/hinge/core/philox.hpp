@@ -51,7 +51,7 @@ class SampleStream {
   double normal() noexcept {
     constexpr double two_pi = 6.283185307179586;
     const double radius = std::sqrt(-2.0 * log_of(1.0 - uniform()));
-    return radius * sincos(two_pi * uniform()).cos;
+    return radius * detail::sincos(two_pi * uniform()).cos;
   }
 
  private:

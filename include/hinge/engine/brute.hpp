@@ -27,7 +27,7 @@ class Brute {
   template <Collector C>
   void self_query(C& collector, const QueryOptions& options) {
     place_all();
-    const SelfRules<P, F, D> rules{placement_, filter_, matrix_, options};
+    const detail::SelfRules<P, F, D> rules{placement_, filter_, matrix_, options};
     const std::size_t n = placement_.placed().size();
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = i + 1; j < n; ++j)
@@ -40,7 +40,7 @@ class Brute {
   void query(Brute& other, const G& across, C& collector, const QueryOptions& options) {
     place_all();
     other.place_all();
-    const CrossRules<P, G, D> rules{placement_, other.placement_, across, matrix_, other.matrix_, options};
+    const detail::CrossRules<P, G, D> rules{placement_, other.placement_, across, matrix_, other.matrix_, options};
     const auto mine = placement_.placed(), theirs = other.placement_.placed();
     for (std::size_t i = 0; i < mine.size(); ++i)
       for (std::size_t j = 0; j < theirs.size(); ++j)
@@ -57,7 +57,7 @@ class Brute {
   static bool test(C& collector, const Rules& rules, const P& p, const P& q, std::size_t i, std::size_t j) {
     const auto a = id<PrimitiveId>(i), b = id<PrimitiveId>(j);
     if (rules.options.counts != nullptr) ++rules.options.counts->pairs_tested;
-    offer(collector, a, b, p, q, rules.threshold(a, b), [&] { return rules.admits(a, b); });
+    detail::offer(collector, a, b, p, q, rules.threshold(a, b), [&] { return rules.admits(a, b); });
     return !collector.done();
   }
 

@@ -30,7 +30,7 @@ template <Primitive P, PairFilter F, DistanceMatrix D>
 class Lazy {
  public:
   Lazy(std::shared_ptr<const SelectedModel<P>> model, F filter, D matrix)
-      : layout_(std::make_shared<const LazyLayout>(*model, filter)),
+      : layout_(std::make_shared<const detail::LazyLayout>(*model, filter)),
         placement_(std::move(model)),
         filter_(std::move(filter)),
         matrix_(std::move(matrix)),
@@ -52,7 +52,7 @@ class Lazy {
     if (trees_.empty()) return;
     QueryCounts counts;
     refresh();
-    run_self(collector, SelfRules<P, F, D>{placement_, filter_, matrix_, options}, counts);
+    run_self(collector, detail::SelfRules<P, F, D>{placement_, filter_, matrix_, options}, counts);
     add(options.counts, counts);
   }
 
@@ -66,7 +66,7 @@ class Lazy {
     other.refresh();
     make_upper(options.clearance);
     other.make_upper(options.other_clearance);
-    const CrossRules<P, G, D> rules{placement_, other.placement_, across, matrix_, other.matrix_, options};
+    const detail::CrossRules<P, G, D> rules{placement_, other.placement_, across, matrix_, other.matrix_, options};
     const auto cutoff = [&] { return collector.cutoff(); };
     // Compatible tables of types are alike; of other matrices nothing is known but that no threshold is above 0.
     const bool skip_idle = without_margin(collector, options) && other.without_margin(collector, options) &&
@@ -84,8 +84,8 @@ class Lazy {
                 counts.pairs_tested += p.size() * q.size();
                 for (const PrimitiveId i : p)
                   for (const PrimitiveId j : q) {
-                    offer(collector, i, j, placement_.placed()[index(i)], other.placement_.placed()[index(j)],
-                          rules.threshold(i, j), [&] { return rules.admits(i, j); });
+                    detail::offer(collector, i, j, placement_.placed()[index(i)], other.placement_.placed()[index(j)],
+                                  rules.threshold(i, j), [&] { return rules.admits(i, j); });
                     if (collector.done()) return false;
                   }
                 return true;
@@ -100,12 +100,12 @@ class Lazy {
   bool check_well_formed() {
     refresh();
     for (std::size_t b = 0; b < trees_.size(); ++b)
-      if (!hinge::check_well_formed(trees_[b], boxes_of(b))) return false;
+      if (!detail::check_well_formed(trees_[b], boxes_of(b))) return false;
     return true;
   }
 
  private:
-  using Rules = SelfRules<P, F, D>;
+  using Rules = detail::SelfRules<P, F, D>;
 
   static void add(QueryCounts* total, const QueryCounts& counts) noexcept {
     if (total == nullptr) return;
@@ -152,7 +152,7 @@ class Lazy {
 
   double extra_of(std::size_t body, std::span<const double> clearance) const noexcept {
     double extra = 0.0;
-    for (const GroupId g : layout_->groups(body)) extra = std::max(extra, clearance_of(clearance, g));
+    for (const GroupId g : layout_->groups(body)) extra = std::max(extra, detail::clearance_of(clearance, g));
     return extra;
   }
 
@@ -212,11 +212,11 @@ class Lazy {
   bool test_leaves(std::uint32_t a, std::uint32_t b, C& collector, const Rules& rules, QueryCounts& counts) {
     const std::span<const P> placed = placement_.placed();
     const auto test = [&](PrimitiveId i, PrimitiveId j) {
-      offer(collector, i, j, placed[index(i)], placed[index(j)], rules.threshold(i, j),
-            [&] { return rules.admits(i, j); });
+      detail::offer(collector, i, j, placed[index(i)], placed[index(j)], rules.threshold(i, j),
+                    [&] { return rules.admits(i, j); });
       return !collector.done();
     };
-    std::span<const LazyLayout::PrimitivePair> sri;
+    std::span<const detail::LazyLayout::PrimitivePair> sri;
     if (layout_->lists(std::min(a, b), std::max(a, b), sri)) {
       counts.pairs_tested += sri.size();
       for (const auto& [i, j] : sri)
@@ -231,17 +231,17 @@ class Lazy {
     return true;
   }
 
-  std::shared_ptr<const LazyLayout> layout_;  // shared by copies
+  std::shared_ptr<const detail::LazyLayout> layout_;  // shared by copies
   Placement<P> placement_;
   F filter_;
   D matrix_;
-  std::vector<LazyTree> trees_;            // per body, items are its leaves
+  std::vector<detail::LazyTree> trees_;    // per body, items are its leaves
   std::vector<std::uint64_t> built_;       // per body: sum of the versions its tree was built from
   std::vector<std::uint8_t> idle_;         // per leaf: its thresholds are all 0; empty where that means nothing
-  LazyTree upper_;                         // items are bodies
+  detail::LazyTree upper_;                 // items are bodies
   std::vector<std::uint8_t> idle_bodies_;  // scratch
   std::vector<Aabb> boxes_;                // scratch
-  NodePairs stack_;                        // scratch
+  detail::NodePairs stack_;                // scratch
 };
 
 }  // namespace hinge

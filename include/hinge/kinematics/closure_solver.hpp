@@ -150,7 +150,7 @@ inline void ClosureSolver::solve(double damping) noexcept {
     if (!(extra > 0.0) || !is_finite(extra)) return;  // no DOF moves any closure, or products overflow
     factor_ = matrix_;
     for (std::size_t a = 0; a < size; ++a) factor_[a * size + a] += extra;
-    factored = factor_cholesky(factor_, size);
+    factored = detail::factor_cholesky(factor_, size);
   }
   for (std::size_t a = 0; a < size; ++a) {
     for (std::size_t b = 0; b < a; ++b) side_[a] -= factor_[a * size + b] * side_[b];

@@ -20,7 +20,7 @@ struct alignas(32) Frame {
   /// (Written as wide as it is read: narrower writes would have to reach the cache before they can be read.)
   explicit Frame(const Pose& pose) noexcept {
     const auto put = [this](std::size_t k, const double* from) {
-      simd::Double4::of(from[0], from[1], from[2], 0.0).store(column.data() + 4 * k);
+      detail::simd::Double4::of(from[0], from[1], from[2], 0.0).store(column.data() + 4 * k);
     };
     for (std::size_t k = 0; k < 3; ++k) put(k, pose.rotation.data() + 3 * k);
     put(3, pose.translation.data());

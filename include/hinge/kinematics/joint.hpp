@@ -65,7 +65,7 @@ template <class T>
 
 /// The rotation by `angle` (rad) about a unit axis; exactly the identity at 0.
 inline Mat3 rotation_about(const Vec3& axis, double angle) noexcept {
-  const SinCos sc = sincos(angle);
+  const detail::SinCos sc = detail::sincos(angle);
   const auto columns = rotation_columns(axis[0], axis[1], axis[2], sc.sin, sc.cos);
   return Eigen::Map<const Mat3>(columns.data());
 }

@@ -24,7 +24,9 @@ struct RigidGroup {
   std::size_t dof = 0;  ///< position of the joint's value in the selected configuration
 };
 
+namespace detail {
 class PoseSource;
+}
 
 /// Groups in topological order (parents first). Group 0 is the one of the world and never moves.
 class RigidGroups {
@@ -52,7 +54,7 @@ class RigidGroups {
         RigidGroup group{group_of_[parent], joint, position[index(tree.dof_of(link))]};
         group.joint.origin = origin;
         group_of_[l] = id<GroupId>(groups_.size());
-        const std::size_t place = (groups_.size() - 1) % JointBatch::size;
+        const std::size_t place = (groups_.size() - 1) % detail::JointBatch::size;
         if (place == 0) batches_.emplace_back();
         batches_.back().set(place, group.joint, group.dof);
         groups_.push_back(std::move(group));
@@ -70,13 +72,13 @@ class RigidGroups {
   const Pose& link_in_group(LinkId link) const noexcept { return link_in_group_[index(link)]; }
 
  private:
-  friend class PoseSource;
+  friend class detail::PoseSource;
 
   /// The joints of groups 1 .. size() - 1, eight by eight.
-  std::span<const JointBatch> joint_batches() const noexcept { return batches_; }
+  std::span<const detail::JointBatch> joint_batches() const noexcept { return batches_; }
 
   std::vector<RigidGroup> groups_;
-  std::vector<JointBatch> batches_;
+  std::vector<detail::JointBatch> batches_;
   std::vector<GroupId> group_of_;
   std::vector<Pose> link_in_group_;
 };

@@ -146,7 +146,7 @@ class Placement {
   }
 
   std::shared_ptr<const SelectedModel<P>> model_;
-  PoseSource poses_;
+  detail::PoseSource poses_;
   std::vector<P> placed_;
   std::uint64_t update_ = 1;
   std::uint64_t all_moved_at_ = 1;

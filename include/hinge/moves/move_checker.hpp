@@ -85,7 +85,7 @@ class MoveChecker {
 
  private:
   // Other primitives, and those that engines keep in trees, are asked for with queries for what moved.
-  static constexpr bool by_blocks = TurnsBatch<P> && !KeepsTrees<P>;
+  static constexpr bool by_blocks = detail::TurnsBatch<P> && !detail::KeepsTrees<P>;
   // With fewer blocks than this to a changed joint the full query wins, which looks near the root first: most blocks
   // are cut then. The share of blocks that move does not matter (bench/moves.cpp).
   static constexpr std::size_t least_blocks_per_joint = 4;
@@ -95,7 +95,7 @@ class MoveChecker {
   bool attempt(std::span<const DofChange> changes, bool all);
 
   const D& matrix() const noexcept { return hierarchy_.get().matrix(); }
-  const MovingParts& parts() const noexcept { return cut_.parts(); }
+  const detail::MovingParts& parts() const noexcept { return cut_.parts(); }
   std::uint32_t part_of(PrimitiveId i) const noexcept { return parts().part_of(model().group_of(i)); }
   P place(PrimitiveId i, const Frame& frame) const noexcept {
     const P& local = model().primitives()[index(i)];
@@ -139,7 +139,7 @@ class MoveChecker {
   bool recheck(bool all) {
     complete_ = true;
     bool collides = false;
-    for (const KnownPair& pair : known_) {
+    for (const detail::KnownPair& pair : known_) {
       const PrimitiveId i = pair.hit.first, j = pair.hit.second;
       const std::uint32_t part = part_of(i);
       if (part != part_of(j)) continue;
@@ -182,7 +182,7 @@ class MoveChecker {
   bool try_blocks(bool all) {
     if constexpr (by_blocks) {
       if (!rounding_.is_small() || least_blocks_per_joint * changes_.size() > blocks_->block_count() ||
-          changes_.size() > MoveFrames::most_kept)
+          changes_.size() > detail::MoveFrames::most_kept)
         return false;
       catch_up();
       if (!blocks_->holds()) return false;
@@ -191,7 +191,7 @@ class MoveChecker {
       pending_ = Pending::blocks;
       if (recheck(all) && !all) return true;
       const double tolerance = rounding_.tolerance(), error = rounding_.motion_error();
-      if constexpr (TurnsOne<P>) {
+      if constexpr (detail::TurnsOne<P>) {
         const auto note = [&](PrimitiveId i, PrimitiveId j) { note_collision(i, j); };
         if (!all && blocks_->recall(parts(), tolerance, error, counts_, note)) return true;
       }
@@ -202,16 +202,16 @@ class MoveChecker {
     return false;
   }
 
-  AskedHierarchy<Hierarchy<P, F, D, EngineOf>> hierarchy_;
-  MoveCut cut_;
-  MoveRounding rounding_;
+  detail::AskedHierarchy<Hierarchy<P, F, D, EngineOf>> hierarchy_;
+  detail::MoveCut cut_;
+  detail::MoveRounding rounding_;
   std::vector<double> q_;
-  std::vector<KnownPair> known_, tried_known_;
+  std::vector<detail::KnownPair> known_, tried_known_;
   std::vector<Hit> hits_;
   std::vector<DofChange> changes_;  // of the pending move: those that change a value
   Pending pending_ = Pending::none;
   bool complete_ = false;  // tried_known_ holds all pairs
-  std::optional<std::conditional_t<by_blocks, BlockMoves<P>, std::monostate>> blocks_;
+  std::optional<std::conditional_t<by_blocks, detail::BlockMoves<P>, std::monostate>> blocks_;
   std::vector<DofChange> behind_;  // accepted, and not known to blocks_
   bool all_behind_ = true;
   MoveCounts counts_;

@@ -31,8 +31,7 @@
 
 namespace hinge {
 
-/// Proves path after path for one hierarchy, of which it holds a copy. One per thread. What "free" says, and how it is
-/// proved: docs/explanation/certified_paths.md.
+/// Proves paths with its own copy of a hierarchy; one per thread. The proof is in docs/explanation/certified_paths.md.
 template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
 class CertifiedPath {
  public:
@@ -54,7 +53,7 @@ class CertifiedPath {
   static constexpr double most_above_limit = 1.5;
   static constexpr double most_pieces = 4096.0;
   // Links of many primitives with an extent are listed as wholes first: their pairs would be too many.
-  static constexpr bool by_links = KeepsTrees<P>;
+  static constexpr bool by_links = detail::KeepsTrees<P>;
   // Displacements up to this share of the model are listed for; larger ones make long lists, smaller ones many. Near
   // the best for proteins and robots (bench/paths.cpp); answers do not depend on it.
   static constexpr double list_share = by_links ? 1.0 / 160.0 : 1.0 / 40.0;
@@ -62,28 +61,28 @@ class CertifiedPath {
   static constexpr std::size_t most_near = 32;
 
   void place(double t);
-  void list(const PathSegment& segment);
-  bool judge(const PathSegment& segment);
+  void list(const detail::PathSegment& segment);
+  bool judge(const detail::PathSegment& segment);
   void cut_evenly(double largest);
-  bool middle_collides(const PathSegment& segment);
-  bool find_near(const PathPair& links, double closer, std::size_t most);
-  bool collides(const PathPair& pair, double t);
+  bool middle_collides(const detail::PathSegment& segment);
+  bool find_near(const detail::PathPair& links, double closer, std::size_t most);
+  bool collides(const detail::PathPair& pair, double t);
   void answer_collision(const Hit& hit, double t);
-  void leave_undecided(const PathSegment& segment, const PathPair* pair);
+  void leave_undecided(const detail::PathSegment& segment, const detail::PathPair* pair);
 
   Hierarchy<P, F, D, EngineOf> hierarchy_;
-  GroupRates rates_;
-  Displacements displacements_;
+  detail::GroupRates rates_;
+  detail::Displacements displacements_;
   double list_limit_;
   StraightPath path_{{}, {}, 0};  // the one under way, or the last
   double smallest_step_ = 0.0;
   PathAnswer answer_;
   std::vector<double> q_;
   std::vector<double> clearance_;
-  PathSegments segments_;
-  std::vector<PathPair> listed_, before_, after_, found_;
+  detail::PathSegments segments_;
+  std::vector<detail::PathPair> listed_, before_, after_, found_;
   LinkPairHits near_links_;
-  RelativeMotions motions_;
+  detail::RelativeMotions motions_;
 };
 
 template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
@@ -98,7 +97,7 @@ PathAnswer CertifiedPath<P, F, D, EngineOf>::check(std::span<const double> from,
   rates_.begin(path_);
   segments_.start();
   for (std::size_t k = 0; k < segments_.size(); ++k) {
-    const PathSegment segment = segments_[k];
+    const detail::PathSegment segment = segments_[k];
     if (k == most_segments) {
       leave_undecided(segment, nullptr);
       break;
@@ -126,7 +125,7 @@ void CertifiedPath<P, F, D, EngineOf>::place(double t) {
 
 /// Finds the pairs that might come too close; none when the segment had better be cut first.
 template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
-void CertifiedPath<P, F, D, EngineOf>::list(const PathSegment& segment) {
+void CertifiedPath<P, F, D, EngineOf>::list(const detail::PathSegment& segment) {
   if (segment.is_whole()) displacements_.begin(rates_.groups());
   const double largest = displacements_.find(rates_.groups(), segment.half());
   if (!(largest <= most_above_limit * list_limit_) && segment.length() > smallest_step_) {
@@ -146,7 +145,8 @@ void CertifiedPath<P, F, D, EngineOf>::list(const PathSegment& segment) {
     hierarchy_.self_query(near_links_, options);
     for (const Hit& hit : near_links_.hits()) listed_.push_back({hit.first, hit.second, true});
   } else {
-    ListedPairs listed(listed_, StaysApart{hierarchy_.model(), hierarchy_.matrix(), rates_, motions_, segment.half()});
+    detail::ListedPairs listed(
+        listed_, detail::StaysApart{hierarchy_.model(), hierarchy_.matrix(), rates_, motions_, segment.half()});
     hierarchy_.self_query(listed, options);
     answer_.counts.pairs_listed += listed.proved();
     answer_.counts.pairs_proved += listed.proved();
@@ -155,7 +155,7 @@ void CertifiedPath<P, F, D, EngineOf>::list(const PathSegment& segment) {
 
 /// Asks the ordinary query where a list would be long.
 template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
-bool CertifiedPath<P, F, D, EngineOf>::middle_collides(const PathSegment& segment) {
+bool CertifiedPath<P, F, D, EngineOf>::middle_collides(const detail::PathSegment& segment) {
   AnyHit any;
   hierarchy_.self_query(any);
   if (!any.done()) return false;
@@ -176,23 +176,23 @@ void CertifiedPath<P, F, D, EngineOf>::cut_evenly(double largest) {
 
 /// Proves what can be proved of the listed pairs and hands on the others; true when one of them collides.
 template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
-bool CertifiedPath<P, F, D, EngineOf>::judge(const PathSegment& segment) {
+bool CertifiedPath<P, F, D, EngineOf>::judge(const detail::PathSegment& segment) {
   const double middle = segment.middle(), half = segment.half();
   const SelectedModel<P>& model = hierarchy_.model();
   before_.clear();
   after_.clear();
-  ProvedRadii shortest{half, half};
+  detail::ProvedRadii shortest{half, half};
   for (std::size_t k = 0; k < listed_.size(); ++k) {
-    const PathPair pair = listed_[k];
+    const detail::PathPair pair = listed_[k];
     ++answer_.counts.pairs_listed;
     const auto a = static_cast<std::uint32_t>(index(model.group_of(pair.first)));
     const auto b = static_cast<std::uint32_t>(index(model.group_of(pair.second)));
     const double m = hierarchy_.matrix().threshold(pair.first, pair.second);
-    const std::span<const GroupRate> groups = rates_.groups();
-    const RelativeMotion& motion = motions_(groups, a, b, half);
+    const std::span<const detail::GroupRate> groups = rates_.groups();
+    const detail::RelativeMotion& motion = motions_(groups, a, b, half);
     const P p = hierarchy_.placed(pair.first), q = hierarchy_.placed(pair.second);
     if constexpr (has_one_point<P>)
-      if (farther_than(p, q, m, motion.approach, rates_.scale())) {
+      if (detail::farther_than(p, q, m, motion.approach, rates_.scale())) {
         ++answer_.counts.pairs_proved;
         continue;
       }
@@ -210,7 +210,7 @@ bool CertifiedPath<P, F, D, EngineOf>::judge(const PathSegment& segment) {
       }
       continue;
     }
-    const ProvedRadii radii = prove_apart(p, q, m, motion, half, rates_.scale());
+    const detail::ProvedRadii radii = prove_apart(p, q, m, motion, half, rates_.scale());
     if (radii.before >= half && radii.after >= half) {
       ++answer_.counts.pairs_proved;
       continue;
@@ -234,14 +234,14 @@ bool CertifiedPath<P, F, D, EngineOf>::judge(const PathSegment& segment) {
   }
   if (before_.empty() && after_.empty()) return false;
   if (segment.length() > smallest_step_) {
-    segments_.push(segment.low, next_up(middle - shortest.before), before_);
-    segments_.push(next_down(middle + shortest.after), segment.high, after_);
+    segments_.push(segment.low, detail::next_up(middle - shortest.before), before_);
+    segments_.push(detail::next_down(middle + shortest.after), segment.high, after_);
     return false;
   }
   // The ends are asked as well: a path may touch in its first state.
   for (const double end : {segment.low, segment.high}) {
     place(end);
-    for (const PathPair& pair : listed_) {
+    for (const detail::PathPair& pair : listed_) {
       const bool near = !pair.stands_for_links || !find_near(pair, 0.0, 0);
       if (near && collides(pair.stands_for_links ? found_.front() : pair, end)) return true;
     }
@@ -252,20 +252,20 @@ bool CertifiedPath<P, F, D, EngineOf>::judge(const PathSegment& segment) {
 
 /// Finds the pairs of the two links closer than their threshold and an approach (scaled); are there at most so many?
 template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
-bool CertifiedPath<P, F, D, EngineOf>::find_near(const PathPair& links, double closer, std::size_t most) {
+bool CertifiedPath<P, F, D, EngineOf>::find_near(const detail::PathPair& links, double closer, std::size_t most) {
   const double margin = closer / rates_.scale();
   found_.clear();
   if (!is_length(margin)) return false;
-  NearLinks near(hierarchy_.model().model().links(), links, margin, most, found_);
+  detail::NearLinks near(hierarchy_.model().model().links(), links, margin, most, found_);
   hierarchy_.self_query(near);
   return found_.size() <= most;
 }
 
 /// At the state t, which was placed last, by the rule of every query; answers if so.
 template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
-bool CertifiedPath<P, F, D, EngineOf>::collides(const PathPair& pair, double t) {
+bool CertifiedPath<P, F, D, EngineOf>::collides(const detail::PathPair& pair, double t) {
   const P p = hierarchy_.placed(pair.first), q = hierarchy_.placed(pair.second);
-  const auto m = threshold_of(hierarchy_.matrix(), pair.first, pair.second);
+  const auto m = detail::threshold_of(hierarchy_.matrix(), pair.first, pair.second);
   if (!closer_than(p, q, m)) return false;
   answer_collision({pair.first, pair.second, m > 0.0 ? distance(p, q) : 0.0, m}, t);
   return true;
@@ -282,7 +282,8 @@ void CertifiedPath<P, F, D, EngineOf>::answer_collision(const Hit& hit, double t
 
 /// The longest stretch that is left is the one that is told.
 template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
-void CertifiedPath<P, F, D, EngineOf>::leave_undecided(const PathSegment& segment, const PathPair* pair) {
+void CertifiedPath<P, F, D, EngineOf>::leave_undecided(const detail::PathSegment& segment,
+                                                       const detail::PathPair* pair) {
   if (answer_.verdict == PathVerdict::undecided && answer_.half_width >= segment.half()) return;
   answer_.verdict = PathVerdict::undecided;
   answer_.parameter = segment.middle();

@@ -39,7 +39,7 @@ struct Capsule {
   /// coordinate difference, 17 of the segments' distance and 2 of itself; beyond 2^512 and below 2^-537 its square
   /// leaves the range of doubles and is infinite or the smallest positive number, and below 2^-511 it has lost digits.
   friend double squared_distance(const Capsule& p, const Capsule& q) noexcept {
-    constexpr double sum_below = 1.0 - 4 * exact::half_ulp, sum_above = 1.0 + 4 * exact::half_ulp;
+    constexpr double sum_below = 1.0 - 4 * detail::exact::half_ulp, sum_above = 1.0 + 4 * detail::exact::half_ulp;
     const double touch = p.radius + q.radius;
     const detail::SegmentPair pair(p.a, p.b, q.a, q.b);
     if (pair.in_window()) {
@@ -50,14 +50,14 @@ struct Capsule {
         return gap * gap;
       }
     }
-    return exact::nearest_of_segments(p.a, p.b, q.a, q.b, {p.radius, q.radius, 0.0}).squared_gap;
+    return detail::exact::nearest_of_segments(p.a, p.b, q.a, q.b, {p.radius, q.radius, 0.0}).squared_gap;
   }
 
   /// The segments are closer than both radii and m together, or the closed capsules touch: the answer for the real
   /// numbers that coordinates, radii and m are. m >= 0.
   friend bool closer_than(const Capsule& p, const Capsule& q, double m) noexcept {
     // Room for the two roundings of the sum, and for one of the comparison.
-    constexpr double sum_below = 1.0 - 4 * exact::half_ulp, sum_above = 1.0 + 4 * exact::half_ulp;
+    constexpr double sum_below = 1.0 - 4 * detail::exact::half_ulp, sum_above = 1.0 + 4 * detail::exact::half_ulp;
     const double near = p.radius + q.radius + m;
     if (apart(p, q, near * sum_above)) return false;
     const detail::SegmentPair pair(p.a, p.b, q.a, q.b);
@@ -66,7 +66,7 @@ struct Capsule {
       if (nearest.distance + pair.rounding(nearest.distance) < near * sum_below) return true;
       if (nearest.gap - pair.rounding(nearest.gap) > near * sum_above) return false;
     }
-    return exact::segments_closer_than(p.a, p.b, q.a, q.b, {p.radius, q.radius, m});
+    return detail::exact::segments_closer_than(p.a, p.b, q.a, q.b, {p.radius, q.radius, m});
   }
 
   /// On the surfaces along the line of the segments' nearest points, up to rounding of the coordinates; where the
@@ -78,7 +78,7 @@ struct Capsule {
       if (pair.certain(nearest))
         return closest_points(Sphere{pair.placed(nearest.p), p.radius}, Sphere{pair.placed(nearest.q), q.radius});
     }
-    const auto nearest = exact::nearest_of_segments(p.a, p.b, q.a, q.b, {p.radius, q.radius, 0.0});
+    const auto nearest = detail::exact::nearest_of_segments(p.a, p.b, q.a, q.b, {p.radius, q.radius, 0.0});
     return closest_points(Sphere{detail::on_edge(p.a, p.b, nearest.s), p.radius},
                           Sphere{detail::on_edge(q.a, q.b, nearest.t), q.radius});
   }

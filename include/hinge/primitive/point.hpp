@@ -30,16 +30,16 @@ struct Point {
   /// lost digits.
   friend double squared_distance(const Point& p, const Point& q) noexcept {
     const double squared = squared_norm(Vec3(p.position - q.position));
-    if (squared >= exact::lost_squares) [[likely]]
+    if (squared >= detail::exact::lost_squares) [[likely]]
       return squared;
-    return exact::squared_gap_of_balls(p.position, q.position, {});
+    return detail::exact::squared_gap_of_balls(p.position, q.position, {});
   }
 
   /// Right to 4 half ulps, whatever the size; 0 exactly when the points coincide.
   friend double distance(const Point& p, const Point& q) noexcept {
     const Vec3 d = p.position - q.position;
     const double squared = squared_norm(d);
-    if (squared >= exact::lost_squares && squared <= exact::largest_square) [[likely]]
+    if (squared >= detail::exact::lost_squares && squared <= detail::exact::largest_square) [[likely]]
       return std::sqrt(squared);
     int exponent = 0;
     std::frexp(std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])}), &exponent);
@@ -54,11 +54,11 @@ struct Point {
     if (!(m > 0.0)) return false;
     // Half ulps: 5 for the sum of squares, its differences included, 1 for m * m, 1 for the product with the band. What
     // is infinite is below nothing.
-    constexpr double band = 1.0 + 8 * exact::half_ulp;
+    constexpr double band = 1.0 + 8 * detail::exact::half_ulp;
     const double square = m * m, squared = squared_norm(Vec3(p.position - q.position));
-    if (square * band + exact::lost_squares < squared) return false;
-    if (squared * band + exact::lost_squares < square) return true;
-    return exact::points_closer_than(p.position, q.position, m);
+    if (square * band + detail::exact::lost_squares < squared) return false;
+    if (squared * band + detail::exact::lost_squares < square) return true;
+    return detail::exact::points_closer_than(p.position, q.position, m);
   }
 
   friend std::pair<Vec3, Vec3> closest_points(const Point& p, const Point& q) noexcept {

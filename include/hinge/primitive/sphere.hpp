@@ -32,9 +32,10 @@ struct Sphere {
   Aabb bounds() const noexcept {
     Aabb box;
     for (int k = 0; k < 3; ++k) {
-      const exact::Exactly low = exact::two_difference(center[k], radius), high = exact::two_sum(center[k], radius);
-      box.lower[k] = low.rest < 0.0 ? next_down(low.value) : low.value;
-      box.upper[k] = high.rest > 0.0 ? next_up(high.value) : high.value;
+      const detail::exact::Exactly low = detail::exact::two_difference(center[k], radius),
+                                   high = detail::exact::two_sum(center[k], radius);
+      box.lower[k] = low.rest < 0.0 ? detail::next_down(low.value) : low.value;
+      box.upper[k] = high.rest > 0.0 ? detail::next_up(high.value) : high.value;
     }
     return box;
   }
@@ -47,26 +48,26 @@ struct Sphere {
   /// is infinite or the smallest positive number, and below 2^-511 it has lost digits.
   friend double squared_distance(const Sphere& p, const Sphere& q) noexcept {
     // Half ulps: of the larger, 4 for the root of squares, 1 for the sum, 1 for the difference.
-    constexpr double band = 16 * exact::half_ulp;
+    constexpr double band = 16 * detail::exact::half_ulp;
     const double touch = p.radius + q.radius, squared = squared_norm(Vec3(p.center - q.center));
-    if (squared >= exact::lost_squares && squared <= exact::largest_square) [[likely]] {
+    if (squared >= detail::exact::lost_squares && squared <= detail::exact::largest_square) [[likely]] {
       const double apart = std::sqrt(squared), gap = apart - touch;
       if (gap > band * apart) return gap * gap;
       if (gap < -band * touch) return 0.0;
     }
-    return exact::squared_gap_of_balls(p.center, q.center, {p.radius, q.radius, 0.0});
+    return detail::exact::squared_gap_of_balls(p.center, q.center, {p.radius, q.radius, 0.0});
   }
 
   /// |c - c'| < r + r' + m, or they touch: the answer for the real numbers that centres, radii and m are. m >= 0.
   friend bool closer_than(const Sphere& p, const Sphere& q, double m) noexcept {
     // Half ulps: 5 for the sum of squares, its differences included, 5 for the square of a sum of three, 1 for the
     // product with the band. What is infinite is below nothing.
-    constexpr double band = 1.0 + 16 * exact::half_ulp;
+    constexpr double band = 1.0 + 16 * detail::exact::half_ulp;
     const double near = p.radius + q.radius + m, square = near * near;
     const double squared = squared_norm(Vec3(p.center - q.center));
-    if (square * band + exact::lost_squares < squared) return false;
-    if (squared * band + exact::lost_squares < square) return true;
-    return exact::balls_closer_than(p.center, q.center, {p.radius, q.radius, m});
+    if (square * band + detail::exact::lost_squares < squared) return false;
+    if (squared * band + detail::exact::lost_squares < square) return true;
+    return detail::exact::balls_closer_than(p.center, q.center, {p.radius, q.radius, m});
   }
 
   /// On the surfaces along the line of centres, up to rounding of the coordinates; where the balls overlap, the same

@@ -39,9 +39,9 @@ struct Triangle {
   /// is infinite or the smallest positive number.
   friend double squared_distance(const Triangle& p, const Triangle& q) noexcept {
     constexpr double smallest = 0x1p-1074;
-    const Corners x = p.hull(), y = q.hull();
+    const detail::Corners x = p.hull(), y = q.hull();
     const Boxes boxes(p, q);
-    if (!boxes.apart(0.0) && intersect(x, y, boxes.extent())) return 0.0;
+    if (!boxes.apart(0.0) && detail::intersect(x, y, boxes.extent())) return 0.0;
     const detail::TrianglePair pair(x, y);
     if (pair.in_window()) {
       const auto nearest = pair.nearest();
@@ -53,7 +53,7 @@ struct Triangle {
   /// As squared_distance says, but right whatever the size. Positive where they are apart.
   friend double distance(const Triangle& p, const Triangle& q) noexcept {
     const double squared = squared_distance(p, q);
-    if ((squared >= exact::lost_squares && squared <= exact::largest_square) || squared == 0.0)
+    if ((squared >= detail::exact::lost_squares && squared <= detail::exact::largest_square) || squared == 0.0)
       return std::sqrt(squared);
     return std::max(detail::nearest_in_integers(p.hull(), q.hull()).distance, 0x1p-1074);
   }
@@ -62,8 +62,8 @@ struct Triangle {
   friend bool closer_than(const Triangle& p, const Triangle& q, double m) noexcept {
     const Boxes boxes(p, q);
     if (boxes.apart(std::max(m, 0.0))) return false;
-    const Corners x = p.hull(), y = q.hull();
-    if (!boxes.apart(0.0) && intersect(x, y, boxes.extent())) return true;
+    const detail::Corners x = p.hull(), y = q.hull();
+    if (!boxes.apart(0.0) && detail::intersect(x, y, boxes.extent())) return true;
     if (!(m > 0.0)) return false;
     if (!is_finite(m)) return true;
     const detail::TrianglePair pair(x, y);
@@ -82,11 +82,11 @@ struct Triangle {
     if (reach.first == 0.0 && reach.second == 0.0) return closer_than(p, q, reach.clearance);
     // Room for the two roundings of the sum, and for one of the comparison; what is above `far` is above the sum also
     // where products are denormal.
-    constexpr double sum_below = 1.0 - 4 * exact::half_ulp, sum_above = 1.0 + 4 * exact::half_ulp;
+    constexpr double sum_below = 1.0 - 4 * detail::exact::half_ulp, sum_above = 1.0 + 4 * detail::exact::half_ulp;
     const double near = reach, far = near * sum_above + 0x1p-1000;
     if (Boxes(p, q).apart(far)) return false;
     if (!is_finite(near)) return true;
-    const Corners x = p.hull(), y = q.hull();
+    const detail::Corners x = p.hull(), y = q.hull();
     const detail::TrianglePair pair(x, y);
     if (pair.in_window()) {
       if (pair.planes_apart(far)) return false;
@@ -100,7 +100,7 @@ struct Triangle {
   /// As far apart as the distance says, up to an ulp or two of the coordinates; of triangles that meet, one point
   /// twice.
   friend std::pair<Vec3, Vec3> closest_points(const Triangle& p, const Triangle& q) noexcept {
-    const Corners x = p.hull(), y = q.hull();
+    const detail::Corners x = p.hull(), y = q.hull();
     const detail::TrianglePair pair(x, y);
     if (pair.in_window()) {
       const auto nearest = pair.nearest();

@@ -39,7 +39,7 @@ class HitsWithin {
 
   /// The pairs, sorted by (first, second).
   std::vector<Hit> take() {
-    sort_hits(hits_);
+    detail::sort_hits(hits_);
     return std::exchange(hits_, {});
   }
 

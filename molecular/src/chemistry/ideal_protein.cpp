@@ -103,7 +103,7 @@ Vec3 place(const Vec3& a, const Vec3& b, const Vec3& c, double length, double an
   const Vec3 normal = cross(Vec3(b - a), u);
   const Vec3 n = normal / std::sqrt(squared_norm(normal));
   const Vec3 m = cross(n, u);
-  const SinCos bend = sincos(angle * degree), turn = sincos(dihedral * degree);
+  const detail::SinCos bend = detail::sincos(angle * degree), turn = detail::sincos(dihedral * degree);
   return c + length * (u * -bend.cos + (m * turn.cos + n * turn.sin) * bend.sin);
 }
 

@@ -58,7 +58,7 @@ struct Rule {
   /// and three sums are rounded on the way.
   double hair(double margin) const noexcept { return as_written ? 0x1p-20 + 32 * 0x1p-53 * (largest + margin) : 0.0; }
   bool closer(const Point& p, const Point& q, double m) const noexcept {
-    return as_written ? closer_as_written(p, q, m) : closer_than(p, q, m);
+    return as_written ? detail::closer_as_written(p, q, m) : closer_than(p, q, m);
   }
 };
 

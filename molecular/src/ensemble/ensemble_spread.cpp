@@ -101,7 +101,7 @@ EnsembleSpread::EnsembleSpread(const Molecule& molecule, std::span<const std::si
 
 void EnsembleSpread::add(std::span<const Vec3> positions) {
   for (std::size_t k = 0; k < torsions_.size(); ++k) {
-    const SinCos turn = sincos(turn_of(molecule_, torsions_[k], positions));
+    const detail::SinCos turn = detail::sincos(turn_of(molecule_, torsions_[k], positions));
     cosines_[k] += turn.cos;
     sines_[k] += turn.sin;
   }

@@ -63,7 +63,8 @@ std::vector<std::size_t> find_held_torsions(const Molecule& molecule, std::span<
   // Coordinates are off by half a thousandth in each of three directions, an axis by two of them over a bond of 1.2 A.
   constexpr double point = 8.7e-4, axis = 2.0 * point / 1.2;
   std::vector<std::size_t> held;
-  for (const DofId dof : rigid_cycle_dofs(molecule.model().tree(), molecule.select(torsions), {point, axis}, closures))
+  for (const DofId dof :
+       detail::rigid_cycle_dofs(molecule.model().tree(), molecule.select(torsions), {point, axis}, closures))
     held.push_back(molecule.torsion_of(dof));
   std::sort(held.begin(), held.end());
   return held;

@@ -21,7 +21,7 @@ double sample_turn(const Sampling& sampling, SampleStream& stream) {
 
 /// sin^2 of half the angle of Rx(a) Ry(b) Rz(c): the squared vector part of the product of the three quaternions.
 double squared_half_sine(double a, double b, double c) noexcept {
-  const SinCos x = sincos(a / 2), y = sincos(b / 2), z = sincos(c / 2);
+  const detail::SinCos x = detail::sincos(a / 2), y = detail::sincos(b / 2), z = detail::sincos(c / 2);
   const double i = x.sin * y.cos * z.cos + x.cos * y.sin * z.sin;
   const double j = x.cos * y.sin * z.cos - x.sin * y.cos * z.sin;
   const double k = x.cos * y.cos * z.sin + x.sin * y.sin * z.cos;
@@ -60,12 +60,12 @@ std::array<double, 6> sample_placement(SampleStream& stream, const PlacementRang
     // it takes no axis farther from where it was.
     const double quarter = std::numbers::pi / 2;
     const double side = range.turn <= quarter ? range.turn : std::numbers::pi;
-    const double half_sine = sincos(range.turn / 2).sin;
+    const double half_sine = detail::sincos(range.turn / 2).sin;
     const bool any = range.turn >= std::numbers::pi;
     do {
       do {
         q[4] = std::min(side, quarter) * (2.0 * stream.uniform() - 1.0);
-      } while (stream.uniform() > sincos(q[4]).cos);
+      } while (stream.uniform() > detail::sincos(q[4]).cos);
       q[3] = side * (1.0 - 2.0 * stream.uniform());
       q[5] = side * (1.0 - 2.0 * stream.uniform());
     } while (!any && squared_half_sine(q[3], q[4], q[5]) > half_sine * half_sine);

@@ -73,8 +73,8 @@ std::optional<std::pair<Hit, Closeness>> closest_between(H& mine, const LinkMarg
                                                          const LinkMargins& other_margins, const G& across,
                                                          const QueryOptions& options) {
   const auto measured = [&](const Hit& hit) {
-    const double more = clearance_of(options.clearance, mine.model().group_of(hit.first)) +
-                        clearance_of(options.other_clearance, theirs.model().group_of(hit.second));
+    const double more = detail::clearance_of(options.clearance, mine.model().group_of(hit.first)) +
+                        detail::clearance_of(options.other_clearance, theirs.model().group_of(hit.second));
     return measure(mine, theirs, hit, margins.sum(hit.first, other_margins, hit.second) + more);
   };
   std::optional<Hit> hit = mine.closest(theirs, across, options);

@@ -123,7 +123,7 @@ Vec3 centre_of(const Points& points) {
 /// Turns each triangle so that the centre is behind it. False: it is in the plane of one.
 bool turn_outward(Triangles& triangles, const Vec3& centre) {
   for (Triangle& t : triangles) {
-    const int side = exact::orient3d(t.a, t.b, t.c, centre);
+    const int side = detail::exact::orient3d(t.a, t.b, t.c, centre);
     if (side == 0) return false;
     if (side != behind) std::swap(t.b, t.c);
   }
@@ -152,9 +152,9 @@ Triangles grown(const Triangles& triangles, const Vec3& centre, double factor) {
 bool enclose(const Triangles& triangles, const Points& points, double extent) {
   return std::all_of(triangles.begin(), triangles.end(), [&](const Triangle& t) {
     const Vec3 u = t.b - t.a, v = t.c - t.a, normal = cross(u, v);
-    const double rounding = 48 * exact::half_ulp * detail::largest(u) * detail::largest(v) * extent;
+    const double rounding = 48 * detail::exact::half_ulp * detail::largest(u) * detail::largest(v) * extent;
     return std::all_of(points.begin(), points.end(), [&](const Vec3& p) {
-      return dot(normal, Vec3(p - t.a)) < -rounding || exact::orient3d(t.a, t.b, t.c, p) == behind;
+      return dot(normal, Vec3(p - t.a)) < -rounding || detail::exact::orient3d(t.a, t.b, t.c, p) == behind;
     });
   });
 }

@@ -47,9 +47,9 @@ std::string coordinates_text(const Vec3& v) {
 /// y? 0 only when a and b are the same point so seen. (Edelsbrunner and Muecke, "Simulation of simplicity", 1990, for
 /// the one point p.) Swapping a and b turns the sign, so neighbours agree about the edge they share.
 int pushed_side(const Vec3& a, const Vec3& b, const Vec3& p) noexcept {
-  if (const int side = exact::orient2d(a, b, p, 2); side != 0) return side;
+  if (const int side = detail::exact::orient2d(a, b, p, 2); side != 0) return side;
   if (a[1] != b[1]) return a[1] > b[1] ? 1 : -1;
-  return exact::sign_of(b[0] - a[0]);
+  return detail::exact::sign_of(b[0] - a[0]);
 }
 
 }  // namespace
@@ -132,7 +132,7 @@ Place place_of(const Vec3& point, std::span<const Triangle> closed_mesh) noexcep
     if (closer_than(t, Triangle{point, point, point}, 0.0)) return Place::on_surface;
     const int side = pushed_side(t.a, t.b, point);
     if (side == 0 || pushed_side(t.b, t.c, point) != side || pushed_side(t.c, t.a, point) != side) continue;
-    if (side * exact::orient3d(t.a, t.b, t.c, point) > 0) winding += side;
+    if (side * detail::exact::orient3d(t.a, t.b, t.c, point) > 0) winding += side;
   }
   return winding == 0 ? Place::outside : Place::inside;
 }

@@ -103,7 +103,7 @@ void RobotChecker::set_base(const Pose& base) {
                              "': not a rigid placement (finite, R R^T = 1, det 1)");
   if (!kinematics_) {
     const KinematicTree& tree = robot_->model().tree();
-    PoseSource kinematics(std::make_shared<const RigidGroups>(tree, DofSelection::all(tree)), tree.dof_count());
+    detail::PoseSource kinematics(std::make_shared<const RigidGroups>(tree, DofSelection::all(tree)), tree.dof_count());
     kinematics.set_configuration(full_);
     AnyHierarchy hierarchy = make_hierarchy(engine_, free_model(robot_->model()), filter_, margins_);
     place(hierarchy, base, kinematics);
@@ -117,7 +117,7 @@ void RobotChecker::set_base(const Pose& base) {
   link_boxes_stand_ = false;
 }
 
-void RobotChecker::place(AnyHierarchy& hierarchy, const Pose& base, PoseSource& kinematics) {
+void RobotChecker::place(AnyHierarchy& hierarchy, const Pose& base, detail::PoseSource& kinematics) {
   std::visit(
       [&](auto& h) {
         // The world comes first, then the groups that the robot alone has.

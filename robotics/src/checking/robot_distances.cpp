@@ -88,7 +88,7 @@ std::vector<ClosestBody> RobotChecker::distances(Environment& environment, doubl
       ClosestOfPairs collector(links, others, margin);
       mine.query(theirs, collector, filter, options);
       for (const auto& [links_of_hit, hit] : collector.best()) {
-        const double more = clearance_of(options.clearance, mine.model().group_of(hit.first));
+        const double more = detail::clearance_of(options.clearance, mine.model().group_of(hit.first));
         const Closeness n =
             measure(mine, theirs, hit, mine.matrix().sum(hit.first, theirs.matrix(), hit.second) + more);
         ClosestBody closest{links_of_hit.first, {},    pair.body_id, hit.first, hit.second,

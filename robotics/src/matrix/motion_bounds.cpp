@@ -57,27 +57,29 @@ double LinkPath::rounding(double reach_a, double reach_b) const noexcept {
   constexpr double at_the_links = 8.0;  // as many joints' worth: placing, sweeping and comparing
   constexpr double per_departure = 32.0;
   const double longest = length_ + reach_a + reach_b;
-  return (per_joint * exact::half_ulp * (static_cast<double>(joints_) + at_the_links) + per_departure * departure_) *
+  return (per_joint * detail::exact::half_ulp * (static_cast<double>(joints_) + at_the_links) +
+          per_departure * departure_) *
          longest;
 }
 
 void LinkPath::place(const std::vector<Step>& steps, const RigidGroups& groups, std::span<const Interval> box,
-                     std::vector<AxisInterval>& joints, Pose& end) {
+                     std::vector<detail::AxisInterval>& joints, Pose& end) {
   for (const Step& step : steps) {
     const Joint& joint = groups[step.group].joint;
     const Interval& interval = box[step.drive.independent];
     const double middle = interval.middle();
-    const double half = next_up(std::max(middle - interval.lower, interval.upper - middle));
+    const double half = detail::next_up(std::max(middle - interval.lower, interval.upper - middle));
     const double m = step.drive.multiplier, value = m * middle + step.drive.offset;
     end = end * (joint.origin * motion(joint, value));
     // m q + offset is rounded, here and in what is asked later: twice on either side.
     const double largest = std::abs(m) * (std::abs(middle) + half) + std::abs(step.drive.offset);
-    AxisInterval axis;
+    detail::AxisInterval axis;
     axis.kind = joint.kind;
     axis.axis = product(end.rotation, joint.axis);
     axis.point = end * joint.point;
     axis.joint = step.drive.independent;
-    axis.set_half(interval.lower == interval.upper ? 0.0 : std::abs(m) * half + 8.0 * exact::half_ulp * largest);
+    axis.set_half(interval.lower == interval.upper ? 0.0
+                                                   : std::abs(m) * half + 8.0 * detail::exact::half_ulp * largest);
     joints.push_back(axis);
   }
 }

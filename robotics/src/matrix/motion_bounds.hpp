@@ -24,9 +24,9 @@ struct Interval {
 
 /// Both links in the frame of their lowest common rigid group, all joints at the middles of their intervals.
 struct PathState {
-  Pose first;                        ///< of link A
-  Pose second;                       ///< of link B
-  std::vector<AxisInterval> joints;  ///< from A to B; label: position in LinkPath::drivers()
+  Pose first;                                ///< of link A
+  Pose second;                               ///< of link B
+  std::vector<detail::AxisInterval> joints;  ///< from A to B; label: position in LinkPath::drivers()
 };
 
 /// Only joints between the two links count. Followers are functions of their driver: a box has one side per driver.
@@ -52,7 +52,7 @@ class LinkPath {
   };
   void find_sizes(const Robot& robot, LinkId link);
   static void place(const std::vector<Step>& steps, const RigidGroups& groups, std::span<const Interval> box,
-                    std::vector<AxisInterval>& joints, Pose& end);
+                    std::vector<detail::AxisInterval>& joints, Pose& end);
 
   const RigidGroups* groups_;  // outlives this
   std::vector<std::size_t> drivers_;

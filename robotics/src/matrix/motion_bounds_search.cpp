@@ -31,7 +31,7 @@ double triangles_gap(const Vec3& n, const Triangle& p, const Triangle& q, const 
 SweptTree::SweptTree(const Robot& robot, const BallTree& tree)
     : robot_(&robot), tree_(&tree), made_for_(tree.size(), 0), place_(tree.size(), 0) {}
 
-void SweptTree::begin(const Pose& pose, std::vector<AxisInterval> joints) {
+void SweptTree::begin(const Pose& pose, std::vector<detail::AxisInterval> joints) {
   pose_ = pose;
   joints_ = std::move(joints);
   swept_.clear();
@@ -43,14 +43,14 @@ const SweptTree::Swept& SweptTree::swept(std::uint32_t node) {
   made_for_[node] = box_;
   place_[node] = static_cast<std::uint32_t>(swept_.size());
   const Vec3 start = pose_ * tree_->node(node).centre;
-  Swept& made = swept_.emplace_back(Swept{start, SweptBall(start)});
-  for (const AxisInterval& joint : joints_) made.ball.sweep(joint);
+  Swept& made = swept_.emplace_back(Swept{start, detail::SweptBall(start)});
+  for (const detail::AxisInterval& joint : joints_) made.ball.sweep(joint);
   return made;
 }
 
 void SweptTree::add_shares(std::uint32_t node, const Vec3& n, double turning, std::vector<double>& shares) {
   swept(node).ball.add_shares(n, shares);
-  for (const AxisInterval& joint : joints_)
+  for (const detail::AxisInterval& joint : joints_)
     if (joint.kind == JointKind::revolute) shares[joint.joint] += turning * tree_->node(node).extent * joint.chord;
 }
 
@@ -109,13 +109,13 @@ void PairSearch::split_path() {
   std::vector<double> cost(joints.size() + 1, 0.0);
   const auto add_side = [&](const SweptTree& side, const Pose& pose, bool from_a) {
     const BallTree::Node& root = side.tree().node(0);
-    SweptBall ball(pose * root.centre);
+    detail::SweptBall ball(pose * root.centre);
     double chords = 0.0;
     for (std::size_t k = 0; k <= joints.size(); ++k) {
       const std::size_t at = from_a ? k : joints.size() - k;
       cost[at] += ball.extent() + chords * root.extent;
       if (k == joints.size()) break;
-      const AxisInterval& joint = joints[from_a ? k : joints.size() - 1 - k];
+      const detail::AxisInterval& joint = joints[from_a ? k : joints.size() - 1 - k];
       ball.sweep(joint);
       if (joint.kind == JointKind::revolute) chords += joint.chord;
     }

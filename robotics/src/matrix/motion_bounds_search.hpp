@@ -23,10 +23,10 @@ class SweptTree {
 
   const BallTree& tree() const noexcept { return *tree_; }
   /// joints: what the tree is swept by, in order.
-  void begin(const Pose& pose, std::vector<AxisInterval> joints);
+  void begin(const Pose& pose, std::vector<detail::AxisInterval> joints);
   struct Swept {
-    Vec3 start;      ///< the ball's centre at the middles of the intervals
-    SweptBall ball;  ///< of that centre
+    Vec3 start;              ///< the ball's centre at the middles of the intervals
+    detail::SweptBall ball;  ///< of that centre
   };
   /// Valid until the next node is asked for.
   const Swept& swept(std::uint32_t node);
@@ -40,7 +40,7 @@ class SweptTree {
   const Robot* robot_;
   const BallTree* tree_;
   Pose pose_;
-  std::vector<AxisInterval> joints_;
+  std::vector<detail::AxisInterval> joints_;
   std::uint64_t box_ = 0;
   std::vector<std::uint64_t> made_for_;  // by node: number of the box
   std::vector<std::uint32_t> place_;     // by node: in swept_

@@ -57,7 +57,7 @@ Triangles box(const Vec3& size) {
 Triangles prism(double radius, double length, std::size_t sides) {
   const double h = length / 2;
   const auto vertex = [&](std::size_t i) {
-    const SinCos sc = sincos(2 * pi * static_cast<double>(i % sides) / static_cast<double>(sides));
+    const detail::SinCos sc = detail::sincos(2 * pi * static_cast<double>(i % sides) / static_cast<double>(sides));
     return Vec3(radius * sc.cos, radius * sc.sin, 0.0);
   };
   const Vec3 up(0, 0, h);
@@ -79,7 +79,7 @@ Triangles prism(double radius, double length, std::size_t sides) {
 /// The circumscribed polygon's corners are radius / cos(pi / sides) from the axis.
 Triangles around_cylinder(const CylinderShape& cylinder, double tolerance) {
   for (std::size_t sides = 3; 4 * sides <= most_triangles; ++sides) {
-    const double radius = cylinder.radius / sincos(pi / static_cast<double>(sides)).cos;
+    const double radius = cylinder.radius / detail::sincos(pi / static_cast<double>(sides)).cos;
     if (radius - cylinder.radius <= tolerance) return prism(radius, cylinder.length, sides);
   }
   refuse_tolerance(tolerance);

@@ -12,7 +12,7 @@
 #include "hinge/detail/simd/lanes.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// block: 1 to 16 configurations, one after the other, dof_count values each (rad or model length unit); empty without
 /// DOF. Returns how many there are. ConfigurationError: another length, a value that is not finite, or a slide beyond
@@ -55,4 +55,4 @@ class PresentBlock {
   std::span<const double>& member_;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -20,7 +20,7 @@
 #include "hinge/kinematics/joint.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// A configuration per lane, in double. Operations are those of PoseSource in its order, so that what is decided on
 /// these frames is decided on the ones a single query has.
@@ -55,7 +55,7 @@ class FrameLanes {
     const std::size_t last = block.size() / dof_count - 1;
     for (std::size_t lane = 0; lane < size; ++lane) rows[lane] = block.data() + std::min(lane, last) * dof_count;
     bool small = true;
-    for (const double q : block) small &= std::abs(q) <= detail::cody_waite_limit;
+    for (const double q : block) small &= std::abs(q) <= cody_waite_limit;
     for (std::size_t g = 1; g < joints_.size(); ++g) {
       alignas(64) std::array<double, size> value;
       for (std::size_t lane = 0; lane < size; ++lane) value[lane] = rows[lane][joints_[g].dof];
@@ -105,7 +105,7 @@ class FrameLanes {
     } else {
       std::array<double, half> sines, cosines;
       for (std::size_t k = 0; k < half; ++k) {
-        const SinCos sc = hinge::sincos(value[k]);
+        const SinCos sc = sincos(value[k]);
         sines[k] = sc.sin;
         cosines[k] = sc.cos;
       }
@@ -155,4 +155,4 @@ class FrameLanes {
   simd::AlignedVector<double> entries_;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

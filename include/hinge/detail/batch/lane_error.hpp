@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace hinge {
+namespace hinge::detail {
 
 /// What one joint contributes, model length unit.
 struct JointLengths {
@@ -60,4 +60,4 @@ class LaneError {
   double exact_rotation_ = 0.0, exact_translation_ = 0.0;  // double against real arithmetic
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -20,7 +20,7 @@
 #include "hinge/kinematics/joint.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// A vector per lane.
 struct LaneVector {
@@ -54,7 +54,7 @@ using LaneFrame = std::array<LaneVector, 4>;
   constexpr double two_over_pi = 0x1.45f306dc9c883p-1, half_pi = 0x1.921fb54442d18p+0;
   alignas(64) std::array<double, simd::width> rest, turns;
   for (std::size_t k = 0; k < simd::width; k += 8) {
-    const simd::Double8 x(angle + k), up(detail::rounder);
+    const simd::Double8 x(angle + k), up(rounder);
     const simd::Double8 n = (x * simd::Double8(two_over_pi) + up) - up;
     n.store(turns.data() + k);
     (x - n * simd::Double8(half_pi)).store(rest.data() + k);
@@ -237,7 +237,7 @@ class LaneKinematics {
     }
     Float16 sine, cosine;
     sincos_rounded(value, sine, cosine);
-    const simd::Double8 limit(detail::cody_waite_limit), low(value), high(value + 8);
+    const simd::Double8 limit(cody_waite_limit), low(value), high(value + 8);
     if (less(limit, max(abs(low), abs(high))) != 0) [[unlikely]] {
       std::array<float, simd::width> s, c;
       for (std::size_t k = 0; k < simd::width; ++k) {
@@ -258,4 +258,4 @@ class LaneKinematics {
   double scale_ = 1.0;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

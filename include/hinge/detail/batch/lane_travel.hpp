@@ -20,7 +20,7 @@
 #include "hinge/model/selected_model.hpp"
 #include "hinge/policy/primitive.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// What has become of a group's frame since the reference: differences made in double and kept in float.
 class LaneStep {
@@ -177,4 +177,4 @@ class LaneTravel {
   std::vector<double> ways_, errors_;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

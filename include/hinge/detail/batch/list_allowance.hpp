@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Lists that allow more last longer, and cost more to make and to test. Which factor costs the fewest tests for each
 /// block is learned; the others are tried again from time to time. Costs time, never an answer.
@@ -48,4 +48,4 @@ class ListAllowance {
   std::uint64_t making_ = 0, testing_ = 0, served_ = 0;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

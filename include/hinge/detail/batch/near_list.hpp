@@ -23,7 +23,7 @@
 #include "hinge/policy/primitive.hpp"
 #include "hinge/primitive/point.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// A pair and where it stands at the reference that travels are measured from. Threshold: as threshold_of() gives it.
 template <class Threshold>
@@ -158,4 +158,4 @@ class NearList {
   std::vector<std::uint32_t> place_of_;  // by primitive
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

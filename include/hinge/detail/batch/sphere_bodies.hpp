@@ -21,7 +21,7 @@
 #include "hinge/policy/pair_filter.hpp"
 #include "hinge/primitive/sphere.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// A sphere in its group's lane frame: scaled, its radius grown and shrunk by the error of its place.
 struct LaneBall {
@@ -219,4 +219,4 @@ inline void SphereBodies::set_body(SphereBody& body, const LaneError& error) noe
   body.ball.grown = grown(body.enclosing.radius * error.stretch() + band + largest);
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

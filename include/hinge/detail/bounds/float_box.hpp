@@ -10,7 +10,7 @@
 
 #include "hinge/detail/simd/lanes.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// A float that was just rounded, as a double. Where g++ 12 puts two conversions into one register (from -O2 on,
 /// without any flag about floating point) it takes the double of float(x) for x; so it must not see where the float
@@ -128,4 +128,4 @@ struct BoxLanes {
   return axis(0) & axis(1) & axis(2);
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

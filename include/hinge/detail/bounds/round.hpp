@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace hinge {
+namespace hinge::detail {
 
 /// The next double above a finite x.
 inline double next_up(double x) noexcept {
@@ -17,4 +17,4 @@ inline double next_up(double x) noexcept {
 /// The next double below a finite x.
 inline double next_down(double x) noexcept { return -next_up(-x); }
 
-}  // namespace hinge
+}  // namespace hinge::detail

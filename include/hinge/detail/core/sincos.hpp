@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace hinge {
+namespace hinge::detail {
 
 struct SinCos {
   double sin = 0.0;
@@ -17,8 +17,6 @@ struct SinCos {
 /// sin and cos of a finite angle in radians, within 1.5 ulp for every finite argument; sincos(0) is exactly {0, 1}.
 /// Uses only + - * and integers, so the result depends on nothing but the argument (given -ffp-contract=off).
 SinCos sincos(double angle) noexcept;
-
-namespace detail {
 
 /// An angle as quadrant * pi/2 + (high + low), |high| <= pi/4 up to rounding.
 struct Reduced {
@@ -144,13 +142,10 @@ template <class T>
   c = w + (((one - w) - half) + (z * z * horner(cosine) - x * low));
 }
 
-}  // namespace detail
-
 inline SinCos sincos(double angle) noexcept {
-  const detail::Reduced r =
-      std::abs(angle) <= detail::cody_waite_limit ? detail::reduce_small(angle) : detail::reduce_large(angle);
+  const Reduced r = std::abs(angle) <= cody_waite_limit ? reduce_small(angle) : reduce_large(angle);
   double s, c;
-  detail::sincos_of_reduced(r.high, r.low, s, c);
+  sincos_of_reduced(r.high, r.low, s, c);
   switch (r.quadrant) {
     case 0: return {s, c};
     case 1: return {c, -s};
@@ -159,4 +154,4 @@ inline SinCos sincos(double angle) noexcept {
   }
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

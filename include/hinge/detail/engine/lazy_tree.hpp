@@ -13,7 +13,7 @@
 #include "hinge/bounds/aabb.hpp"
 #include "hinge/detail/core/assert.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Items are numbered 0 .. n-1; reset() computes the root only, everything below comes with split(). The same boxes
 /// give the same tree whatever was there before. Nothing recurses; depth is at most 3 ceil(log2 n) + 9.
@@ -140,4 +140,4 @@ inline bool check_well_formed(const LazyTree& tree, std::span<const Aabb> boxes)
   return true;
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

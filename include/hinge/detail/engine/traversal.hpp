@@ -11,7 +11,7 @@
 #include "hinge/detail/engine/lazy_tree.hpp"
 #include "hinge/query/query_options.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Pairs of node numbers still to be looked at. Grows as needed and keeps its memory between queries.
 using NodePairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
@@ -75,4 +75,4 @@ bool traverse(LazyTree& a, LazyTree& b, NodePairs& stack, QueryCounts& counts, c
   return true;
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -11,7 +11,7 @@
 #include "hinge/detail/exact/integer.hpp"
 #include "hinge/detail/exact/orient.hpp"
 
-namespace hinge::exact {
+namespace hinge::detail::exact {
 
 /// |p - q|^2 and the reach in one unit, a power of two.
 struct WholeBalls {
@@ -51,4 +51,4 @@ struct WholeBalls {
   return to_double(squared_gap(whole.squared, Integer::of(1.0, 0), whole.reach), whole.unit);
 }
 
-}  // namespace hinge::exact
+}  // namespace hinge::detail::exact

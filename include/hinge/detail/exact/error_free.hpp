@@ -10,7 +10,7 @@
 #error "hinge/exact needs IEEE arithmetic: compile without -ffast-math (or -Ofast)"
 #endif
 
-namespace hinge::exact {
+namespace hinge::detail::exact {
 
 static_assert(FLT_EVAL_METHOD == 0, "every operation has to round to double");
 
@@ -60,4 +60,4 @@ constexpr Exactly two_product(double a, double b) noexcept {
   return {product, low_a * low_b - (((product - high_a * high_b) - low_a * high_b) - high_a * low_b)};
 }
 
-}  // namespace hinge::exact
+}  // namespace hinge::detail::exact

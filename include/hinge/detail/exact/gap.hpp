@@ -11,7 +11,7 @@
 #include "hinge/detail/exact/integer.hpp"
 #include "hinge/detail/exact/orient.hpp"
 
-namespace hinge::exact {
+namespace hinge::detail::exact {
 
 /// The largest exponent e, not above `unit`, of which each term of the sum is a whole multiple of 2^e.
 inline int common_unit(const RadiusSum& sum, int unit) noexcept {
@@ -53,4 +53,4 @@ inline double to_double(const Scaled& squared, int unit) noexcept {
   return squared.mantissa == 0.0 ? 0.0 : std::max(squared.value(2 * unit), smallest);
 }
 
-}  // namespace hinge::exact
+}  // namespace hinge::detail::exact

@@ -12,7 +12,7 @@
 #include "hinge/detail/core/assert.hpp"
 #include "hinge/detail/exact/error_free.hpp"
 
-namespace hinge::exact {
+namespace hinge::detail::exact {
 
 /// mantissa * 2^exponent, for magnitudes outside the range of doubles; |mantissa| in [0.5, 1), or 0.
 struct Scaled {
@@ -191,4 +191,4 @@ class Integer {
   std::array<std::uint64_t, capacity> limbs_;  // least significant first
 };
 
-}  // namespace hinge::exact
+}  // namespace hinge::detail::exact

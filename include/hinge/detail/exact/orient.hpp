@@ -13,7 +13,7 @@
 #include "hinge/detail/exact/error_free.hpp"
 #include "hinge/detail/exact/integer.hpp"
 
-namespace hinge::exact {
+namespace hinge::detail::exact {
 
 inline int sign_of(double x) noexcept { return (x > 0.0 ? 1 : 0) - (x < 0.0 ? 1 : 0); }
 
@@ -100,4 +100,4 @@ inline int orient2d(const Vec3& a, const Vec3& b, const Vec3& c, int axis) noexc
   return orient2d_in_integers(a, b, c, axis);
 }
 
-}  // namespace hinge::exact
+}  // namespace hinge::detail::exact

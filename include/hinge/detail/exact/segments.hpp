@@ -12,7 +12,7 @@
 #include "hinge/detail/exact/integer.hpp"
 #include "hinge/detail/exact/orient.hpp"
 
-namespace hinge::exact {
+namespace hinge::detail::exact {
 
 /// Segments ab and cd, degenerate ones included. They are nearest at two ends, at an end and the inside of the other
 /// segment, or at the insides of both; the squared distance of each is a fraction of whole numbers. With the reach,
@@ -138,4 +138,4 @@ class WholeSegments {
   return WholeSegments(a, b, c, d, reach).nearest();
 }
 
-}  // namespace hinge::exact
+}  // namespace hinge::detail::exact

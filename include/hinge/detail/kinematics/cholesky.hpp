@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace hinge {
+namespace hinge::detail {
 
 /// The lower triangle of a symmetric matrix (size x size, row by row) is replaced by its factor L, L L^T the matrix.
 /// False, and the matrix half done, when it is not positive definite (NaN included).
@@ -21,4 +21,4 @@ inline bool factor_cholesky(std::vector<double>& matrix, std::size_t size) noexc
   return true;
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -10,7 +10,7 @@
 #include "hinge/detail/simd/lanes.hpp"
 #include "hinge/kinematics/frame.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// What is turned and moved by a frame, entry by entry: R v (+ t).
 class FrameColumns {
@@ -46,4 +46,4 @@ inline void compose(const Frame& a, const Pose& b, Frame& result) noexcept {
   compose(a, motion.data(), 1, result);
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -10,7 +10,7 @@
 #include "hinge/detail/simd/sincos.hpp"
 #include "hinge/kinematics/joint.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Joints of eight consecutive rigid groups. What unused places compute is never read.
 struct alignas(64) JointBatch {
@@ -46,7 +46,7 @@ inline void compute_motions(const JointBatch& batch, const double* q, JointMotio
     largest = std::max(largest, std::abs(angle[k]));
   }
   simd::Double8 s, c;
-  if (largest <= detail::cody_waite_limit) {
+  if (largest <= cody_waite_limit) {
     simd::sincos(simd::Double8(angle.data()), s, c);
   } else {
     std::array<double, n> sines, cosines;
@@ -72,4 +72,4 @@ inline void compute_motions(const JointBatch& batch, const double* q, JointMotio
   }
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -12,7 +12,7 @@
 #include "hinge/detail/core/sincos.hpp"
 #include "hinge/detail/kinematics/pivot_equations.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Turns (rad) to add about before-at and at-behind of the first pivot, of the second, and before-at of the third; the
 /// sixth turn, about the last bond, follows.
@@ -26,8 +26,6 @@ using PivotTurns = std::array<double, 5>;
 /// three equations. None when the sides make no triangle, or the pivots lie on a line. Two solutions nearer than about
 /// 1e-4 rad may come as one.
 inline std::vector<PivotTurns> close_pivots(const OpenChain& chain);
-
-namespace detail {
 
 /// A trigonometric polynomial of degree 8, sum of c[k] cos kt + s[k] sin kt, and where it may be zero.
 class TrigonometricRoots {
@@ -133,22 +131,20 @@ inline std::array<double, 5> dihedrals(const OpenChain& chain) noexcept {
           dihedral_turn(p[1].at, p[2].before, p[2].at, p[2].behind)};
 }
 
-}  // namespace detail
-
 inline std::vector<PivotTurns> close_pivots(const OpenChain& chain) {
-  const detail::PivotEquations equations(chain);
+  const PivotEquations equations(chain);
   std::vector<PivotTurns> solutions;
   if (!equations.solvable()) return solutions;
   constexpr double turn = 2.0 * std::numbers::pi;
   const auto wrapped = [](double angle) { return angle - turn * std::nearbyint(angle / turn); };
-  const std::array<double, 5> now = detail::dihedrals(chain);
-  detail::TrigonometricRoots eliminant([&](const SinCos& t) { return equations.eliminant(t); });
+  const std::array<double, 5> now = dihedrals(chain);
+  TrigonometricRoots eliminant([&](const SinCos& t) { return equations.eliminant(t); });
   for (const double root : eliminant.find())
     for (std::array<double, 3>& t : equations.starts(root)) {
       // A start that runs away belongs to another root, or to none.
       constexpr double near = 1e-2;
       if (!equations.refine(t) || std::abs(t[0] - root) > near) continue;
-      PivotTurns turns = detail::dihedrals(equations.placed(t));
+      PivotTurns turns = dihedrals(equations.placed(t));
       for (std::size_t k = 0; k < turns.size(); ++k) turns[k] = wrapped(turns[k] - now[k]);
       const bool known = std::any_of(solutions.begin(), solutions.end(), [&](const PivotTurns& other) {
         double apart = 0.0;
@@ -161,4 +157,4 @@ inline std::vector<PivotTurns> close_pivots(const OpenChain& chain) {
   return solutions;
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

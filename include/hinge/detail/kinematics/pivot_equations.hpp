@@ -13,7 +13,7 @@
 #include "hinge/core/vec3.hpp"
 #include "hinge/detail/core/sincos.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// A point of the chain with a turning bond on either side: N, C-alpha and C of a residue.
 struct Pivot {
@@ -26,8 +26,6 @@ struct OpenChain {
   std::array<Pivot, 3> pivots;
   Vec3 end_at, end_behind;
 };
-
-namespace detail {
 
 /// The angle of (cosine, sine) up to a common factor, rad in [-pi, pi], the same bits on every CPU: Newton's steps on
 /// our own sine and cosine from a rational start that is off by 0.07 at most.
@@ -203,5 +201,4 @@ class PivotEquations {
   bool solvable_ = false;
 };
 
-}  // namespace detail
-}  // namespace hinge
+}  // namespace hinge::detail

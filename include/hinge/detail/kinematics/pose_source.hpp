@@ -21,7 +21,7 @@
 #include "hinge/kinematics/frame.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Holds the current configuration (or poses computed elsewhere) of one set of rigid groups. Forward kinematics always
 /// starts from the reference, so a pose depends on the configuration alone and not on what was asked before.
@@ -206,4 +206,4 @@ inline void PoseSource::set_poses(std::span<const Pose> poses) {
   computed_ = reusable_ = groups_->size();
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -13,15 +13,13 @@
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/kinematics/kinematic_tree.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// How far the reference geometry may be off.
 struct GeometryError {
   double point = 0.0;  ///< of a joint's or closure's point, model length unit
   double axis = 0.0;   ///< of a joint's axis, rad
 };
-
-namespace detail {
 
 /// Is the smallest singular value of some closures' equations in some columns above what errors could have made of 0?
 /// So it is when J^T J less the square of that has a Cholesky decomposition.
@@ -58,8 +56,6 @@ inline bool has_full_rank(const ClosureEquations& equations, const std::vector<s
   return factor_cholesky(squared, n);
 }
 
-}  // namespace detail
-
 /// DOF of the selection that cannot leave the reference while all closures hold. A set of them is held when the
 /// derivatives of some closures by all free DOF in their cycles have full column rank there: by the inverse function
 /// theorem the reference is then an isolated solution, for every geometry within `error` (Weyl: no singular value moves
@@ -79,7 +75,7 @@ inline std::vector<DofId> rigid_cycle_dofs(const KinematicTree& tree, const DofS
     return columns;
   };
   const auto hold = [&](const std::vector<std::size_t>& closures, const std::vector<std::size_t>& columns) {
-    if (!detail::has_full_rank(equations, closures, columns, error)) return false;
+    if (!has_full_rank(equations, closures, columns, error)) return false;
     for (const std::size_t k : columns) held[k] = true;
     return true;
   };
@@ -126,4 +122,4 @@ inline std::vector<DofId> rigid_cycle_dofs(const KinematicTree& tree, const DofS
   return rigid_cycle_dofs(tree, selection, error, all_closures(tree));
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

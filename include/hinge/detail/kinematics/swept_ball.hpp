@@ -12,7 +12,7 @@
 #include "hinge/detail/core/sincos.hpp"
 #include "hinge/kinematics/joint.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// A joint's axis placed where it is at the middle of an interval of its value, and the interval's half width.
 struct AxisInterval {
@@ -142,4 +142,4 @@ class SweptBall {
   std::array<double, most_generators> grown_length_{};
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

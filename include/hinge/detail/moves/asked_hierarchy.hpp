@@ -12,7 +12,7 @@
 #include "hinge/detail/moves/move_cut.hpp"
 #include "hinge/query/query_options.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// H: a Hierarchy.
 template <class H>
@@ -70,4 +70,4 @@ class AskedHierarchy {
   std::vector<double> next_;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -32,7 +32,7 @@
 #include "hinge/policy/primitive.hpp"
 #include "hinge/query/query_options.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// For primitives whose batches turn (TurnsBatch). Blocks of one part keep their mutual placement and never meet: each
 /// is swept against all that stands still and what was turned before its part.
@@ -293,4 +293,4 @@ void BlockMoves<P>::reject() noexcept {
   blocks_.turn_back();
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

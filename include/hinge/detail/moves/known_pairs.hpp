@@ -12,7 +12,7 @@
 #include "hinge/policy/distance_matrix.hpp"
 #include "hinge/policy/primitive.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// A pair with d - M below a tolerance.
 struct KnownPair {
@@ -68,4 +68,4 @@ class NearPairs {
   bool collides_ = false;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

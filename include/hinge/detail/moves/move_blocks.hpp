@@ -30,7 +30,7 @@
 #include "hinge/kinematics/frame.hpp"
 #include "hinge/query/query_options.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// x -> R x + t for the floats of blocks.
 struct FloatMotion {
@@ -263,4 +263,4 @@ class MoveBlocks {
   float extent_ = 0.0F;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

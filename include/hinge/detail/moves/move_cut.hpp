@@ -17,7 +17,7 @@
 #include "hinge/kinematics/rigid_groups.hpp"
 #include "hinge/moves/dof_change.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// A joint that changes: its place in MovingParts, and its new value.
 using JointValue = std::pair<std::uint32_t, double>;
@@ -86,4 +86,4 @@ class MoveCut {
   std::vector<std::uint32_t> joints_;  // scratch
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -23,7 +23,7 @@
 #include "hinge/kinematics/joint.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// The motions of accepted moves are kept, and frames composed again when somebody asks for them, or when it comes
 /// cheaper: settle(). By places of MovingParts, which must be the same one in all calls.
@@ -244,4 +244,4 @@ class MoveFrames {
   std::vector<std::uint32_t> way_;  // scratch
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

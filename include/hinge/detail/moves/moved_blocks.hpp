@@ -17,7 +17,7 @@
 #include "hinge/model/selected_model.hpp"
 #include "hinge/policy/primitive.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Lanes of a block that one part takes along.
 struct PartLanes {
@@ -157,4 +157,4 @@ inline void MovedBlocks::find(const MovingParts& parts) {
   start_[0] = 0;
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

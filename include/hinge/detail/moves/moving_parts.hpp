@@ -13,7 +13,7 @@
 #include "hinge/detail/simd/lanes.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Groups stand in depth-first order, so that a subtree is a stretch of places: what a joint moves is one stretch, and
 /// a part of the cut tree is what is left of it when the stretches of joints below are taken out.
@@ -103,4 +103,4 @@ class MovingParts {
   std::vector<std::uint32_t> open_;  // scratch: parts around a place, the innermost last
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -13,7 +13,7 @@
 #include "hinge/detail/engine/wide/near_masks.hpp"
 #include "hinge/detail/simd/lanes.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Which lanes of the one are tested with each of the sixteen lanes of the other.
 using LaneRows = std::array<simd::Bits, simd::width>;
@@ -72,4 +72,4 @@ class NearRows {
   std::vector<std::size_t> start_;  // per block
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

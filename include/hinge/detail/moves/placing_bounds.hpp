@@ -16,7 +16,7 @@
 #include "hinge/model/selected_model.hpp"
 #include "hinge/policy/primitive.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Bounds over all configurations whose slides stay within a limit. docs/explanation/moves.md derives them.
 class PlacingBounds {
@@ -119,4 +119,4 @@ class MoveRounding {
   double model_size_ = 0.0, longest_slide_ = 0.0, tolerance_ = 0.0, motion_error_ = 0.0;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

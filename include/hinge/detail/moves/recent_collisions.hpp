@@ -17,7 +17,7 @@
 #include "hinge/detail/primitive/batch.hpp"
 #include "hinge/detail/simd/lanes.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Sixteen pairs of slots; the one that was met longest ago makes room for a new one.
 class RecentCollisions {
@@ -84,4 +84,4 @@ class RecentCollisions {
   std::vector<std::array<simd::Bits, 2>> of_part_;  // scratch
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

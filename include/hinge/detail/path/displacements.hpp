@@ -14,7 +14,7 @@
 #include "hinge/detail/path/group_rates.hpp"
 #include "hinge/detail/path/twist.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// A common motion of everything changes no distance, so any group may be held: one in the middle of a chain makes the
 /// largest displacements small.
@@ -145,4 +145,4 @@ inline double Displacements::bound(std::span<const GroupRate> groups, double hal
   return largest;
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

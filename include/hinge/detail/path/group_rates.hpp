@@ -25,7 +25,7 @@
 #include "hinge/path/straight_path.hpp"
 #include "hinge/policy/primitive.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Of a group and the joint it hangs on. Its reference point lies on the joint's axis (prismatic: the origin of its
 /// frame; group 0: where its first child hangs). Lengths are scaled (GroupRates::scale); rates are per unit of the
@@ -224,4 +224,4 @@ inline void GroupRates::set_middle(std::span<const Frame> frames) {
   }
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

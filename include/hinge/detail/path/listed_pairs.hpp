@@ -16,7 +16,7 @@
 #include "hinge/policy/distance_matrix.hpp"
 #include "hinge/policy/primitive.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Do two points that are at least this far apart at the middle of a segment keep their threshold in all of it? By what
 /// their groups can approach each other by; a lower bound of the distance, model length unit.
@@ -64,4 +64,4 @@ class ListedPairs {
   std::uint64_t proved_ = 0;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

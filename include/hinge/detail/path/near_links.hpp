@@ -10,7 +10,7 @@
 #include "hinge/detail/path/path_segments.hpp"
 #include "hinge/policy/collector.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// The collector of the pairs of two links with d - M < margin, up to a number of them.
 class NearLinks {
@@ -46,4 +46,4 @@ class NearLinks {
 
 static_assert(Collector<NearLinks> && RefusesLinks<NearLinks>);
 
-}  // namespace hinge
+}  // namespace hinge::detail

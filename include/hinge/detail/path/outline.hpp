@@ -12,7 +12,7 @@
 #include "hinge/core/vec3.hpp"
 #include "hinge/detail/simd/lanes.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// The speed of x is |v + w x (x - c)|: where the two cancel, and far from the axis they do in half of the directions,
 /// that is less than |v| + |w| |x - c|. Convex in x, so corners of a box around the points are as good as they are,
@@ -76,4 +76,4 @@ class Outline {
   simd::AlignedVector<float> at_;  // per block x, y and z of sixteen, from the centre, as shares of the extent
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

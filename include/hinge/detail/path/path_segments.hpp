@@ -11,7 +11,7 @@
 #include "hinge/core/id.hpp"
 #include "hinge/detail/bounds/round.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 struct PathPair {
   PrimitiveId first{}, second{};
@@ -75,4 +75,4 @@ class PathSegments {
   std::vector<PathPair> pairs_;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

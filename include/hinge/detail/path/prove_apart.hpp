@@ -12,15 +12,13 @@
 #include "hinge/detail/path/relative_motion.hpp"
 #include "hinge/policy/primitive.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// From the middle of a segment towards smaller and larger parameters.
 struct ProvedRadii {
   double before = 0.0;
   double after = 0.0;
 };
-
-namespace detail {
 
 /// Corners of a primitive along a direction: at(s) = value + s rate, and how far they are from a reference point.
 template <std::size_t N>
@@ -48,8 +46,6 @@ struct CornersAlong {
     return r;
   }
 };
-
-}  // namespace detail
 
 /// Are p and q, which are points with a radius, so far apart that what comes closer by `closer` (scaled) is still at
 /// least m apart? Not where rounding of this very sum leaves it open.
@@ -82,7 +78,7 @@ ProvedRadii prove_apart(const P& p, const P& q, double m, const RelativeMotion& 
   const double length = norm(along);
   if (!(length > 0.0)) return {};
   along /= length;
-  const detail::CornersAlong<n> a(x, scale, along, motion.first_point, motion.first),
+  const CornersAlong<n> a(x, scale, along, motion.first_point, motion.first),
       b(y, scale, along, motion.second_point, motion.second);
   // (m may be a rounded sum.)
   const double less = (p.hull_radius() + q.hull_radius() + m) * (1.0 + 0x1p-50) * scale + motion.rounding;
@@ -104,4 +100,4 @@ ProvedRadii prove_apart(const P& p, const P& q, double m, const RelativeMotion& 
   return {radius(-1.0), radius(1.0)};
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

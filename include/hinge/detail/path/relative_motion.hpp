@@ -11,7 +11,7 @@
 #include "hinge/detail/path/group_rates.hpp"
 #include "hinge/detail/path/twist.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Both against a third group that is held, one on the way from the first to the second. Scaled as GroupRate.
 struct RelativeMotion {
@@ -153,4 +153,4 @@ class RelativeMotions {
   std::uint64_t present_ = 1;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

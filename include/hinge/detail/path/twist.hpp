@@ -6,7 +6,7 @@
 
 #include "hinge/core/vec3.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// A point x of the body moves at turn x x + shift.
 struct Twist {
@@ -49,4 +49,4 @@ inline constexpr double rounding_of_values = 8.0;  ///< per rad or length of a j
 inline constexpr double per_departure = 3.1;       ///< for an origin that is not quite a rotation
 inline constexpr double share_of_rounding = 4.0;   ///< at the middle, at the state in question, and to spare
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -10,7 +10,7 @@
 #include "hinge/core/id.hpp"
 #include "hinge/policy/distance_matrix.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Upper bounds, in the model's length unit; by types the largest threshold itself, of types that occur.
 template <DistanceMatrix D>
@@ -46,4 +46,4 @@ class LargestThreshold {
   double reach_ = 0.0;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

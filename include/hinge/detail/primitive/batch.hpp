@@ -18,7 +18,7 @@
 #include "hinge/policy/primitive.hpp"
 #include "hinge/primitive/point.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// What engines hold of sixteen placed primitives; a view on `floats` coordinates. The one for any primitive keeps
 /// their boxes, so that a squared distance is bounded by the squared gap of boxes. A specialisation for a primitive
@@ -262,4 +262,4 @@ concept TurnsOne = TurnsBatch<P> && MeasuresDistances<P> &&
 
 static_assert(TurnsOne<Point>);
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -18,7 +18,7 @@
 #include "hinge/policy/primitive.hpp"
 #include "hinge/primitive/point.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// 1.001 is no double, so the doubles read from a file are not the coordinates in it, and of pairs exactly at their
 /// threshold about half fall on either side. Here coordinates are integers and no pair does. For atoms where a file
@@ -126,4 +126,4 @@ inline bool closer_as_written(const Point& p, const Point& q, double m) noexcept
   return a && b ? closer_than(*a, *b, m) : closer_than(p, q, m);
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

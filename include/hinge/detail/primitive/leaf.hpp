@@ -12,7 +12,7 @@
 #include "hinge/detail/simd/lanes.hpp"
 #include "hinge/policy/primitive.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// How the coordinates of another tree are brought into this one's: x -> rotation x + translation.
 struct LeafTurn {
@@ -106,4 +106,4 @@ inline constexpr bool KeepsTrees = requires {
   requires Leaf<P>::keeps_trees;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

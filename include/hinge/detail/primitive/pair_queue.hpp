@@ -11,7 +11,7 @@
 #include "hinge/detail/simd/lanes.hpp"
 #include "hinge/policy/primitive.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Lower and upper bounds of sixteen distances.
 struct Bounds16 {
@@ -141,4 +141,4 @@ class PairQueue<Triangle> {
   alignas(64) std::array<float, n> error_{};
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

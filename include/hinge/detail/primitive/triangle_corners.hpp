@@ -9,11 +9,9 @@
 
 #include "hinge/core/vec3.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 using Corners = std::array<Vec3, 3>;
-
-namespace detail {
 
 /// The largest |coordinate|.
 inline double largest(const Vec3& v) noexcept { return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])}); }
@@ -42,5 +40,4 @@ inline Vec3 on_face(const Corners& c, double s, double t) noexcept {
   return c[near] + ((c[i] * 0.5 - a) * (2.0 * shares[i]) + (c[j] * 0.5 - a) * (2.0 * shares[j]));
 }
 
-}  // namespace detail
-}  // namespace hinge
+}  // namespace hinge::detail

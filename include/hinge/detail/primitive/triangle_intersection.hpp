@@ -14,9 +14,7 @@
 #include "hinge/detail/exact/orient.hpp"
 #include "hinge/detail/primitive/triangle_corners.hpp"
 
-namespace hinge {
-
-namespace detail {
+namespace hinge::detail {
 
 /// On which side of a triangle's plane the corners of another lie; all 0 for a triangle without a plane.
 struct Sides {
@@ -172,12 +170,10 @@ inline Meeting meeting_if_clear(const Corners& x, const Corners& y, double exten
   return first < -rounding && second < -rounding ? Meeting::together : Meeting::open;
 }
 
-}  // namespace detail
-
 /// `extent`: as above; 0 leaves everything to the last rungs.
 inline bool intersect(const Corners& x, const Corners& y, double extent) noexcept {
-  const detail::Meeting clear = detail::meeting_if_clear(x, y, extent);
-  return clear == detail::Meeting::open ? detail::intersect_by_edges(x, y) : clear == detail::Meeting::together;
+  const Meeting clear = meeting_if_clear(x, y, extent);
+  return clear == Meeting::open ? intersect_by_edges(x, y) : clear == Meeting::together;
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

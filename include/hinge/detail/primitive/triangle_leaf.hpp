@@ -12,9 +12,7 @@
 #include "hinge/detail/simd/lanes.hpp"
 #include "hinge/primitive/triangle.hpp"
 
-namespace hinge {
-
-namespace detail {
+namespace hinge::detail {
 
 template <class T>
 struct Axis {
@@ -34,16 +32,14 @@ template <class T>
   return n.x * p.x + n.y * p.y + n.z * p.z;
 }
 
-}  // namespace detail
-
 /// Any axis, however badly it was computed, proves two triangles apart when their projections on it are: only the
 /// projections' rounding counts. The plane of one, the planes of the sixteen, and the products of edges are tried, each
 /// while lanes are left. (Flattened: compilers leave small lambdas as calls, which send lanes through memory.)
 template <>
 struct Leaf<Triangle> {
   using Float16 = simd::Float16;
-  using Lanes3 = detail::Axis<Float16>;
-  using One3 = detail::Axis<float>;
+  using Lanes3 = Axis<Float16>;
+  using One3 = Axis<float>;
   static constexpr bool keeps_trees = true;
   static constexpr std::size_t n = simd::width;
   static constexpr std::size_t floats = 9 * n;  ///< a's x, y, z, then b's, then c's
@@ -191,4 +187,4 @@ struct Leaf<Triangle> {
   };
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -8,7 +8,7 @@
 #include "hinge/policy/primitive.hpp"
 #include "hinge/query/query_options.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Hands the pair to the collector when it is wanted: BioCD eq. (1) with threshold m (extra clearances included), a
 /// double or the sum it is made of. The distance is looked at first and `admitted()` asked last: most pairs are far
@@ -47,4 +47,4 @@ unsigned offer_measured(C& collector, Precision precision, PrimitiveId i, Primit
   return open ? 1 : 0;
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -11,7 +11,7 @@
 #include "hinge/policy/primitive.hpp"
 #include "hinge/query/query_options.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Extra clearance of a group; none when no list was given.
 inline double clearance_of(std::span<const double> clearance, GroupId group) noexcept {
@@ -78,4 +78,4 @@ struct CrossRules {
   }
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

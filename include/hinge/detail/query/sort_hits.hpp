@@ -11,7 +11,7 @@
 #include "hinge/core/id.hpp"
 #include "hinge/policy/collector.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 inline void sort_hits(std::vector<Hit>& hits) {
   const auto before = [](const Hit& a, const Hit& b) {
@@ -40,4 +40,4 @@ inline void sort_hits(std::vector<Hit>& hits) {
   hits.swap(sorted);
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -12,7 +12,7 @@
 #include <immintrin.h>
 #endif
 
-namespace hinge::simd {
+namespace hinge::detail::simd {
 
 /// Writes base + lane for every set bit to `to`, lowest first, and returns how many. Writes up to `width` entries,
 /// whatever the mask: leave room behind.
@@ -107,4 +107,4 @@ class Index16 {
 #endif
 };
 
-}  // namespace hinge::simd
+}  // namespace hinge::detail::simd

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <string_view>
 
-namespace hinge::simd {
+namespace hinge::detail::simd {
 
 /// avx2 and avx512 stand for the levels x86-64-v3 and x86-64-v4; baseline for anything less or another architecture.
 enum class InstructionSet : unsigned char { baseline, avx2, avx512 };
@@ -43,4 +43,4 @@ inline InstructionSet of_this_cpu() noexcept {
   return InstructionSet::baseline;
 }
 
-}  // namespace hinge::simd
+}  // namespace hinge::detail::simd

@@ -9,7 +9,7 @@
 #include <experimental/simd>
 #include <vector>
 
-namespace hinge::simd {
+namespace hinge::detail::simd {
 
 // libstdc++ 12 takes an AVX-512 mask for a single truth value where clang compiles its where().
 #if defined(__clang__) && defined(__AVX512F__)
@@ -196,4 +196,4 @@ using Float16 = Lanes<float, 16>;
 using Double4 = Lanes<double, 4>;
 using Double8 = Lanes<double, 8>;
 
-}  // namespace hinge::simd
+}  // namespace hinge::detail::simd

@@ -5,13 +5,13 @@
 #include "hinge/detail/core/sincos.hpp"
 #include "hinge/detail/simd/lanes.hpp"
 
-namespace hinge::simd {
+namespace hinge::detail::simd {
 
-/// As hinge::sincos, lane by lane, for |angle| <= detail::cody_waite_limit.
+/// As sincos of one double, lane by lane, for |angle| <= cody_waite_limit.
 [[gnu::always_inline]] inline void sincos(const Double8& angle, Double8& sine, Double8& cosine) noexcept {
-  const detail::ReducedParts<Double8> r = detail::reduce_parts(angle);
+  const ReducedParts<Double8> r = reduce_parts(angle);
   Double8 s, c;
-  detail::sincos_of_reduced(r.high, r.low, s, c);
+  sincos_of_reduced(r.high, r.low, s, c);
   // The quadrant is n modulo 4: n / 4 - 3 / 8 rounds to the multiple below.
   const Double8 rounder(detail::rounder);
   const Double8 q = r.n - Double8(4.0) * (((r.n * Double8(0.25) - Double8(0.375)) + rounder) - rounder);
@@ -21,4 +21,4 @@ namespace hinge::simd {
   cosine = choose_less(abs(q - Double8(1.5)), Double8(1.0), -second, second);
 }
 
-}  // namespace hinge::simd
+}  // namespace hinge::detail::simd

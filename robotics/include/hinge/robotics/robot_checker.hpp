@@ -156,7 +156,7 @@ class RobotChecker {
     std::vector<std::uint8_t> is_closed;
     std::vector<std::vector<std::size_t>> parts;
   };
-  void place(AnyHierarchy& hierarchy, const Pose& base, PoseSource& kinematics);
+  void place(AnyHierarchy& hierarchy, const Pose& base, detail::PoseSource& kinematics);
   void find_solid_pairs();
   std::optional<ClosestLinks> closest_surfaces(AnyHierarchy& hierarchy);
   std::optional<ClosestLinks> closest_nearby(const ClosestLinks& found);
@@ -188,7 +188,7 @@ class RobotChecker {
   std::vector<double> next_;  // scratch: the same to come
   std::vector<Pose> poses_;   // scratch
   Pose base_{};
-  std::optional<PoseSource> kinematics_;                  // when the base is free: poses relative to the base
+  std::optional<detail::PoseSource> kinematics_;          // when the base is free: poses relative to the base
   LinkPairHits link_hits_;                                // scratch
   std::shared_ptr<const SolidPairs> solid_pairs_;         // for hierarchy_
   std::vector<std::array<double, 3>> solid_centres_;      // scratch

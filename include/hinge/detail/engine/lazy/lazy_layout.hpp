@@ -16,7 +16,7 @@
 #include "hinge/policy/pair_filter.hpp"
 #include "hinge/policy/primitive.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Leaves are the basic groups of BioCD section III. A body is what has a low-level tree of its own: a rigid group with
 /// the basic groups that lie wholly in it, or one basic group that spans several rigid groups (an articulated unit,
@@ -143,4 +143,4 @@ void LazyLayout::make_sri_lists(const F& filter) {
   }
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -17,7 +17,7 @@
 #include "hinge/model/selected_model.hpp"
 #include "hinge/policy/primitive.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Sixteen primitives or fewer. Rigid: all of one large group. Mixed: of several small groups next to each other.
 struct Block {
@@ -187,4 +187,4 @@ inline void BlockLayout::measure(const Aabb& all) {
   scale = size > 0.0 ? std::ldexp(1.0, std::min(6 - exponent, 1000)) : 1.0;
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

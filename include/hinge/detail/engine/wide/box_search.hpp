@@ -22,7 +22,7 @@
 #include "hinge/policy/distance_matrix.hpp"
 #include "hinge/query/query_options.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// A tree over each rigid group's primitives, split as far as a query looks, and one over the groups: the two levels of
 /// BioCD over the primitives themselves. Boxes are made anew for every search. Functions instead of template parameters
@@ -122,4 +122,4 @@ inline void BoxSearch::across(BoxSearch& other, const Cutoff& cutoff, const Visi
            [&](std::uint32_t a, std::uint32_t b) { return bodies(other, a, b, cutoff, visit, counts); });
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -18,7 +18,7 @@
 #include "hinge/model/selected_model.hpp"
 #include "hinge/policy/primitive.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// The primitives a layout holds, by rigid group: all of a model but those left out.
 class Members {
@@ -183,4 +183,4 @@ class ChainFiller {
   std::vector<std::vector<std::uint32_t>> blocks_;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -8,7 +8,7 @@
 #include "hinge/detail/simd/lanes.hpp"
 #include "hinge/query/query_options.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 struct Effort {
   QueryCounts counts;           ///< rows of boxes and tasks: sixteen at a time
@@ -40,4 +40,4 @@ struct Effort {
   static constexpr std::uint64_t tasks_per_block = 2048;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -16,7 +16,7 @@
 #include "hinge/detail/simd/lanes.hpp"
 #include "hinge/kinematics/frame.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Beyond this squares leave the range of floats: such boxes overlap everything, and what is in them is judged in
 /// double.
@@ -109,4 +109,4 @@ class FloatTurn {
   std::array<float, 9> rotation_;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

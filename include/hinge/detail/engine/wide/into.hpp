@@ -13,7 +13,7 @@
 #include "hinge/detail/engine/wide/wide_side.hpp"
 #include "hinge/detail/primitive/batch.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Coordinates of one model as they are.
 template <Primitive P>
@@ -76,4 +76,4 @@ struct Into {
   std::array<float, 3> shift{};
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -18,7 +18,7 @@
 #include "hinge/model/placement.hpp"
 #include "hinge/query/query_options.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Where the floats of a block start, and which slot the floats at a position are of.
 template <Primitive P>
@@ -173,4 +173,4 @@ class TaskLister {
   std::vector<std::uint32_t> mine_, theirs_;  // blocks found in trees
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

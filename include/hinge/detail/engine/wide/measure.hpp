@@ -19,7 +19,7 @@
 #include "hinge/detail/simd/lanes.hpp"
 #include "hinge/policy/primitive.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// For the tasks listed so far. Where floats do not hold the coordinates, or the squares of what is asked for, nothing
 /// is measured.
@@ -60,4 +60,4 @@ class Measure {
   double error_ = std::numeric_limits<double>::infinity();
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

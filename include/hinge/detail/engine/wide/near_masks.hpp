@@ -15,7 +15,7 @@
 #include "hinge/policy/pair_filter.hpp"
 #include "hinge/policy/primitive.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// A near pair of blocks (b, a), a <= b, has sixteen rows: bit l of row k tells whether lane k of b is tested with lane
 /// l of a. Near pairs are those with a pair the filter lists as excluded, and every block with itself. Masks only leave
@@ -106,4 +106,4 @@ NearMasks::NearMasks(const BlockLayout& layout, const SelectedModel<P>& model, c
   }
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

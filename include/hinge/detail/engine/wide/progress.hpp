@@ -12,7 +12,7 @@
 #include "hinge/core/id.hpp"
 #include "hinge/detail/engine/wide/block_layout.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// A query takes units in order, with each its partners in order, and with each of those some blocks of the unit.
 class Progress {
@@ -47,4 +47,4 @@ class Progress {
   std::vector<std::uint32_t> blocks_;  // sorted
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

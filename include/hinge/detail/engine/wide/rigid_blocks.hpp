@@ -15,7 +15,7 @@
 #include "hinge/detail/primitive/batch.hpp"
 #include "hinge/model/selected_model.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Sixteen boxes as middles and half lengths, relative to the middle of their tree, scaled.
 struct alignas(64) LocalRow {
@@ -164,4 +164,4 @@ void RigidBlocks<P>::make_tree(const BlockLayout& layout, std::size_t u, std::ve
   } while (level.size() > 1);
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -13,7 +13,7 @@
 #include "hinge/detail/primitive/batch.hpp"
 #include "hinge/detail/simd/gather_bits.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Thresholds plus a margin, and their squares, row by row.
 class Thresholds16 {
@@ -104,4 +104,4 @@ void run_tasks(Tasks& tasks, const Side& one, const Side& sixteen, const Convert
   }
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -10,7 +10,7 @@
 #include "hinge/detail/simd/gather_bits.hpp"
 #include "hinge/detail/simd/lanes.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Three arrays: where the floats of the one start, where those of the sixteen start, and which of the sixteen count.
 class Tasks {
@@ -71,4 +71,4 @@ class Tasks {
   std::vector<Left> left_;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -13,7 +13,7 @@
 #include "hinge/detail/simd/lanes.hpp"
 #include "hinge/policy/distance_matrix.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// A table of thresholds between classes, in the engine's scaled unit and rounded up: what sixteen lanes look up.
 struct ThresholdTable {
@@ -119,4 +119,4 @@ class ThresholdClasses {
   std::array<double, simd::width * simd::width> between_{};
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -14,7 +14,7 @@
 #include "hinge/detail/simd/gather_bits.hpp"
 #include "hinge/query/query_options.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Which units a sweep of UnitBoxes looks at, whatever their boxes.
 class ShownUnits {
@@ -152,4 +152,4 @@ class UnitBoxes {
   std::vector<std::uint32_t> found_, rows_, next_rows_;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

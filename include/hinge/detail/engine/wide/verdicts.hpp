@@ -7,7 +7,7 @@
 #include "hinge/policy/collector.hpp"
 #include "hinge/policy/primitive.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Pairs inside one model, whichever of the two is named first. `admits(i, j)`: does the pair count, i < j?
 template <Collector C, class Rules, class Admits>
@@ -53,4 +53,4 @@ SelfVerdicts(C&, const Rules&, Admits) -> SelfVerdicts<C, Rules, Admits>;
 template <Collector C, class Rules>
 CrossVerdicts(C&, const Rules&) -> CrossVerdicts<C, Rules>;
 
-}  // namespace hinge
+}  // namespace hinge::detail

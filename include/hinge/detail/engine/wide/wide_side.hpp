@@ -20,7 +20,7 @@
 #include "hinge/model/placement.hpp"
 #include "hinge/query/query_options.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 template <Primitive P>
 class WideSide {
@@ -161,4 +161,4 @@ class WideSide {
   std::vector<std::size_t> component_;  // per unit; empty: every pair of units counts
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -20,7 +20,7 @@
 #include "hinge/policy/pair_filter.hpp"
 #include "hinge/policy/primitive.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Blocks by rigid groups, and by index for coordinates from elsewhere. Where some primitives are idle (they have no
 /// body and no threshold above 0), there is another side of each that holds the others alone, for queries without a
@@ -61,4 +61,4 @@ class WideSides {
   std::array<std::optional<WideSide<P>>, 4> sides_;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -21,7 +21,7 @@
 #include "hinge/kinematics/frame.hpp"
 #include "hinge/model/placement.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// The constant half, shared by copies of an engine.
 template <Primitive P>
@@ -296,4 +296,4 @@ class WideState {
   bool given_ = false;  // coordinates come from elsewhere
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -18,7 +18,7 @@
 #include "hinge/policy/collector.hpp"
 #include "hinge/query/query_options.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Scratch of such searches. A Judge is a TreeJudge.
 template <Primitive P>
@@ -111,4 +111,4 @@ class ClosestSearch {
   std::vector<Candidate> candidates_;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -12,7 +12,7 @@
 #include "hinge/model/placement.hpp"
 #include "hinge/query/query_options.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 template <Primitive P>
 struct CrossOperands {
@@ -46,4 +46,4 @@ struct CrossOperands {
   bool moved_only;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -8,7 +8,7 @@
 
 #include "hinge/detail/simd/lanes.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Sixteen parts to a row. Rows in which a part leaves nothing out are not kept.
 class EarlierParts {
@@ -90,4 +90,4 @@ class EarlierParts::Row {
 inline EarlierParts::Row EarlierParts::of(std::size_t p) const noexcept { return {*this, p}; }
 inline simd::Bits EarlierParts::get(std::size_t p, std::size_t row) const noexcept { return of(p).get(row); }
 
-}  // namespace hinge
+}  // namespace hinge::detail

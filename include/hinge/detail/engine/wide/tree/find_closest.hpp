@@ -17,7 +17,7 @@
 #include "hinge/detail/primitive/pair_queue.hpp"
 #include "hinge/query/query_options.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Squared lower bounds of d - M, all parts of a node against a box that `turn` brought there; 0 where boxes overlap.
 [[gnu::always_inline]] inline simd::Float16 squared_gaps(const TreeNode& node, const TreeBox& box,
@@ -161,4 +161,4 @@ class ClosestFinder {
   std::size_t queued_ = 0;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

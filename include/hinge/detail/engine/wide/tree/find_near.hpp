@@ -15,7 +15,7 @@
 #include "hinge/detail/simd/gather_bits.hpp"
 #include "hinge/query/query_options.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Scratch of such walks.
 template <Primitive P>
@@ -171,4 +171,4 @@ class NearFinder {
   std::vector<BoxId> a_, b_;  // pairs of boxes, one of which is to be opened
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

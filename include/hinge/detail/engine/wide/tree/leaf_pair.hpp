@@ -10,7 +10,7 @@
 #include "hinge/detail/engine/wide/tree/tree_parts.hpp"
 #include "hinge/detail/primitive/leaf.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 template <Primitive P>
 class TurnedLeaf {
@@ -80,4 +80,4 @@ class LeafPair {
   Nearness near_;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

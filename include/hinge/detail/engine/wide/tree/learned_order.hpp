@@ -9,7 +9,7 @@
 #include <numeric>
 #include <vector>
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Things to look at are numbered from 0. Learned from states that are like those to come: what collides most often for
 /// the work it takes to find out comes first. Until something is learned there is no order.
@@ -72,4 +72,4 @@ class LearnedOrder {
   std::vector<std::uint64_t> marks_;      // by rank
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

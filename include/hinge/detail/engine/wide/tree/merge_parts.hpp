@@ -17,7 +17,7 @@
 #include "hinge/detail/engine/wide/tree/static_tree.hpp"
 #include "hinge/detail/simd/lanes.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Two to sixteen parts of one group; `store` gets two nodes.
 inline TreePart merge_parts(const std::vector<TreePart>& parts, std::span<const std::uint32_t> members,
@@ -133,4 +133,4 @@ inline PartSet merge_alike(const PartSet& links, TreeStore& store) {
   return alike;
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

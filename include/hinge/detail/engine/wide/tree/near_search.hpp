@@ -13,7 +13,7 @@
 #include "hinge/policy/collector.hpp"
 #include "hinge/query/query_options.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Scratch of such walks. A Judge is a TreeJudge.
 template <Primitive P>
@@ -60,4 +60,4 @@ class NearSearch {
   NearFinder<P> finder_;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -11,7 +11,7 @@
 #include "hinge/detail/engine/wide/tree/earlier_parts.hpp"
 #include "hinge/detail/simd/lanes.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 class PairNumbers {
  public:
@@ -44,4 +44,4 @@ class PairNumbers {
   std::vector<std::array<std::uint32_t, 2>> parts_;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

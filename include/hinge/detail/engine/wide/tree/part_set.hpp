@@ -13,7 +13,7 @@
 #include "hinge/detail/engine/wide/tree/static_tree.hpp"
 #include "hinge/detail/simd/lanes.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// The primitives of one link, or of several of one group. Lengths in the unit of the trees.
 struct TreePart {
@@ -59,4 +59,4 @@ struct PartSet {
   EarlierParts tested;  ///< parts of one group are not
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -18,7 +18,7 @@
 #include "hinge/detail/simd/gather_bits.hpp"
 #include "hinge/detail/simd/lanes.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Two parts and a lower bound of the gap between them, tree unit.
 struct PartPair {
@@ -128,4 +128,4 @@ class PlacedParts {
   std::uint64_t at_ = 0;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -11,7 +11,7 @@
 #include "hinge/detail/engine/wide/tree/tree_parts.hpp"
 #include "hinge/detail/simd/lanes.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 struct alignas(64) PlacedRow {
   /// Three columns of the rotation, then the tree's origin in the world; each with a spare.
@@ -93,4 +93,4 @@ struct alignas(64) PlacedRow {
   };
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -13,7 +13,7 @@
 #include "hinge/detail/simd/lanes.hpp"
 #include "hinge/kinematics/frame.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// A tree's frame in the world: x_world = R x / scale + middle.
 struct TreeFrame {
@@ -174,4 +174,4 @@ struct BoxProbe {
   return node.used & ~static_cast<simd::Bits>(far);
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -15,7 +15,7 @@
 #include "hinge/detail/bounds/float_box.hpp"
 #include "hinge/detail/simd/lanes.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// A box of a tree: lane + 16 * node. Every box but the topmost holds a node's or a leaf's contents.
 using BoxId = std::uint32_t;
@@ -287,4 +287,4 @@ class TreeBuilder {
   std::vector<Open> stack_;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

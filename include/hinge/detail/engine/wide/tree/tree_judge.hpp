@@ -10,7 +10,7 @@
 #include "hinge/policy/pair_filter.hpp"
 #include "hinge/policy/primitive.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// For i of the one model and j of the other: decide(i, j, p, q) for a pair that floats could not rule out, placed;
 /// threshold(i, j); admits(i, j); admits_links(a, b), which may refuse all pairs of two links.
@@ -48,4 +48,4 @@ auto tree_judge(C& collector, const CrossRules<P, G, D>& rules) {
                    }};
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -16,7 +16,7 @@
 #include "hinge/detail/query/pair_rules.hpp"
 #include "hinge/model/placement.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// One of two models in a query, as far as it is asked: trees, coordinates and extra clearance of its groups.
 template <Primitive P>
@@ -46,4 +46,4 @@ struct TreeOperand {
   }
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

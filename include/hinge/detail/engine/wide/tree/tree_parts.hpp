@@ -29,7 +29,7 @@
 #include "hinge/policy/pair_filter.hpp"
 #include "hinge/policy/primitive.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Computed once when the DOF are selected; shared by copies of an engine.
 template <Primitive P>
@@ -216,4 +216,4 @@ void TreeParts<P>::build(const SelectedModel<P>& model, const D& matrix, const s
     reaches.assign(reach.begin(), reach.end());
 }
 
-}  // namespace hinge
+}  // namespace hinge::detail

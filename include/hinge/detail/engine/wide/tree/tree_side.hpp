@@ -26,7 +26,7 @@
 #include "hinge/policy/collector.hpp"
 #include "hinge/query/query_options.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// One model and its scratch. Counts are of sixteen lanes each. A query's Judge is a TreeJudge.
 template <Primitive P>
@@ -220,4 +220,4 @@ class TreeSide {
 template <Primitive P>
 using OptionalTreeSide = std::optional<std::conditional_t<KeepsTrees<P>, TreeSide<P>, std::monostate>>;
 
-}  // namespace hinge
+}  // namespace hinge::detail

@@ -18,7 +18,7 @@
 #include "hinge/detail/simd/lanes.hpp"
 #include "hinge/model/placement.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 template <Primitive P>
 class TreeState {
@@ -99,4 +99,4 @@ class TreeState {
   std::uint64_t update_ = 0;
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail

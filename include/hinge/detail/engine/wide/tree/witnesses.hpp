@@ -15,7 +15,7 @@
 #include "hinge/policy/collector.hpp"
 #include "hinge/policy/primitive.hpp"
 
-namespace hinge {
+namespace hinge::detail {
 
 /// Remembers the two points of each pair in the frames of their groups; the distance of the points now is an upper
 /// bound. Primitives that cannot name such points are not remembered.
@@ -72,4 +72,4 @@ class Witnesses {
   std::vector<Witness> list_;  // the latest first
 };
 
-}  // namespace hinge
+}  // namespace hinge::detail
