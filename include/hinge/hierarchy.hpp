@@ -14,6 +14,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/detail/policy/largest_threshold.hpp"
 #include "hinge/engine/engine.hpp"
 #include "hinge/engine/wide.hpp"
@@ -220,7 +221,7 @@ class Hierarchy {
   }
   static double checked(double margin) {
     if (!is_length(margin) || margin < 0.0)
-      throw ConfigurationError("margin " + std::to_string(margin) + ": expected a finite length >= 0");
+      throw ConfigurationError("margin " + number_text(margin) + ": expected a finite length >= 0");
     return margin;
   }
   static void check_clearance(std::span<const double> clearance, std::size_t groups) {
@@ -230,7 +231,7 @@ class Hierarchy {
     for (std::size_t g = 0; g < clearance.size(); ++g)
       if (!is_length(clearance[g]) || clearance[g] < 0.0)
         throw ConfigurationError("extra clearance of rigid group " + std::to_string(g) + " is " +
-                                 std::to_string(clearance[g]) + ": expected a finite length >= 0");
+                                 number_text(clearance[g]) + ": expected a finite length >= 0");
   }
 
   static double largest(std::span<const double> clearance) noexcept {

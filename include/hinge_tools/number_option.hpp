@@ -2,7 +2,6 @@
 // Numbers on the command line: whole as typed, in decimal, finite and within a range, or refused.
 #pragma once
 
-#include <array>
 #include <charconv>
 #include <concepts>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
+#include "hinge/core/number_text.hpp"
 
 namespace hinge::tool {
 
@@ -18,13 +18,6 @@ namespace hinge::tool {
 inline constexpr double largest_value = 1e15;  // m, rad, angstrom, degrees
 /// Of margins, clearances and widths.
 inline constexpr double largest_length = 1e9;
-
-/// In the shortest form that reads back the same, whatever the locale.
-template <class Number>
-std::string number_text(Number number) {
-  std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
-}
 
 /// least <= x <= most, or least < x <= most.
 template <class Number>

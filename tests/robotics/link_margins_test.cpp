@@ -100,12 +100,12 @@ TEST(LinkMargins, AreZeroWhenNothingIsAskedOfThem) {
 TEST(LinkMargins, RefuseClearancesThatAreNoLengths) {
   const Robot robot = random_robot(0);
   const double infinity = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(refusal(robot, -0.5), "clearance of all links is -0.500000: expected a finite length >= 0");
+  EXPECT_EQ(refusal(robot, -0.5), "clearance of all links is -0.5: expected a finite length >= 0");
   EXPECT_NE(refusal(robot, infinity), "");
   EXPECT_NE(refusal(robot, std::numeric_limits<double>::quiet_NaN()), "");
   const LinkId a = *robot.find_link("link1"), b = *robot.find_link("link2");
   EXPECT_EQ(refusal(robot, 0.0, {{a, b, -1.0}}),
-            "clearance of links 'link1' and 'link2' is -1.000000: expected a finite length >= 0");
+            "clearance of links 'link1' and 'link2' is -1: expected a finite length >= 0");
   EXPECT_NE(refusal(robot, 0.0, {{a, b, infinity}}), "");
 }
 

@@ -93,7 +93,7 @@ TEST(ReadMesh, RefusesVerticesThatAreNotFinite) {
   std::vector<Facet> facets = two_facets;
   facets[1][5] = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(refusal("a.stl", binary_stl(facets)),
-            "a.stl: face 1 (from 0): vertex 1 is 1.000000 0.000000 nan, expected finite coordinates");
+            "a.stl: face 1 (from 0): vertex 1 is 1 0 nan, expected finite coordinates");
   facets[1][5] = -std::numeric_limits<float>::infinity();
   EXPECT_NE(refusal("a.stl", binary_stl(facets)).find("-inf"), std::string::npos);
 }

@@ -15,6 +15,7 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/kinematics/joint.hpp"
@@ -167,7 +168,7 @@ inline void ClosureEquations::set(std::span<const double> q) {
                              std::to_string(dof_count_));
   for (std::size_t k = 0; k < q.size(); ++k)
     if (!is_finite(q[k]))
-      throw ConfigurationError("configuration value " + std::to_string(k) + " is " + std::to_string(q[k]) +
+      throw ConfigurationError("configuration value " + std::to_string(k) + " is " + number_text(q[k]) +
                                ", expected a finite number");
   for (const std::size_t g : needed_) {
     const RigidGroup& group = groups_[id<GroupId>(g)];

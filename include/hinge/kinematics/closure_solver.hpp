@@ -11,6 +11,7 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/detail/kinematics/cholesky.hpp"
 #include "hinge/kinematics/closure_equations.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
@@ -40,7 +41,7 @@ class ClosureSolver {
                 const ClosureOptions& options = {})
       : equations_(tree, selection, closures), options_(options) {
     if (!(options.tolerance > 0.0) || !is_length(options.tolerance))
-      throw ModelError("closure tolerance " + std::to_string(options.tolerance) + ": expected a length above 0");
+      throw ModelError("closure tolerance " + number_text(options.tolerance) + ": expected a length above 0");
     if (options.most_steps < 0)
       throw ModelError("closure steps " + std::to_string(options.most_steps) + ": expected at least 0");
   }

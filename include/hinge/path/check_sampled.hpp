@@ -15,6 +15,7 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/path/path_answer.hpp"
 #include "hinge/path/straight_path.hpp"
 #include "hinge/query/collectors.hpp"
@@ -29,12 +30,12 @@ template <class H>
 PathAnswer check_sampled(H& hierarchy, std::span<const double> from, std::span<const double> to, double resolution) {
   const StraightPath path(from, to, hierarchy.dof_count());
   if (!is_finite(resolution) || !(resolution > 0.0))
-    throw ConfigurationError("resolution " + std::to_string(resolution) + ": expected a finite number above 0");
+    throw ConfigurationError("resolution " + number_text(resolution) + ": expected a finite number above 0");
   double largest = 0.0;
   for (const double rate : path.rate()) largest = std::max(largest, std::abs(rate));
   const double wanted = std::ceil(largest / resolution);
   if (!(wanted <= 0x1p53))
-    throw ConfigurationError("resolution " + std::to_string(resolution) + ": a path of " + std::to_string(largest) +
+    throw ConfigurationError("resolution " + number_text(resolution) + ": a path of " + number_text(largest) +
                              " takes more than 2^53 states");
   const auto steps = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(wanted));
 

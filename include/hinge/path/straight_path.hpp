@@ -10,6 +10,7 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
+#include "hinge/core/number_text.hpp"
 
 namespace hinge {
 
@@ -27,14 +28,14 @@ class StraightPath {
       for (std::size_t k = 0; k < end.size(); ++k)
         if (!is_finite(end[k]))
           throw ConfigurationError(std::string(what) + " of the path: value " + std::to_string(k) + " is " +
-                                   std::to_string(end[k]) + ", expected a finite number");
+                                   number_text(end[k]) + ", expected a finite number");
     }
     rate_.reserve(dof_count);
     for (std::size_t k = 0; k < dof_count; ++k) {
       rate_.push_back(to[k] - from[k]);
       if (!is_finite(rate_[k]))
-        throw ConfigurationError("the path takes value " + std::to_string(k) + " from " + std::to_string(from[k]) +
-                                 " to " + std::to_string(to[k]) + ", expected a difference that is finite");
+        throw ConfigurationError("the path takes value " + std::to_string(k) + " from " + number_text(from[k]) +
+                                 " to " + number_text(to[k]) + ", expected a difference that is finite");
     }
   }
 

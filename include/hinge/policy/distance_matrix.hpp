@@ -15,6 +15,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/core/radius_sum.hpp"
 
 namespace hinge {
@@ -80,7 +81,7 @@ class UniformClearance {
   /// clearance: a length >= 0, model length unit; else ModelError.
   explicit UniformClearance(double clearance) : clearance_(clearance) {
     if (!is_length(clearance) || clearance < 0.0)
-      throw ModelError("clearance " + std::to_string(clearance) + ": expected a finite length >= 0");
+      throw ModelError("clearance " + number_text(clearance) + ": expected a finite length >= 0");
   }
 
   double threshold(PrimitiveId, PrimitiveId) const noexcept { return clearance_; }
@@ -143,10 +144,10 @@ inline TypedThresholds::TypedThresholds(std::vector<std::uint16_t> types, std::s
       const double m = table[s * type_count + t];
       const double mirror = table[t * type_count + s];
       const auto entry = [&] {
-        return "threshold table: entry (" + std::to_string(s) + ", " + std::to_string(t) + ") is " + std::to_string(m);
+        return "threshold table: entry (" + std::to_string(s) + ", " + std::to_string(t) + ") is " + number_text(m);
       };
       if (!is_length(m) || m < 0.0) throw ModelError(entry() + ", expected a finite length >= 0");
-      if (m != mirror) throw ModelError(entry() + " but its mirror is " + std::to_string(mirror));
+      if (m != mirror) throw ModelError(entry() + " but its mirror is " + number_text(mirror));
       reach[s] = std::max(reach[s], m / 2);
     }
   for (std::size_t i = 0; i < types.size(); ++i)

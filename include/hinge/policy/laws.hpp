@@ -14,6 +14,7 @@
 #include "hinge/bounds/aabb.hpp"
 #include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/core/philox.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/core/vec3.hpp"
@@ -210,7 +211,7 @@ Violations check_distance_matrix(const D& matrix, std::size_t primitives) {
       const auto require = [&](bool kept, const std::string& sentence) {
         detail::require(kept, broken, [&] { return detail::two("primitives", i, j) + ": " + sentence; });
       };
-      require(is_finite(m) && m >= 0.0, "the threshold is " + std::to_string(m) + ", expected a finite length >= 0");
+      require(is_finite(m) && m >= 0.0, "the threshold is " + number_text(m) + ", expected a finite length >= 0");
       require(m == matrix.threshold(b, a), "the threshold differs when they are swapped");
       require(matrix.reach(a) + matrix.reach(b) >= m, "their reaches add up to less than the threshold");
     }

@@ -15,6 +15,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/core/radius_sum.hpp"
 #include "hinge/detail/query/pair_rules.hpp"
 #include "hinge/policy/collector.hpp"
@@ -28,7 +29,7 @@ namespace hinge::robotics {
 
 inline void check_margin(double margin) {
   if (!is_finite(margin) || margin < 0.0)
-    throw ConfigurationError("margin " + std::to_string(margin) + ": expected a finite length >= 0");
+    throw ConfigurationError("margin " + number_text(margin) + ": expected a finite length >= 0");
 }
 
 /// Calls ask(mine, theirs). ModelError: two engines, or one and the same hierarchy.

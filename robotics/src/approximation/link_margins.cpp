@@ -7,6 +7,7 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
+#include "hinge/core/number_text.hpp"
 
 namespace hinge::robotics {
 
@@ -36,7 +37,7 @@ LinkMargins::LinkMargins(const Robot& robot, double clearance, std::span<const P
   data.plain_reach = clearance / 2 * upward;
   data.link_count = robot.link_count();
   if (!is_length(clearance))
-    throw ModelError("clearance of all links is " + std::to_string(clearance) + ": expected a finite length >= 0");
+    throw ModelError("clearance of all links is " + number_text(clearance) + ": expected a finite length >= 0");
 
   const std::span<const LinkId> links = robot.model().links();
   bool grown = false;
@@ -44,7 +45,7 @@ LinkMargins::LinkMargins(const Robot& robot, double clearance, std::span<const P
     const double radius = robot.radii()[i];
     if (!is_length(radius))
       throw ModelError("link '" + robot.link_name(links[i]) + "': radius of triangle " + std::to_string(i) + " is " +
-                       std::to_string(radius) + ", expected a finite length >= 0");
+                       number_text(radius) + ", expected a finite length >= 0");
     grown = grown || radius > 0.0;
   }
   if (grown) data.radii.assign(robot.radii().begin(), robot.radii().end());
@@ -56,7 +57,7 @@ LinkMargins::LinkMargins(const Robot& robot, double clearance, std::span<const P
     for (const PairClearance& pair : overrides) {
       const std::string who = pair_text(robot, pair);
       if (!is_length(pair.clearance))
-        throw ModelError(who + " is " + std::to_string(pair.clearance) + ": expected a finite length >= 0");
+        throw ModelError(who + " is " + number_text(pair.clearance) + ": expected a finite length >= 0");
       if (pair.link1 == pair.link2) throw ModelError(who + ": a link is not tested with itself");
       const std::size_t a = index(pair.link1), b = index(pair.link2);
       if (named[a * data.link_count + b]) throw ModelError(who + " is named twice");

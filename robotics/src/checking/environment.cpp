@@ -11,6 +11,7 @@
 #include "description/check_description.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 #include "hinge/robotics/link_margins.hpp"
@@ -49,7 +50,7 @@ Aabb box_of(const Robot& robot) {
 
 Environment::Environment(double clearance, std::string engine) : clearance_(clearance), engine_(std::move(engine)) {
   if (!is_finite(clearance) || clearance < 0.0)
-    throw ModelError("clearance of an environment is " + std::to_string(clearance) + ": expected a finite length >= 0");
+    throw ModelError("clearance of an environment is " + number_text(clearance) + ": expected a finite length >= 0");
   if (engine_ != "wide" && engine_ != "lazy" && engine_ != "brute")
     throw ModelError("engine '" + engine_ + "': expected wide, lazy or brute");
 }

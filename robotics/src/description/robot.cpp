@@ -12,6 +12,7 @@
 #include "hinge/bounds/aabb.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/robotics/containment.hpp"
 
 namespace hinge::robotics {
@@ -185,7 +186,7 @@ void Robot::expand(std::span<const double> independent, std::span<double> full) 
                              std::to_string(drives_.size()) + ", one for each movable joint");
   for (std::size_t k = 0; k < independent.size(); ++k)
     if (!is_finite(independent[k]))
-      throw ConfigurationError("joint '" + independent_name(k) + "' is " + std::to_string(independent[k]) +
+      throw ConfigurationError("joint '" + independent_name(k) + "' is " + number_text(independent[k]) +
                                ", expected a finite number");
   for (std::size_t d = 0; d < drives_.size(); ++d)
     full[d] = drives_[d].multiplier * independent[drives_[d].independent] + drives_[d].offset;

@@ -18,6 +18,7 @@
 #include "description/read_file.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
+#include "hinge/core/number_text.hpp"
 #include "mesh/check_dae.hpp"
 #include "mesh/check_ply.hpp"
 #include "mesh/check_stl.hpp"
@@ -100,7 +101,7 @@ class TriangleCollector {
       const Vec3 vertex = transform(mesh.mVertices[index]);
       if (!is_finite(vertex))
         throw LoadError(path_ + ": face " + std::to_string(faces_) + " (from 0): vertex " + std::to_string(k) + " is " +
-                        std::to_string(vertex[0]) + " " + std::to_string(vertex[1]) + " " + std::to_string(vertex[2]) +
+                        number_text(vertex[0]) + " " + number_text(vertex[1]) + " " + number_text(vertex[2]) +
                         ", expected finite coordinates");
       polygon_.push_back(vertex);
     }

@@ -13,6 +13,7 @@
 #include "description/check_description.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/detail/core/sincos.hpp"
 
 namespace hinge::robotics {
@@ -26,7 +27,7 @@ constexpr double pi = 3.141592653589793;
 constexpr std::size_t most_triangles = 1'000'000;
 
 [[noreturn]] void refuse_tolerance(double tolerance) {
-  throw ModelError("tessellation tolerance " + std::to_string(tolerance) +
+  throw ModelError("tessellation tolerance " + number_text(tolerance) +
                    " m: expected a finite length above 0 that takes at most 10^6 triangles");
 }
 

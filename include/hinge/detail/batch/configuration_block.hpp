@@ -9,6 +9,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/detail/simd/lanes.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 
@@ -24,8 +25,7 @@ inline std::size_t check_block(std::span<const double> block, std::size_t dof_co
                              std::to_string(simd::width) + " configurations of " + std::to_string(dof_count));
   const auto refuse = [&](std::size_t k, const char* expected) {
     throw ConfigurationError("configuration " + std::to_string(k / dof_count) + " of the block, value " +
-                             std::to_string(k % dof_count) + " is " + std::to_string(block[k]) + ", expected " +
-                             expected);
+                             std::to_string(k % dof_count) + " is " + number_text(block[k]) + ", expected " + expected);
   };
   // Without branches, so that compilers vectorise them.
   bool finite = true;

@@ -15,6 +15,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/detail/kinematics/compose_frames.hpp"
 #include "hinge/detail/kinematics/joint_batch.hpp"
@@ -118,11 +119,11 @@ inline void PoseSource::set_configuration(std::span<const double> q) {
   for (const double value : q) finite &= is_finite(value);
   for (std::size_t k = 0; !finite && k < q.size(); ++k)
     if (!is_finite(q[k]))
-      throw ConfigurationError("configuration value " + std::to_string(k) + " is " + std::to_string(q[k]) +
+      throw ConfigurationError("configuration value " + std::to_string(k) + " is " + number_text(q[k]) +
                                ", expected a finite number");
   for (const std::size_t k : slides_)
     if (!is_length(q[k]))
-      throw ConfigurationError("configuration value " + std::to_string(k) + " is " + std::to_string(q[k]) +
+      throw ConfigurationError("configuration value " + std::to_string(k) + " is " + number_text(q[k]) +
                                ", expected a slide of at most 2^1000");
   std::uint64_t changes = 0;
   for (std::size_t k = 0; k < q.size(); ++k) {

@@ -13,6 +13,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/detail/moves/moving_parts.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 #include "hinge/moves/dof_change.hpp"
@@ -69,7 +70,7 @@ class MoveCut {
     std::string what = "change of configuration value ";
     what += std::to_string(change.dof);
     what += " to ";
-    what += std::to_string(change.value);
+    what += number_text(change.value);
     throw ConfigurationError(what + ": " + why);
   }
 
