@@ -5,13 +5,17 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "hinge/bounds/aabb.hpp"
 #include "hinge/core/id.hpp"
+#include "hinge/detail/model/axis_grid.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
+#include "hinge/kinematics/joint.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 #include "hinge/model/model.hpp"
 #include "hinge/policy/primitive.hpp"
@@ -54,6 +58,7 @@ class SelectedModel {
 
  private:
   void find_axis_primitives();
+  detail::AxisGrid grid_of(GroupId group, std::span<const GroupId> children) const;
   /// Takes a primitive of a group's frame to the frame of its parent, or child, if it lies on the axis between.
   bool cross_to_parent(P& primitive, GroupId group) const noexcept;
   bool cross_to_child(P& primitive, GroupId child) const noexcept;
@@ -135,13 +140,31 @@ bool SelectedModel<P>::cross_to_child(P& primitive, GroupId child) const noexcep
   return false;
 }
 
+/// Around the group's own primitives and those of its children, which may lie on the axes between.
+template <Primitive P>
+detail::AxisGrid SelectedModel<P>::grid_of(GroupId group, std::span<const GroupId> children) const {
+  Aabb box;
+  std::vector<detail::AxisGrid::Line> axes;
+  for (const PrimitiveId i : primitives_of(group)) box.extend(primitives_[index(i)].bounds());
+  for (const GroupId c : children) {
+    const Joint& joint = (*groups_)[c].joint;
+    axes.push_back({joint.origin * joint.point, product(joint.origin.rotation, joint.axis)});
+    for (const PrimitiveId i : primitives_of(c)) box.extend(primitives_[index(i)].placed(joint.origin).bounds());
+  }
+  return {axes, box};
+}
+
 template <Primitive P>
 void SelectedModel<P>::find_axis_primitives() {
   also_start_.assign(size() + 1, 0);
   if constexpr (HasAxisInvariance<P>) {
-    std::vector<std::vector<GroupId>> children(groups_->size());
+    std::vector<std::vector<GroupId>> children(groups_->size());  // that turn
     for (std::size_t g = 1; g < groups_->size(); ++g)
-      children[index((*groups_)[id<GroupId>(g)].parent)].push_back(id<GroupId>(g));
+      if (const RigidGroup& group = (*groups_)[id<GroupId>(g)]; group.joint.kind == JointKind::revolute)
+        children[index(group.parent)].push_back(id<GroupId>(g));
+    std::map<GroupId, detail::AxisGrid> grids;
+    for (std::size_t g = 0; g < groups_->size(); ++g)
+      if (children[g].size() > most_listed) grids.emplace(id<GroupId>(g), grid_of(id<GroupId>(g), children[g]));
     struct Stop {
       GroupId group;
       P primitive;  // in that group's frame
@@ -158,10 +181,15 @@ void SelectedModel<P>::find_axis_primitives() {
         const GroupId parent = (*groups_)[here.group].parent;
         if (P there = here.primitive; unseen(parent) && cross_to_parent(there, here.group))
           stops.push_back({parent, there});
-        for (const GroupId c : children[index(here.group)]) {
-          if (stops.size() > most_listed) break;
-          if (P there = here.primitive; unseen(c) && cross_to_child(there, c)) stops.push_back({c, there});
-        }
+        const std::vector<GroupId>& below = children[index(here.group)];
+        const auto try_child = [&](std::size_t k) {
+          if (P there = here.primitive;
+              stops.size() <= most_listed && unseen(below[k]) && cross_to_child(there, below[k]))
+            stops.push_back({below[k], there});
+        };
+        const auto grid = grids.find(here.group);
+        if (grid == grids.end() || !grid->second.visit_near(here.primitive.bounds(), try_child))
+          for (std::size_t k = 0; k < below.size() && stops.size() <= most_listed; ++k) try_child(k);
       }
       if (stops.size() > most_listed)
         unlisted_.push_back(id<PrimitiveId>(i));
