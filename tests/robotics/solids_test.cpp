@@ -264,6 +264,10 @@ TEST(Solids, DistancesKeepTheirDigitsBehindALongSlide) {
     joint("wrist", JointType::revolute, "m", "b", at(0.7, 1.1, 0.9));
     RobotChecker checker = checker_of(std::make_shared<const Robot>(robot));
     checker.update(std::vector<double>{offset, 0.3, 0.7, -0.4});
+    const std::vector<ClosestLinks> listed = checker.distances(3.0);
+    EXPECT_EQ(listed.size(), 1U);
+    EXPECT_EQ(listed.at(0).distance, checker.closest()->distance);
+    EXPECT_TRUE(listed.at(0).point2 == checker.closest()->point2);
     return *checker.closest();
   };
   const ClosestLinks near = behind(0.0), far = behind(1e6);

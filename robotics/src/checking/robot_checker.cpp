@@ -10,7 +10,9 @@
 #include "checking/closeness.hpp"
 #include "checking/contacts.hpp"
 #include "checking/find_inside.hpp"
+#include "checking/free_in_world.hpp"
 #include "hinge/core/error.hpp"
+#include "hinge/detail/core/number_text.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/kinematics/joint.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
@@ -26,19 +28,6 @@ constexpr double largest_value = 1e300;
 std::shared_ptr<const Robot> checked(std::shared_ptr<const Robot> robot) {
   if (robot == nullptr) throw ModelError("robot checker: expected a robot, got none");
   return robot;
-}
-
-/// The same links and triangles, with the root link free against the world.
-Model<Triangle> free_model(const Model<Triangle>& model) {
-  ModelBuilder<Triangle> builder;
-  for (std::size_t l = 1; l < model.tree().link_count(); ++l) {
-    const LinkId parent = model.tree().parent(id<LinkId>(l));
-    const Joint& joint = model.tree().joint(id<LinkId>(l));
-    // Poses come from the robot's own tree: what this joint could do is never asked.
-    builder.add_link(parent, parent == world ? Joint(Prismatic{Vec3::UnitX(), joint.origin, "base"}) : joint);
-  }
-  for (std::size_t i = 0; i < model.size(); ++i) builder.add_primitive(model.links()[i], model.primitives()[i]);
-  return builder.finish();
 }
 
 /// Of the triangles of every link, in the link's frame, radii included.
@@ -80,7 +69,7 @@ void RobotChecker::update(std::span<const double> independent) {
   for (std::size_t d = 0; d < next_.size(); ++d)
     if (!(std::abs(next_[d]) <= largest_value))
       throw ConfigurationError("joint '" + robot_->description().joints[robot_->joint_of(id<DofId>(d))].name +
-                               "' comes to be " + std::to_string(next_[d]) +
+                               "' comes to be " + number_text(next_[d]) +
                                ", expected a finite number of at most 1e300");
   if (kinematics_) {
     kinematics_->set_configuration(next_);
@@ -105,7 +94,7 @@ void RobotChecker::set_base(const Pose& base) {
     const KinematicTree& tree = robot_->model().tree();
     detail::PoseSource kinematics(std::make_shared<const RigidGroups>(tree, DofSelection::all(tree)), tree.dof_count());
     kinematics.set_configuration(full_);
-    AnyHierarchy hierarchy = make_hierarchy(engine_, free_model(robot_->model()), filter_, margins_);
+    AnyHierarchy hierarchy = make_hierarchy(engine_, free_in_world(robot_->model()), filter_, margins_);
     place(hierarchy, base, kinematics);
     hierarchy_ = std::move(hierarchy);
     kinematics_ = std::move(kinematics);
@@ -206,50 +195,12 @@ std::optional<ClosestLinks> RobotChecker::closest_surfaces(AnyHierarchy& any) {
       any);
 }
 
-/// The same asked in the frame of the first link's rigid group: none where the answer would be no better, or another.
-std::optional<ClosestLinks> RobotChecker::closest_nearby(const ClosestLinks& found) {
-  constexpr double far_away = 256.0;  // costs that many half ulps
-  double size = found.distance, place = 0.0;
-  for (int k = 0; k < 3; ++k) {
-    place = std::max({place, std::abs(found.point1[k]), std::abs(found.point2[k])});
-    for (const LinkId link : {found.link1, found.link2}) {
-      const Aabb& box = (*local_boxes_)[index(link)];
-      size = std::max({size, std::abs(box.lower[k]), std::abs(box.upper[k])});
-    }
-  }
-  if (!(place > far_away * size)) return {};
-  const KinematicTree& tree = robot_->model().tree();
-  const RigidGroups groups(tree, DofSelection::all(tree));
-  const auto in_parent = [&](GroupId group) {
-    const RigidGroup& g = groups[group];
-    return g.joint.origin * motion(g.joint, full_[g.dof]);
-  };
-  // From the group up to the root, then down to all the others: what both have above them has no part in it.
-  const GroupId anchor = groups.group_of(found.link1);
-  std::vector<std::optional<Pose>> relative(groups.size());
-  relative[index(anchor)] = Pose{};
-  for (GroupId g = anchor; index(g) != 0; g = groups[g].parent)
-    relative[index(groups[g].parent)] = *relative[index(g)] * in_parent(g).inverse();
-  for (std::size_t g = 1; g < groups.size(); ++g)
-    if (!relative[g]) relative[g] = *relative[index(groups[id<GroupId>(g)].parent)] * in_parent(id<GroupId>(g));
-  std::vector<Pose> poses{Pose{}};
-  for (const std::optional<Pose>& pose : relative) poses.push_back(*pose);
-  if (!nearby_) nearby_ = make_hierarchy(engine_, free_model(robot_->model()), filter_, margins_);
-  std::visit([&](auto& hierarchy) { hierarchy.update_poses(poses); }, *nearby_);
-  std::optional<ClosestLinks> closer = closest_surfaces(*nearby_);
-  // Verdicts are those of the world's coordinates.
-  if (!closer || closer->collides() != found.collides() || (closer->distance > 0.0) != (found.distance > 0.0))
-    return {};
-  const Pose world_pose = link_pose(found.link1) * groups.link_in_group(found.link1).inverse();
-  closer->point1 = world_pose * closer->point1;
-  closer->point2 = world_pose * closer->point2;
-  return closer;
-}
-
 std::optional<ClosestLinks> RobotChecker::closest() {
   std::optional<ClosestLinks> best = closest_surfaces(*hierarchy_);
-  if (best)
-    if (const auto nearby = closest_nearby(*best)) best = nearby;
+  if (best && is_far(*best)) {
+    const Pose frame = place_nearby(best->link1);
+    if (const auto closer = closest_surfaces(*nearby_)) take_nearby(*best, *closer, frame);
+  }
   find_insides([&](const Inside& inside) {
     const auto [a, b] = std::minmax(inside.outer, inside.inner);
     take_closer(best, {a, b, inside.hit(margins_.clearance(a, b))}, inside.point);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -50,6 +51,23 @@ static_assert(Collector<ClosestOfPairs>);
 
 }  // namespace
 
+std::vector<ClosestLinks> RobotChecker::surfaces_nearby(LinkId link, double margin) {
+  const std::span<const LinkId> links = robot_->model().links();
+  return std::visit(
+      [&](auto& hierarchy) {
+        // Rounded otherwise, what was within the margin may stand a hair behind it.
+        ClosestOfPairs collector(links, links, margin * (1.0 + 0x1p-20) + 0x1p-20);
+        hierarchy.self_query(collector);
+        std::vector<ClosestLinks> all;
+        for (const auto& [pair, hit] : collector.best())
+          if (pair.first == link)
+            all.push_back(answer(pair.first, pair.second, hit,
+                                 measure(hierarchy, hierarchy, hit, margins_.sum(hit.first, hit.second))));
+        return all;
+      },
+      *nearby_);
+}
+
 std::vector<ClosestLinks> RobotChecker::distances(double margin) {
   check_margin(margin);
   const std::span<const LinkId> links = robot_->model().links();
@@ -58,9 +76,19 @@ std::vector<ClosestLinks> RobotChecker::distances(double margin) {
         ClosestOfPairs collector(links, links, margin);
         hierarchy.self_query(collector);
         std::map<LinkPair, ClosestLinks> found;
-        for (const auto& [pair, hit] : collector.best())
+        std::set<LinkId> far;  // the first links of pairs that are
+        for (const auto& [pair, hit] : collector.best()) {
           found[pair] = answer(pair.first, pair.second, hit,
                                measure(hierarchy, hierarchy, hit, margins_.sum(hit.first, hit.second)));
+          if (is_far(found[pair])) far.insert(pair.first);
+        }
+        for (const LinkId link : far) {
+          const Pose frame = place_nearby(link);
+          for (const ClosestLinks& closer : surfaces_nearby(link, margin))
+            if (const auto known = found.find({closer.link1, closer.link2});
+                known != found.end() && is_far(known->second))
+              take_nearby(known->second, closer, frame);
+        }
         solid_pairs_->find(hierarchy, *robot_, solid_centres_, [&](const Inside& inside) {
           const auto [a, b] = std::minmax(inside.outer, inside.inner);
           const auto known = found.find({a, b});

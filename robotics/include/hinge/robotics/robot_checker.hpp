@@ -109,10 +109,11 @@ class RobotChecker {
   std::vector<LinkContact> within(double margin);
   /// Every pair of triangles that collides, sorted. What lies inside a solid has none.
   std::vector<Hit> triangle_pairs();
-  /// The same pairs of links, each with its smallest d - M.
+  /// The same pairs of links, each with its smallest d - M and its closest points, which are points of the world. Far
+  /// from the world's origin (behind a long slide, say) distances are computed in the frame of one of the two links, so
+  /// that they keep their digits; the points have those of the world's coordinates.
   std::vector<ClosestLinks> distances(double margin);
-  /// The pair with the smallest d - M; none when no pair is tested. Far from the world's origin (behind a long slide,
-  /// say) distances are computed in the frame of one of the two links, so that they keep their digits.
+  /// The pair with the smallest d - M, computed alike; none when no pair is tested.
   std::optional<ClosestLinks> closest();
 
   /// update() and the queries of a mode.
@@ -159,7 +160,14 @@ class RobotChecker {
   void place(AnyHierarchy& hierarchy, const Pose& base, detail::PoseSource& kinematics);
   void find_solid_pairs();
   std::optional<ClosestLinks> closest_surfaces(AnyHierarchy& hierarchy);
-  std::optional<ClosestLinks> closest_nearby(const ClosestLinks& found);
+  // Coordinates of what was found are so large that its distance has lost digits.
+  bool is_far(const ClosestLinks& found) const;
+  // Places nearby_ in the frame of the link's rigid group, and says where that is in the world.
+  Pose place_nearby(LinkId anchor_link);
+  // There: the pairs whose first link this is, as of distances(), a hair beyond the margin too.
+  std::vector<ClosestLinks> surfaces_nearby(LinkId link, double margin);
+  // Puts what was found there in place of `found`, points in the world, unless verdicts differ.
+  static void take_nearby(ClosestLinks& found, const ClosestLinks& closer, const Pose& frame);
   // What lies inside solids; `found` is told until it says true.
   template <class Found>
   bool find_insides(const Found& found);
