@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <exception>
 #include <map>
 #include <string>
 #include <utility>
@@ -136,7 +137,7 @@ Exit run_check(const Options& options) {
   try {
     hinge::Ensemble(worker, options.threads).run(configurations.count, judge, report);
     file.finish();
-  } catch (const hinge::Error& error) {  // such as a full disk
+  } catch (const std::exception& error) {  // such as a full disk
     if (options.output == Output::json) print_json_end(summary, error.what());
     throw;
   }

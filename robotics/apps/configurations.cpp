@@ -31,6 +31,12 @@ std::vector<double> sample(const Robot& robot, std::uint64_t seed, std::uint64_t
 
 }  // namespace
 
+void check_limits(const Options& options, const Robot& robot) {
+  for (const auto limits : {robot.lower(), robot.upper()})
+    if (const auto far = find_too_far(robot, limits))
+      throw hinge::LoadError(options.urdf + ": no samples can be taken up to this limit: " + far->what);
+}
+
 std::vector<double> join_states(const char* option, const std::vector<std::string>& states, const Options& options,
                                 const Job& job) {
   std::vector<double> q(job.robot->independent_joints().size(), 0.0);
@@ -49,13 +55,17 @@ std::vector<double> join_states(const char* option, const std::vector<std::strin
                               (options.srdf.empty() ? "there is no --srdf to name states"
                                : known.empty()      ? options.srdf + " has no states"
                                                     : "expected one of " + known));
+    if (const auto far = find_too_far(*job.robot, q))
+      throw hinge::ModelError(std::string(option) + " '" + wanted + "': " + far->what);
   }
   return q;
 }
 
 Configurations find_configurations(const Options& options, const Job& job) {
-  if (options.count > 0)
+  if (options.count > 0) {
+    check_limits(options, *job.robot);
     return {options.count, [robot = job.robot, seed = options.seed](std::size_t k) { return sample(*robot, seed, k); }};
+  }
   if (!options.csv_in.empty()) {
     std::vector<std::string> notes;
     auto rows = std::make_shared<const std::vector<std::vector<double>>>(

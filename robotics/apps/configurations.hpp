@@ -18,8 +18,12 @@ struct Configurations {
   std::vector<std::string> notes{};  // on the file they come from
 };
 
-/// LoadError: a CSV file or SRDF that does not fit the robot. ModelError: a state that the SRDF does not have.
+/// LoadError: a CSV file or SRDF that does not fit the robot, limits too far away to sample between. ModelError: a
+/// state that the SRDF does not have, or that takes a joint too far.
 Configurations find_configurations(const Options& options, const Job& job);
+
+/// LoadError: limits too far away to sample between.
+void check_limits(const Options& options, const hinge::robotics::Robot& robot);
 
 /// Zero but for what the states (GROUP/NAME) say, later ones over earlier ones. ModelError, naming the option: a state
 /// that the SRDF does not have.

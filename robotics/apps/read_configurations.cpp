@@ -12,6 +12,8 @@
 #include <system_error>
 
 #include "hinge/core/error.hpp"
+#include "hinge/core/id.hpp"
+#include "hinge/detail/core/number_text.hpp"
 #include "hinge_tools/input_file.hpp"
 #include "hinge_tools/number_option.hpp"
 
@@ -129,6 +131,10 @@ class ConfigurationReader {
                             "' is '" + std::string(fields[column]) + "', expected a finite number, at most 1e+15");
       q[place_[column]] = *value;
     }
+    if (const auto far = find_too_far(robot_, q)) {
+      const auto column = std::find(place_.begin(), place_.end(), far->independent) - place_.begin();
+      refuse(number_, "column " + std::to_string(column + 1) + ": " + far->what);
+    }
     return q;
   }
 
@@ -160,7 +166,24 @@ std::vector<double> read_configuration(const std::string& what, std::string_view
                               "', expected a finite number, at most 1e+15");
     q.push_back(*value);
   }
+  if (const auto far = find_too_far(robot, q)) throw hinge::ModelError(what + ": " + far->what);
   return q;
+}
+
+std::optional<TooFar> find_too_far(const Robot& robot, std::span<const double> q) {
+  const auto drives = robot.drives();
+  for (std::size_t d = 0; d < drives.size(); ++d) {
+    const double x = q[drives[d].independent], value = drives[d].multiplier * x + drives[d].offset;
+    if (std::abs(value) <= hinge::tool::largest_value) continue;  // NaN: no
+    const std::string& joint = robot.description().joints[robot.joint_of(hinge::id<hinge::DofId>(d))].name;
+    const std::string& leader = robot.independent_name(drives[d].independent);
+    return TooFar{drives[d].independent,
+                  "joint '" + leader + "' is " + hinge::number_text(x) +
+                      (joint == leader ? std::string()
+                                       : ", which takes its follower '" + joint + "' to " + hinge::number_text(value)) +
+                      ", expected at most 1e+15"};
+  }
+  return {};
 }
 
 }  // namespace robocd

@@ -105,11 +105,23 @@ TEST(ReadSrdf, ReadsNamedConfigurations) {
             (std::vector<std::string>{"r.srdf:3: joint 'world_joint': unknown, left out of groups and states"}));
 }
 
+/// What the file itself joins to the world is not unknown.
+TEST(ReadSrdf, PassesOverItsVirtualJoints) {
+  const Srdf srdf = read(
+      "<virtual_joint name='world_joint' type='floating' parent_frame='odom' child_link='root'/>\n"
+      "<group name='g'><joint name='world_joint'/><joint name='turn'/></group>\n"
+      "<group_state name='up' group='g'><joint name='world_joint' value='0 0 0 0 0 0 1'/><joint name='turn' value='1'/>"
+      "</group_state>\n");
+  EXPECT_TRUE(srdf.notes.empty());
+  EXPECT_EQ(srdf.groups.at(0).joints.size(), 1U);
+  EXPECT_EQ(srdf.configurations.at(0).values.size(), 1U);
+}
+
 TEST(ReadSrdf, RefusesWhatItCannotResolve) {
   EXPECT_EQ(refusal("<group name='g'><group name='g'/></group>\n"), "r.srdf:2: group 'g' contains itself");
   EXPECT_EQ(refusal("<group_state group='g'/>\n"), "r.srdf:2: <group_state> has no attribute 'name'");
   EXPECT_EQ(refusal("<group_state name='s' group='g'>\n<joint name='turn' value='nan'/></group_state>\n"),
-            "r.srdf:3: joint 'turn' has value \"nan\", expected one finite number");
+            "r.srdf:3: joint 'turn' has value \"nan\", expected one finite number of at most 1e15");
   EXPECT_EQ(refusal("<disable_collisions link1='l'/>\n"), "r.srdf:2: <disable_collisions> has no attribute 'link2'");
   EXPECT_EQ(refusal("<group>\n"), "r.srdf:2: is no XML: XML_ERROR_MISMATCHED_ELEMENT");
 }

@@ -163,7 +163,7 @@ TEST(ReadUrdf, RefusesCapsulesThatAreNone) {
 }
 
 TEST(ReadUrdf, RefusesWhatIsNoUrdf) {
-  EXPECT_EQ(refusal(""), "r.urdf: is no XML: XML_ERROR_EMPTY_DOCUMENT");
+  EXPECT_EQ(refusal(""), "r.urdf: is empty, expected XML with root element <robot>");
   EXPECT_EQ(refusal("<robot name='r'>\n<link name='a'></robot>"), "r.urdf:2: is no XML: XML_ERROR_MISMATCHED_ELEMENT");
   EXPECT_EQ(refusal("<sdf/>"), "r.urdf:1: root element is <sdf>, expected <robot>");
   EXPECT_EQ(refusal("<robot name='r'/>"), "r.urdf: the robot has no links");
@@ -363,6 +363,15 @@ TEST(ReadUrdfNotes, FixesAFloatingBase) {
     EXPECT_EQ(robot.floating_base, "j");
     EXPECT_EQ(robot.notes, (Notes{"r.urdf:5: joint 'j' is " + type + " and carries all the geometry: taken as fixed"}));
   }
+}
+
+TEST(ReadUrdfNotes, TakesJointsWithoutLimitsForContinuous) {
+  const test::TemporaryFolder folder;
+  const RobotDescription robot =
+      read_in(folder, two_links("revolute", "<limit lower='-1.79769e+308' upper='1.79769e+308' effort='1'/>"));
+  EXPECT_EQ(robot.joints.at(0).type, JointType::continuous);
+  EXPECT_EQ(robot.notes, (Notes{"r.urdf:5: joint 'j' has limits of 1e15 rad or more: taken as continuous"}));
+  EXPECT_EQ(Robot(robot).upper()[0], 3.141592653589793);
 }
 
 TEST(ReadUrdfNotes, TakesTheFirstOfSeveralShapes) {

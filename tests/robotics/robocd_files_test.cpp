@@ -103,6 +103,67 @@ TEST(RobocdFiles, NumbersAreCheckedBeforeAnythingElse) {
                                                 "number, at most 1e+15\n");
 }
 
+/// What is wrong deep in a file, or comes out of a file and an option together, is found before the first byte.
+TEST(RobocdFiles, ConfigurationsAreCheckedBeforeTheFirstByte) {
+  const test::ArmFolder folder;
+  std::string rows = "shoulder,elbow\n";
+  for (int k = 0; k < 498; ++k) rows += "0.5,0\n";
+  const auto with_row = [&](const std::string& row) { folder.write("q.csv", rows + row + "\n0,0\n"); };
+  const auto refusal = [&](const std::string& arguments, int status) {
+    const test::Said said = run_robocd(arguments);
+    EXPECT_EQ(said.out, "") << arguments;
+    EXPECT_EQ(said.status, status) << arguments;
+    std::string line = run_robocd(arguments + " 2>&1 >/dev/null").out;
+    EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1) << line;
+    EXPECT_LT(line.size(), 300U) << line;
+    const std::string path = folder.path().string() + "/";
+    if (const std::size_t at = line.find(path); at != std::string::npos) line.erase(at, path.size());
+    return line;
+  };
+  const std::string csv = folder.file("q.csv");
+  for (const std::string& command : {"check" + folder.urdf() + " --json --csv-in" + csv,
+                                     "check" + folder.urdf() + " --csv --mode closest --csv-in" + csv,
+                                     "path" + folder.urdf() + " --json --waypoints" + csv})
+    for (const char* value : {"1e308", "nan", "-inf", "1e16", "x"}) {
+      with_row(std::string("0,") + value);
+      EXPECT_EQ(refusal(command, 3), std::string("robocd: q.csv:500: column 2: joint 'elbow' is '") + value +
+                                         "', expected a finite number, at most 1e+15\n");
+    }
+
+  // The mast follows the elbow, here 1e300 times as far.
+  std::string urdf = test::arm_urdf;
+  folder.write("far.urdf", urdf.replace(urdf.find("0.5\" offset"), 3, "1e300"));
+  with_row("0,-1e15");
+  for (const char* command : {"check --json --csv-in", "check --csv --csv-in", "path --waypoints"})
+    EXPECT_EQ(refusal(command + csv + folder.file("far.urdf"), 3),
+              "robocd: q.csv:500: column 2: joint 'elbow' is -1e+15, which takes its follower 'follower' to -inf, "
+              "expected at most 1e+15\n");
+  EXPECT_EQ(refusal("path" + folder.file("far.urdf") + " --from zero --to 0,1", 2),
+            "robocd: --to '0,1': joint 'elbow' is 1, which takes its follower 'follower' to 1e+300, expected at most "
+            "1e+15\n");
+  EXPECT_EQ(
+      refusal("check" + folder.file("far.urdf") + " --json --random 5", 3),
+      "robocd: far.urdf: no samples can be taken up to this limit: joint 'elbow' is -1.5, which takes its follower "
+      "'follower' to -1.5e+300, expected at most 1e+15\n");
+  EXPECT_EQ(refusal("check --json --state slide/in" + folder.file("far.urdf") + " --srdf" + folder.file("arm.srdf"), 2),
+            "robocd: --state 'slide/in': joint 'elbow' is -1.4, which takes its follower 'follower' to -1.4e+300, "
+            "expected at most 1e+15\n");
+  std::string srdf = test::arm_srdf;
+  folder.write("far.srdf", srdf.replace(srdf.find("-1.4"), 4, "1e308"));
+  EXPECT_EQ(refusal("check --json --state slide/in" + folder.urdf() + " --srdf" + folder.file("far.srdf"), 3),
+            "robocd: far.srdf:5: joint 'elbow' has value \"1e308\", expected one finite number of at most 1e15\n");
+  for (const char* limit : {"1e300", "-1e300"}) {
+    urdf = test::arm_urdf;
+    folder.write("wide.urdf", urdf.replace(urdf.find(limit[0] == '-' ? "-1.5\" upper" : "1\" effort"),
+                                           limit[0] == '-' ? 4 : 1, limit));
+    EXPECT_EQ(refusal("check" + folder.file("wide.urdf") + " --json --random 5", 3),
+              std::string("robocd: wide.urdf: no samples can be taken up to this limit: joint 'elbow' is ") +
+                  (limit[0] == '-' ? "-1e+300" : "1e+300") + ", expected at most 1e+15\n");
+    EXPECT_EQ(refusal("matrix" + folder.file("wide.urdf"), 3).find("robocd: wide.urdf: no samples can be taken"), 0U);
+    EXPECT_EQ(run_robocd("check" + folder.file("wide.urdf") + " --zero").status, 0);
+  }
+}
+
 TEST(RobocdFiles, RefusalsAreOneLineThatNamesTheFile) {
   const test::ArmFolder folder;
   for (const std::string& arguments :
@@ -118,6 +179,26 @@ TEST(RobocdFiles, RefusalsAreOneLineThatNamesTheFile) {
         EXPECT_NE(said.out.find(std::string(file) + ": "), std::string::npos) << said.out;
       }
   }
+}
+
+/// A pipe is read like a file, and called empty only when it is.
+TEST(RobocdFiles, MayBePipes) {
+  const test::ArmFolder folder;
+  folder.write("q.csv", "shoulder,elbow\n0,0\n");
+  const std::string zero = " | " HINGE_ROBOCD " check /dev/stdin --zero --package-path /tmp --missing-meshes skip 2>&1";
+  EXPECT_EQ(test::run_tool("/bin/cat", folder.urdf() + zero).status, 0);
+  EXPECT_EQ(
+      run_robocd("check" + folder.urdf() + " --csv-in /dev/stdin", "/bin/cat" + folder.file("q.csv") + " |").status, 0);
+  const auto said = [&](const std::string& arguments) { return run_robocd(arguments + " 2>&1", "true |").out; };
+  EXPECT_EQ(said("info /dev/stdin"), "robocd: /dev/stdin: is empty, expected XML with root element <robot>\n");
+  EXPECT_EQ(said("info" + folder.urdf() + " --srdf /dev/stdin"),
+            "robocd: /dev/stdin: is empty, expected XML with root element <robot>\n");
+  EXPECT_EQ(said("check" + folder.urdf() + " --csv-in /dev/stdin"),
+            "robocd: /dev/stdin: is empty, expected a header of joint names\n");
+  // Meshes have to be files: their readers go back and forth in them.
+  std::string urdf = test::arm_urdf;
+  folder.write("arm.urdf", urdf.replace(urdf.find("cube.stl"), 8, "/dev/zero"));
+  EXPECT_NE(run_robocd("info" + folder.urdf() + " 2>&1").out.find("/dev/zero is no regular file"), std::string::npos);
 }
 
 TEST(RobocdFiles, NamesNeedNotBeText) {

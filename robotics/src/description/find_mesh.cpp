@@ -95,7 +95,11 @@ fs::path find_mesh(const std::string& name, const fs::path& folder, const UrdfOp
   if (rest.empty() || rest.find("://") != std::string_view::npos)
     throw LoadError("mesh '" + name + "': expected a path, file:// or package://");
   fs::path found = folder / rest;  // an absolute path stays itself
-  if (!is_file(found)) throw MissingMesh("mesh '" + name + "': there is no file " + found.string());
+  std::error_code ignored;
+  if (!is_file(found))
+    throw MissingMesh(
+        "mesh '" + name + "': " +
+        (fs::exists(found, ignored) ? found.string() + " is no regular file" : "there is no file " + found.string()));
   return found;
 }
 

@@ -2,6 +2,7 @@
 // SRDF with tinyxml2; groups are resolved to joints.
 #include "hinge/robotics/read_srdf.hpp"
 
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -12,6 +13,7 @@
 #include "description/read_file.hpp"
 #include "description/read_xml.hpp"
 #include "hinge/core/error.hpp"
+#include "hinge_tools/number_option.hpp"
 
 namespace hinge::robotics {
 
@@ -37,10 +39,12 @@ class SrdfReader {
 
   Srdf read() {
     srdf_.disabled = LinkPairs(robot_.link_count());
+    srdf_.enabled = LinkPairs(robot_.link_count());
     const std::string name = text_of(file_.root(), "name");
     if (!name.empty() && name != robot_.name())
       srdf_.notes.push_back(file_.at(0) + "is made for robot '" + name + "', this one is '" + robot_.name() + "'");
     read_disabled();
+    for_each(file_.root(), "virtual_joint", [&](const XMLElement& joint) { virtual_.insert(text_of(joint, "name")); });
     for_each(file_.root(), "group", [&](const XMLElement& group) { groups_[name_of(group)] = &group; });
     for_each(file_.root(), "group", [&](const XMLElement& group) {
       std::set<std::size_t> joints;
@@ -103,8 +107,10 @@ class SrdfReader {
       ++skipped_pairs_;
     } else if (disabled) {
       srdf_.disabled.insert(*a, *b);
+      srdf_.enabled.erase(*a, *b);
     } else {
       srdf_.disabled.erase(*a, *b);
+      srdf_.enabled.insert(*a, *b);
     }
   }
 
@@ -133,7 +139,7 @@ class SrdfReader {
   std::optional<std::size_t> joint(const XMLElement& element) {
     const std::string name = name_of(element);
     const auto found = robot_.find_joint(name);
-    if (!found) unknown_joints_.add(element, name);
+    if (!found && !virtual_.contains(name)) unknown_joints_.add(element, name);
     return found;
   }
 
@@ -184,9 +190,10 @@ class SrdfReader {
       if (!found) return;
       if (!named.insert(name_of(element)).second) twice_.add(element, name_of(element));
       const auto values = parse_numbers(file_.attribute(element, "value"));
-      if (!values || values->size() != 1)
+      if (!values || values->size() != 1 || !(std::abs(values->front()) <= tool::largest_value))
         file_.refuse(element.GetLineNum(), "joint '" + name_of(element) + "' has value \"" +
-                                               element.Attribute("value") + "\", expected one finite number");
+                                               element.Attribute("value") +
+                                               "\", expected one finite number of at most 1e15");
       const auto position = independent_.find(*found);
       if (position != independent_.end()) configuration.values.emplace_back(position->second, values->front());
     });
@@ -199,6 +206,7 @@ class SrdfReader {
   std::map<std::string, std::size_t> above_;        // link to the joint it hangs on
   std::map<std::size_t, std::size_t> independent_;  // joint to its position among the independent ones
   std::map<std::string, const XMLElement*> groups_;
+  std::set<std::string> virtual_;  // joints between the robot and the world, which the URDF does not have
   Srdf srdf_;
   Noted unknown_joints_, unknown_links_, unknown_groups_, twice_;
   std::size_t skipped_pairs_ = 0;

@@ -210,6 +210,13 @@ class UrdfReader {
       description.lower = joint.limits->lower;
       description.upper = joint.limits->upper;
     }
+    // Some programs write the largest double where there is no limit.
+    constexpr double no_limit = 1e15;
+    if (description.type == JointType::revolute && description.lower <= -no_limit && description.upper >= no_limit) {
+      description.type = JointType::continuous;
+      notes_.push_back(at(outlined.line) + "joint '" + outlined.name +
+                       "' has limits of 1e15 rad or more: taken as continuous");
+    }
     if (joint.mimic) description.mimic = Mimic{joint.mimic->joint_name, joint.mimic->multiplier, joint.mimic->offset};
     return description;
   }

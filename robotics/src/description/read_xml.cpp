@@ -41,6 +41,8 @@ void blank_declarations(std::string& bytes) {
 
 XmlFile::XmlFile(const std::filesystem::path& path, const char* root_name) : path_(path.string()) {
   std::string bytes = read_file(path);
+  if (bytes.find_first_not_of(" \t\r\n") == std::string::npos)
+    refuse(0, std::string("is empty, expected XML with root element <") + root_name + ">");
   // A comment may stand above <?xml ...?> in files that other readers take.
   if (document_.Parse(bytes.data(), bytes.size()) == tinyxml2::XML_ERROR_PARSING_DECLARATION) {
     blank_declarations(bytes);

@@ -37,6 +37,7 @@ struct NamedConfiguration {
 
 struct Srdf {
   LinkPairs disabled;
+  LinkPairs enabled;  ///< by enable_collisions, and not disabled after all
   std::vector<JointGroup> groups;
   std::vector<NamedConfiguration> configurations;
   std::vector<std::string> notes;  ///< what was left out, one sentence each
@@ -49,7 +50,7 @@ enum class UnknownLinks : std::uint8_t { refused, noted };
 /// note, joints, links, chains and subgroups in groups and configurations that the robot or the file does not have:
 /// they change no verdict. Of a joint that a configuration names twice the last value counts. LoadError, one line
 /// naming file, line and element: bad XML, a pair with an unknown link (unless noted), a group that contains itself, a
-/// value that is not a finite number.
+/// value that is not a finite number of at most 1e15.
 Srdf read_srdf(const std::filesystem::path& path, const Robot& robot, UnknownLinks unknown = UnknownLinks::refused);
 
 struct NamedPair {
