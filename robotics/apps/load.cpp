@@ -139,7 +139,8 @@ Job load(const Options& options) {
   job.bodies = read_bodies(options, *job.robot);
   const UnknownLinks unknown = options.note_unknown_links ? UnknownLinks::noted : UnknownLinks::refused;
   if (!options.srdf.empty()) job.srdf = read_srdf(options.srdf, *job.robot, unknown);
-  job.disabled = options.srdf.empty() ? LinkPairs(job.robot->link_count()) : job.srdf.disabled;
+  if (options.srdf.empty()) job.srdf.disabled = job.srdf.enabled = LinkPairs(job.robot->link_count());
+  job.disabled = job.srdf.disabled;
   job.notes.insert(job.notes.end(), job.srdf.notes.begin(), job.srdf.notes.end());
   read_allowed(options, job);
   job.tested = tested_pairs(*job.robot, job.disabled);

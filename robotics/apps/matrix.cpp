@@ -8,8 +8,8 @@
 #include <optional>
 #include <sstream>
 #include <string>
-#include <vector>
 
+#include "configurations.hpp"
 #include "hinge/robotics/write_srdf.hpp"
 #include "hinge_tools/complete_file.hpp"
 #include "hinge_tools/progress_bar.hpp"
@@ -47,17 +47,22 @@ CollisionMatrix find(const Robot& robot, const MatrixOptions& options) {
 }  // namespace
 
 Exit run_matrix(const Options& options) {
-  std::vector<std::string> notes;
-  const auto robot = load_robot(options, notes);
-  for (const std::string& note : notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+  const Job job = load(options);
+  const auto& robot = job.robot;
+  print_notes(job);
+  check_limits(options, *robot);
   hinge::tool::CompleteFile file(options.out);
   MatrixOptions wanted = options.matrix;
   wanted.clearance = options.clearance;
+  wanted.settled = job.disabled;
   const CollisionMatrix matrix = find(*robot, wanted);
   const UnseenPairs unseen = options.disable_unseen ? UnseenPairs::disabled : UnseenPairs::tested;
 
   std::ostringstream srdf;
-  write_srdf(*robot, matrix, srdf, unseen);
+  if (options.srdf.empty())
+    write_srdf(*robot, matrix, srdf, unseen);
+  else
+    merge_srdf(options.srdf, job.srdf, *robot, matrix, srdf, unseen);
   if (file.wanted()) {
     file.stream() << srdf.str();
     file.finish();
@@ -66,13 +71,21 @@ Exit run_matrix(const Options& options) {
   }
 
   std::map<PairKind, std::size_t> counts;
-  std::size_t disabled = 0;
+  std::size_t disabled = 0, kept = 0, met = 0;
   for (const MatrixEntry& entry : matrix.entries) {
+    const bool by_file = job.disabled.contains(entry.link1, entry.link2);
+    kept += by_file ? 1U : 0U;
+    met += by_file && entry.kind == PairKind::sometimes ? 1U : 0U;
+    if (by_file) continue;
     ++counts[entry.kind];
-    disabled += is_disabled(entry.kind, unseen) ? 1U : 0U;
+    disabled += is_disabled(entry.kind, unseen) && !job.srdf.enabled.contains(entry.link1, entry.link2) ? 1U : 0U;
   }
+  if (!options.srdf.empty()) std::fprintf(stderr, "%6zu pairs disabled by %s\n", kept, options.srdf.c_str());
   for (const auto& [kind, count] : counts) std::fprintf(stderr, "%6zu pairs %s\n", count, name(kind));
-  std::fprintf(stderr, "%zu of %zu pairs disabled\n", disabled, matrix.entries.size());
+  std::fprintf(stderr, "%zu of %zu pairs disabled\n", kept + disabled, matrix.entries.size());
+  if (met > 0)
+    std::fprintf(stderr, "note: %s disables %zu pairs that were seen to collide sometimes; comments name them\n",
+                 options.srdf.c_str(), met);
   print_incomplete(*robot);
   return Exit::free;
 }

@@ -32,11 +32,14 @@ constexpr const char* footer =
     "Lengths are metres, angles radians. A pair of links is tested unless the two move as one, are joined by one\n"
     "movable joint, or are disabled by --srdf or --skip-pairs.";
 
+/// One value for each time it is given: what follows is another argument.
+CLI::Option* repeatable(CLI::Option* option) { return option->allow_extra_args(false); }
+
 void add_robot_options(CLI::App& command, Options& o) {
   command.add_option("URDF", o.urdf, "robot description; meshes STL, OBJ, DAE or PLY")->required();
-  command.add_option(
+  repeatable(command.add_option(
       "--package-path", o.package_folders,
-      "folder of packages for package://, repeatable; those of ROS_PACKAGE_PATH and AMENT_PREFIX_PATH come after");
+      "folder of packages for package://, repeatable; those of ROS_PACKAGE_PATH and AMENT_PREFIX_PATH come after"));
   command
       .add_option_function<std::string>(
           "--missing-meshes", [&o](const std::string& text) { o.skip_missing_meshes = text == "skip"; },
@@ -51,12 +54,17 @@ void add_robot_options(CLI::App& command, Options& o) {
       ->check(CLI::IsMember({"exact", "reference"}));
 }
 
-void add_pair_options(CLI::App& command, Options& o) {
-  command.add_option("--srdf", o.srdf, "disabled pairs of links and named states");
-  command.add_option("--skip-pairs", o.skip_pairs,
-                     "text file of more disabled pairs, two links or a link and a body of --env a line; repeatable");
+void add_srdf_option(CLI::App& command, Options& o, const char* help) {
+  command.add_option("--srdf", o.srdf, help);
   command.add_flag("--note-unknown-links", o.note_unknown_links,
                    "pairs of the SRDF with links the robot lacks are noted, not refused");
+}
+
+void add_pair_options(CLI::App& command, Options& o) {
+  add_srdf_option(command, o, "disabled pairs of links and named states");
+  repeatable(command.add_option(
+      "--skip-pairs", o.skip_pairs,
+      "text file of more disabled pairs, two links or a link and a body of --env a line; repeatable"));
 }
 
 void add_contained_option(CLI::App& command, Options& o) {
@@ -75,10 +83,12 @@ void add_clearance_option(CLI::App& command, Options& o) {
 }
 
 void add_environment_option(CLI::App& command, Options& o) {
-  command.add_option("--env", o.environment,
-                     "body in the world, [NAME=]SHAPE[,xyz=X Y Z][,rpy=R P Y][,scale=S], where SHAPE is a mesh file, "
-                     "'box:X Y Z', 'sphere:R', 'cylinder:R L' or 'capsule:R L'; repeatable");
-  command.add_option("--allow", o.allowed, "LINK BODY: the two may touch, such as a base and its table; repeatable")
+  repeatable(command.add_option(
+      "--env", o.environment,
+      "body in the world, [NAME=]SHAPE[,xyz=X Y Z][,rpy=R P Y][,scale=S], where SHAPE is a mesh file, "
+      "'box:X Y Z', 'sphere:R', 'cylinder:R L' or 'capsule:R L'; repeatable"));
+  repeatable(command.add_option("--allow", o.allowed,
+                                "LINK BODY: the two may touch, such as a base and its table; repeatable"))
       ->type_name("LINK BODY");
   command
       .add_option("--floating-base", o.floating_base,
@@ -92,7 +102,8 @@ void add_configuration_options(CLI::App& command, Options& o) {
       add_number(*source, "--random", o.count, counts, "number of configurations uniform within the limits")
           ->default_str("");
   source->add_option("--csv-in", o.csv_in, "file of configurations, a row each, under a header of joint names");
-  source->add_option("--state", o.states, "GROUP/NAME of the SRDF; repeatable, together one configuration, rest zero");
+  repeatable(source->add_option("--state", o.states,
+                                "GROUP/NAME of the SRDF; repeatable, together one configuration, rest zero"));
   source->add_flag("--zero", o.zero, "every joint zero");
   source->require_option(1);
   add_number(command, "--seed", o.seed, seeds, "seed; random configuration k is a function of (seed, k) alone")
@@ -133,6 +144,8 @@ void add_matrix_options(CLI::App& command, Options& o) {
              "boxes of joint values a proof may try, per pair; 0: no proofs");
   add_clearance_option(command, o);
   add_contained_option(command, o);
+  add_srdf_option(command, o,
+                  "a file to add to: all that is in it is kept, and no proof is looked for of pairs it disables");
   command.add_flag("--disable-unseen", o.disable_unseen,
                    "disable pairs that were never seen to meet too, although that is no proof");
   command.add_option("--out", o.out, "SRDF file to write (default: standard output)");

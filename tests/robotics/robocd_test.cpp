@@ -368,6 +368,30 @@ TEST(Robocd, WritesAMatrixThatItReads) {
   EXPECT_EQ(tested.find("upper mast;"), std::string::npos) << tested;
 }
 
+TEST(Robocd, AddsAMatrixToTheSrdfThatThereIs) {
+  const ArmFolder arm;
+  const std::string text = content(arm.path() / "arm.srdf");
+  std::string meeting = text;  // disables a pair that meets when the elbow is in
+  meeting.insert(meeting.find("</robot>"), "  <disable_collisions link1=\"base\" link2=\"fore\" reason=\"mine\"/>\n");
+  arm.write("arm.srdf", meeting);
+  const std::string command = "matrix" + arm.urdf() + " --samples 500 --seed 2 --srdf" + arm.file("arm.srdf");
+  const Said merged = run_robocd(command + " 2>/dev/null");
+  ASSERT_EQ(merged.status, 0);
+  EXPECT_TRUE(merged.out.starts_with(meeting.substr(0, meeting.find("</robot>")))) << merged.out;
+  EXPECT_NE(merged.out.find("<!-- disabled above, although seen to collide: base and fore: in "), std::string::npos);
+  const std::string notes = run_robocd(command + " 2>&1 >/dev/null").out;
+  EXPECT_NE(notes.find("     2 pairs disabled by "), std::string::npos) << notes;
+  EXPECT_NE(notes.find("note: "), std::string::npos) << notes;
+  EXPECT_NE(notes.find("disables 1 pairs that were seen to collide sometimes"), std::string::npos) << notes;
+  arm.write("merged.srdf", merged.out);
+  const Json json = Json::parse(run_robocd("info --json" + arm.urdf() + " --srdf" + arm.file("merged.srdf")).out);
+  EXPECT_EQ(pairs(json.at("tested_pairs")), "camera mast;");
+  EXPECT_EQ(json.at("states").size(), 2U);
+  const Said onto = run_robocd(command + " --out" + arm.file("arm.srdf") + " 2>&1");
+  EXPECT_EQ(onto.status, 2);
+  EXPECT_EQ(content(arm.path() / "arm.srdf"), meeting);
+}
+
 TEST(Robocd, LeavesNothingHalfWritten) {
   const ArmFolder arm;
   EXPECT_EQ(run_robocd("check" + arm.urdf() + " --zero --out /nonexistent/x.csv 2>&1").status, 3);

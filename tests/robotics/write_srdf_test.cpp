@@ -105,5 +105,44 @@ TEST(WriteSrdf, SaysHowOftenAPairWasSeen) {
     EXPECT_EQ(count(text, expected), 1U) << expected << " in\n" << text;
 }
 
+TEST(MergeSrdf, KeepsWhatTheFileHasAndAddsTheRest) {
+  const Robot robot = awkward_robot();
+  const test::TemporaryFolder folder;
+  // Pairs in the order of every_kind(): 1-2 adjacent, 1-3 always, 1-4 in default, 1-5 sometimes, 1-6 never, 1-7 unseen.
+  const std::string file =
+      "<?xml version='1.0'?>\n<!-- mine </robot> -->\n<robot name='a \"robot\" &amp; &lt;co>'>\n"
+      "  <group name='arm'><joint name='to i'/></group>\n"
+      "  <group_state name='up' group='arm'><joint name='to i' value='1'/></group_state>\n"
+      "  <enable_collisions link1='a' link2='&lt;d>'/>\n"
+      "  <disable_collisions link1='a' link2='\"g\"' reason='User: cables'/>\n"
+      "  <disable_collisions link2='a' link1='h-' reason='Never'/>\n";
+  const std::string end = "</robot>\n<!-- the end: </robot> -->\n";
+  const auto path = folder.write("mine.srdf", file + end);
+  const Srdf before = read_srdf(path, robot);
+  EXPECT_EQ(text(before.enabled), "1-3 ");
+  for (const UnseenPairs unseen : {UnseenPairs::tested, UnseenPairs::disabled}) {
+    std::ostringstream out;
+    merge_srdf(path, before, robot, every_kind(), out, unseen);
+    EXPECT_TRUE(out.str().starts_with(file));
+    EXPECT_TRUE(out.str().ends_with(end));
+    EXPECT_EQ(count(out.str(), "<!-- disabled above, although seen to collide: a and &quot;g&quot;: in 3 of 100"), 1U);
+    EXPECT_EQ(count(out.str(), "<!-- tested, as enabled above: a and &lt;d&gt;: Always, in 1 of 100 samples"), 1U);
+    EXPECT_EQ(count(out.str(), "a and h-"), 0U);
+    const Srdf after = read_srdf(folder.write("merged.srdf", out.str()), robot);
+    LinkPairs expected = disabled_pairs(robot, every_kind(), unseen);
+    expected.erase(id<LinkId>(1), id<LinkId>(3));
+    expected.insert(id<LinkId>(1), id<LinkId>(5));
+    EXPECT_EQ(text(after.disabled), text(expected));
+    EXPECT_EQ(after.groups.size(), 1U);
+    ASSERT_EQ(after.configurations.size(), 1U);
+    EXPECT_EQ(after.configurations[0].full_name(), "arm/up");
+  }
+  // A file with nothing in it.
+  std::ostringstream out;
+  const auto empty = folder.write("empty.srdf", "<robot name='r'/>");
+  merge_srdf(empty, read_srdf(empty, robot), robot, every_kind(), out);
+  EXPECT_EQ(out.str(), written(robot, every_kind(), UnseenPairs::tested));
+}
+
 }  // namespace write_srdf_test
 }  // namespace hinge::robotics

@@ -2,10 +2,15 @@
 // SRDF as text; names are escaped, comments hold none.
 #include "hinge/robotics/write_srdf.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <cstddef>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <string_view>
+
+#include "description/read_file.hpp"
 
 namespace hinge::robotics {
 
@@ -73,24 +78,62 @@ std::string seen(const MatrixEntry& entry) {
   return "";
 }
 
-}  // namespace
-
-void write_srdf(const Robot& robot, const CollisionMatrix& matrix, std::ostream& out, UnseenPairs unseen) {
-  out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<robot name=\"" << escaped(robot.name()) << "\">\n";
+/// What stands in the root element; `file`: what stands there already, null for nothing.
+void write_entries(const Robot& robot, const CollisionMatrix& matrix, std::ostream& out, UnseenPairs unseen,
+                   const Srdf* file) {
   for (const std::string& link : robot.description().incomplete)
     out << "  <!-- incomplete model: link " << in_comment(link) << " lacks geometry -->\n";
   for (const MatrixEntry& entry : matrix.entries) {
     const std::string &a = robot.link_name(entry.link1), &b = robot.link_name(entry.link2), what = seen(entry);
-    if (is_disabled(entry.kind, unseen)) {
+    const std::string both = in_comment(a) + " and " + in_comment(b) + ": ";
+    const bool disable = is_disabled(entry.kind, unseen);
+    if (file != nullptr && file->disabled.contains(entry.link1, entry.link2)) {
+      if (entry.kind != PairKind::sometimes) continue;
+      out << "  <!-- disabled above, although seen to collide: " << both << what << " -->";
+    } else if (disable && file != nullptr && file->enabled.contains(entry.link1, entry.link2)) {
+      out << "  <!-- tested, as enabled above: " << both << reason(entry.kind) << (what.empty() ? "" : ", ") << what
+          << " -->";
+    } else if (disable) {
       out << "  <disable_collisions link1=\"" << escaped(a) << "\" link2=\"" << escaped(b) << "\" reason=\""
           << reason(entry.kind) << "\"/>";
       if (!what.empty()) out << "  <!-- " << what << " -->";
     } else {
-      out << "  <!-- tested: " << in_comment(a) << " and " << in_comment(b) << ": " << what << " -->";
+      out << "  <!-- tested: " << both << what << " -->";
     }
     out << '\n';
   }
+}
+
+/// Where the root element's end begins; none: it has no end of its own. Comments may stand behind it.
+std::optional<std::size_t> end_of_root(std::string_view xml) {
+  std::optional<std::size_t> end;
+  for (std::size_t at = xml.find('<'); at != std::string_view::npos; at = xml.find('<', at + 1)) {
+    if (xml.substr(at).starts_with("<!--")) at = std::min(xml.find("-->", at), xml.size() - 1);
+    if (xml.substr(at).starts_with("</")) end = at;
+  }
+  return end;
+}
+
+}  // namespace
+
+void write_srdf(const Robot& robot, const CollisionMatrix& matrix, std::ostream& out, UnseenPairs unseen) {
+  out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<robot name=\"" << escaped(robot.name()) << "\">\n";
+  write_entries(robot, matrix, out, unseen, nullptr);
   out << "</robot>\n";
+}
+
+void merge_srdf(const std::filesystem::path& path, const Srdf& srdf, const Robot& robot, const CollisionMatrix& matrix,
+                std::ostream& out, UnseenPairs unseen) {
+  const std::string xml = read_file(path);
+  const auto end = end_of_root(xml);
+  if (!end) {  // <robot/>: there is nothing to keep
+    write_srdf(robot, matrix, out, unseen);
+    return;
+  }
+  const std::string_view text = xml, kept = text.substr(0, *end);
+  out << kept << (kept.ends_with('\n') ? "" : "\n");
+  write_entries(robot, matrix, out, unseen, &srdf);
+  out << text.substr(*end);
 }
 
 }  // namespace hinge::robotics

@@ -12,6 +12,7 @@
 #include "checking/find_inside.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/core/philox.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
@@ -101,7 +102,10 @@ void sample(const Robot& robot, const LinkPairs& tested, const MatrixOptions& op
 /// what is apart everywhere is also never inside: it was not in the default configuration.
 void prove(const Robot& robot, const MatrixOptions& options, const Progress& progress,
            std::vector<MatrixEntry>& entries) {
-  const auto is_open = [](const MatrixEntry& entry) { return entry.kind == PairKind::unseen; };
+  const bool some_settled = options.settled.size() > 0;
+  const auto is_open = [&](const MatrixEntry& entry) {
+    return entry.kind == PairKind::unseen && !(some_settled && options.settled.contains(entry.link1, entry.link2));
+  };
   const auto open = static_cast<std::size_t>(std::count_if(entries.begin(), entries.end(), is_open));
   const KinematicTree& tree = robot.model().tree();
   const RigidGroups groups(tree, DofSelection::all(tree));
@@ -132,9 +136,13 @@ void prove(const Robot& robot, const MatrixOptions& options, const Progress& pro
 
 CollisionMatrix find_collision_matrix(const Robot& robot, const MatrixOptions& options, const Progress& progress) {
   if (!is_finite(options.clearance) || options.clearance < 0.0)
-    throw ModelError("clearance " + std::to_string(options.clearance) +
+    throw ModelError("clearance " + number_text(options.clearance) +
                      " of the collision matrix: expected a finite "
                      "length >= 0");
+  if (options.settled.size() > 0 && options.settled.link_count() != robot.link_count())
+    throw ModelError("settled pairs of the collision matrix are those of " +
+                     std::to_string(options.settled.link_count()) + " links, expected " +
+                     std::to_string(robot.link_count()));
   const LinkPairs tested = tested_pairs(robot);
   CollisionMatrix matrix{all_pairs(robot, tested)};
   sample(robot, tested, options, progress, matrix.entries);

@@ -31,6 +31,9 @@ struct MatrixOptions {
   /// more of them buy.
   std::size_t cells = 20'000;
   double clearance = 0.0;  ///< m, finite, >= 0; two links that touch are too close whatever it is
+  /// Pairs of which no proof is wanted, as of an SRDF file that disables them: samples are looked at all the same.
+  /// Empty: none.
+  LinkPairs settled{};
 };
 
 struct MatrixEntry {
@@ -56,7 +59,8 @@ struct MatrixProgress {
 };
 
 /// The same for the same robot and options, on every machine. The default configuration is 0 for every independent
-/// joint, the middle of its limits where 0 is outside. ModelError: a clearance that is not finite or below 0.
+/// joint, the middle of its limits where 0 is outside. ModelError: a clearance that is not finite or below 0; `settled`
+/// made for another number of links.
 CollisionMatrix find_collision_matrix(const Robot& robot, const MatrixOptions& options = {},
                                       const std::function<void(const MatrixProgress&)>& progress = {});
 

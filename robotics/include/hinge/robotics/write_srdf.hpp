@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // write_srdf: a collision matrix as an SRDF file that says of every disabled pair why, and of every other what was
-// seen.
+// seen. merge_srdf: the same put into an SRDF file that there is.
 #pragma once
 
+#include <filesystem>
 #include <iosfwd>
 
 #include "hinge/robotics/collision_matrix.hpp"
+#include "hinge/robotics/read_srdf.hpp"
 #include "hinge/robotics/robot.hpp"
 
 namespace hinge::robotics {
@@ -16,5 +18,12 @@ namespace hinge::robotics {
 /// what is written gives disabled_pairs(robot, matrix, unseen).
 void write_srdf(const Robot& robot, const CollisionMatrix& matrix, std::ostream& out,
                 UnseenPairs unseen = UnseenPairs::tested);
+
+/// The file as it is, every byte of it, with that put in before its end: elements for disabled pairs that the file
+/// neither disables nor enables, comments for all others but those it disables. Of a pair that the file disables a
+/// comment says when it was seen to collide; of one that it enables, what would have disabled it. `srdf`: what
+/// read_srdf() makes of the file. LoadError: it cannot be read.
+void merge_srdf(const std::filesystem::path& path, const Srdf& srdf, const Robot& robot, const CollisionMatrix& matrix,
+                std::ostream& out, UnseenPairs unseen = UnseenPairs::tested);
 
 }  // namespace hinge::robotics
