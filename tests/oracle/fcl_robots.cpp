@@ -4,6 +4,7 @@
 
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/sphere.h>
 
 #include "oracle/define_fcl_robots.hpp"
@@ -24,7 +25,24 @@ double shape_distance(const A& a, const Placement& at_a, const B& b, const Place
   return fcl::distance(&a, transform(at_a), &b, transform(at_b), request, result);
 }
 
+struct MakeShape {
+  using Shape = std::shared_ptr<fcl::CollisionGeometry<double>>;
+  Shape operator()(const FclSphere& s) const { return std::make_shared<fcl::Sphere<double>>(s.radius); }
+  Shape operator()(const FclCapsule& c) const { return std::make_shared<fcl::Capsule<double>>(c.radius, c.length); }
+  Shape operator()(const FclBox& b) const {
+    return std::make_shared<fcl::Box<double>>(b.size[0], b.size[1], b.size[2]);
+  }
+  Shape operator()(const FclCylinder& c) const { return std::make_shared<fcl::Cylinder<double>>(c.radius, c.length); }
+};
+
 }  // namespace
+
+bool collide(const FclShape& a, const Placement& at_a, const FclShape& b, const Placement& at_b) {
+  const auto x = std::visit(MakeShape{}, a), y = std::visit(MakeShape{}, b);
+  fcl::CollisionRequest<double> request;
+  fcl::CollisionResult<double> result;
+  return fcl::collide(x.get(), transform(at_a), y.get(), transform(at_b), request, result) > 0;
+}
 
 double distance(const FclSphere& a, const Placement& at_a, const FclSphere& b, const Placement& at_b) {
   return shape_distance(fcl::Sphere<double>(a.radius), at_a, fcl::Sphere<double>(b.radius), at_b);

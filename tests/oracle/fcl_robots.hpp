@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "oracle/fcl_oracle.hpp"
@@ -85,8 +86,8 @@ class FclRobot {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Shapes of FCL, through libccd. Capsules and boxes are centred on their frame; capsules lie along z, and their length
-/// is that of the segment.
+/// Shapes of FCL, through libccd. Capsules, boxes and cylinders are centred on their frame; capsules and cylinders lie
+/// along z, and a capsule's length is that of its segment.
 struct FclSphere {
   double radius;
 };
@@ -96,8 +97,15 @@ struct FclCapsule {
 struct FclBox {
   std::array<double, 3> size;
 };
+struct FclCylinder {
+  double radius, length;
+};
 double distance(const FclSphere& a, const Placement& at_a, const FclSphere& b, const Placement& at_b);
 double distance(const FclCapsule& a, const Placement& at_a, const FclCapsule& b, const Placement& at_b);
 double distance(const FclBox& a, const Placement& at_a, const FclBox& b, const Placement& at_b);
+
+/// Shapes are solid to it.
+using FclShape = std::variant<FclSphere, FclCapsule, FclBox, FclCylinder>;
+bool collide(const FclShape& a, const Placement& at_a, const FclShape& b, const Placement& at_b);
 
 }  // namespace hinge::oracle

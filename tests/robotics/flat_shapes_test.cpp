@@ -8,10 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "hinge/robotics/collision_matrix.hpp"
 #include "hinge/robotics/environment.hpp"
 #include "hinge/robotics/path_checker.hpp"
 #include "hinge/robotics/robot_checker.hpp"
 #include "hinge/robotics/tested_pairs.hpp"
+#include "hinge/robotics/tiers.hpp"
 
 namespace hinge::robotics {
 namespace flat_shapes_test {
@@ -86,6 +88,52 @@ TEST(FlatShapes, CollideWithBodiesAndOnPaths) {
     using Values = std::vector<double>;
     EXPECT_TRUE(paths.certify(Values{0, 1}, Values{0, 4}).is_free());
     EXPECT_EQ(paths.certify(Values{0, 1}, Values{0, -4}).verdict, PathVerdict::colliding);
+  }
+}
+
+TEST(FlatShapes, MayBeBodiesThemselves) {
+  for (const std::string engine : {"wide", "lazy", "brute"})
+    for (const Case& c : cases()) {
+      RobotChecker checker = checker_of(slider(SphereShape{0.25}), engine);
+      Environment environment(0.0, engine);
+      const BodyId body = environment.add(c.shape, {Mat3::Identity(), Vec3(3, 0, 0)}, "flat");
+      for (const double x : {0.0, 1.0, 2.0, 2.75, 3.0}) {
+        checker.update(std::vector<double>{0, x});
+        const double expected = std::clamp(std::abs(x - 3) - 0.25 - c.reach, 0.0, 2.5 - c.reach);  // the other ball
+        EXPECT_EQ(checker.collides(environment), expected == 0.0) << engine << " case " << &c - cases().data();
+        const auto closest = checker.closest(environment);
+        ASSERT_TRUE(closest);
+        EXPECT_NEAR(closest->distance, expected, 1e-15);
+        EXPECT_EQ(checker.distances(environment, 0.5).size(), expected < 0.5 ? 1U : 0U);
+      }
+      environment.remove(body);
+    }
+}
+
+/// Every tier encloses them; the matrix knows when they meet, and proves that they do not.
+TEST(FlatShapes, AreTakenByTiersAndTheMatrix) {
+  for (const Case& c : cases()) {
+    const std::string which = "case " + std::to_string(&c - cases().data());
+    const auto robot = slider(c.shape);
+    for (const Tier tier : {Tier::mesh, Tier::hull, Tier::capsule, Tier::spheres}) {
+      const auto tiered = std::make_shared<const Robot>(with_tiers(robot->description(), Tiers{tier}));
+      RobotChecker checker = checker_of(tiered, "wide");
+      checker.update(std::vector<double>{0, 0.5 + c.reach});
+      EXPECT_TRUE(checker.collides()) << which << " " << name(tier);
+      checker.update(std::vector<double>{0, 3.0});
+      EXPECT_FALSE(checker.collides()) << which << " " << name(tier);
+    }
+    RobotDescription description = robot->description();
+    MatrixOptions options;
+    options.samples = 100;
+    const auto kind = [&](double lower, double upper) {
+      description.joints.at(1).lower = lower;
+      description.joints.at(1).upper = upper;
+      return find_collision_matrix(Robot(description), options).entries.at(0).kind;
+    };
+    EXPECT_EQ(kind(-4, 4), PairKind::in_default) << which;
+    EXPECT_EQ(kind(0.25 + c.reach, 4), PairKind::sometimes) << which;
+    EXPECT_EQ(kind(1, 4), PairKind::never) << which;
   }
 }
 
