@@ -13,7 +13,7 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/id.hpp"
-#include "hinge/detail/core/number_text.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge_tools/input_file.hpp"
 #include "hinge_tools/number_option.hpp"
 

@@ -12,7 +12,7 @@
 #include "checking/find_inside.hpp"
 #include "checking/free_in_world.hpp"
 #include "hinge/core/error.hpp"
-#include "hinge/detail/core/number_text.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/kinematics/joint.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
