@@ -72,8 +72,8 @@ using LaneFrame = std::array<LaneVector, 4>;
                         (Float16(1.0F / 24) +
                          z * (Float16(-1.0F / 720) + z * (Float16(1.0F / 40320) + z * Float16(-1.0F / 3628800))));
   // The quadrant as in simd::sincos: n has 20 bits, so n / 4 - 3 / 8 is exact in float too.
-  const Float16 rounder(0x1.8p23F), one(1.0F);
-  const Float16 q = n - Float16(4.0F) * (((n * Float16(0.25F) - Float16(0.375F)) + rounder) - rounder);
+  const Float16 up(0x1.8p23F), one(1.0F);
+  const Float16 q = n - Float16(4.0F) * (((n * Float16(0.25F) - Float16(0.375F)) + up) - up);
   const Float16 odd = abs(abs(q - Float16(2.0F)) - one), half(0.5F);
   const Float16 first = choose_less(odd, half, c, s), second = choose_less(odd, half, s, c);
   sine = choose_less(q, Float16(1.5F), first, -first);
