@@ -8,6 +8,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/core/philox.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/core/radius_sum.hpp"
