@@ -257,6 +257,11 @@ TEST(ReadUrdf, RefusesShapesThatAreNone) {
             "r.urdf:4: link 'a': sphere of radius -1, expected a finite length of at least 0");
   EXPECT_NE(refusal(one_shape("<sphere radius='nan'/>")).find("r.urdf:3: radius [nan] is not a valid float"),
             std::string::npos);
+  // What leaves the range of numbers is named here, not when triangles have been made of it.
+  EXPECT_EQ(refusal(one_shape("<box size='1 1 1e308'/>")),
+            "r.urdf:4: link 'a': box of size 1 1 1e+308, expected lengths of at most 2^1000");
+  EXPECT_EQ(refusal(one_shape("<cylinder radius='1e302' length='1'/>")),
+            "r.urdf:4: link 'a': cylinder of radius 1e+302, expected a finite length of at most 2^1000");
   for (const std::string shape : {"plane", "cdf", "cone"})
     EXPECT_EQ(refusal(one_shape("<" + shape + " normal='0 0 1'/>")),
               "r.urdf:4: link 'a': shape <" + shape +
@@ -298,6 +303,9 @@ TEST(ReadUrdf, RefusesMeshesThatAreMissingOrBad) {
   const auto file = folder.write("r.urdf", with_mesh("filename='a.stl' scale='1 0 1'"));
   EXPECT_EQ(test::refusal(folder, [&] { read_urdf(file); }),
             "r.urdf:4: link 'a': mesh 'a.stl': scale 1 0 1, expected finite factors other than 0");
+  EXPECT_EQ(test::refusal(
+                folder, [&] { read_urdf(folder.write("far.urdf", with_mesh("filename='a.stl' scale='1 1e307 1'"))); }),
+            "far.urdf:4: link 'a': mesh 'a.stl': scale 1 1e+307 1 takes a vertex of triangle 0 beyond 2^1000");
   folder.write("a.stl", one_facet.substr(0, 80));
   EXPECT_EQ(
       test::refusal(folder, [&] { read_urdf(file); }),

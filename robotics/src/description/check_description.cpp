@@ -124,9 +124,10 @@ Found check_mimics(const RobotDescription& robot) {
 
 // A size of 0 is well defined: a point, a segment or a flat solid.
 std::string unless_length(const char* what, double size) {
-  return is_finite(size) && size >= 0.0
-             ? ""
-             : std::string(what) + " " + text(size) + ", expected a finite length of at least 0";
+  if (is_length(size) && size >= 0.0) return "";
+  const bool large = is_finite(size) && size >= 0.0;
+  return std::string(what) + " " + text(size) + ", expected a finite length of at " +
+         (large ? "most 2^1000" : "least 0");
 }
 
 struct ShapeProblem {
@@ -134,7 +135,7 @@ struct ShapeProblem {
     for (int k = 0; k < 3; ++k)
       if (!is_finite(box.size[k]) || !(box.size[k] >= 0.0))
         return "box of size " + text(box.size) + ", expected finite lengths of at least 0";
-    return "";
+    return is_length(box.size) ? "" : "box of size " + text(box.size) + ", expected lengths of at most 2^1000";
   }
   std::string operator()(const SphereShape& sphere) const { return unless_length("sphere of radius", sphere.radius); }
   std::string operator()(const CylinderShape& cylinder) const {
@@ -156,6 +157,10 @@ struct ShapeProblem {
       const Triangle& triangle = shape.mesh->triangles[t];
       if (!is_finite(triangle.a) || !is_finite(triangle.b) || !is_finite(triangle.c))
         return who + ": triangle " + std::to_string(t) + " has a vertex that is not finite";
+      for (const Vec3* vertex : {&triangle.a, &triangle.b, &triangle.c})
+        if (!is_length(Vec3(vertex->cwiseProduct(shape.scale))))
+          return who + ": scale " + text(shape.scale) + " takes a vertex of triangle " + std::to_string(t) +
+                 " beyond 2^1000";
     }
     return "";
   }
