@@ -46,7 +46,7 @@ inline std::size_t print_batch(Scene& scene, const std::string& name) {
   std::size_t wrong = 0;
   for (const bool along_paths : {true, false}) {
     const auto blocks = blocks_of(scene, along_paths, count);
-    auto single = scene.make<Wide>();
+    auto single = scene.make<Simd>();
     auto batch = scene.make_batch();
     const std::size_t dof = scene.dof_count();
     constexpr double none = std::numeric_limits<double>::infinity();

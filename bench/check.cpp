@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// engine/wide against brute force in double: the paper's set-ups and a capsid, all samplings, all modes.
+// engine/simd against brute force in double: the paper's set-ups and a capsid, all samplings, all modes.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -28,7 +28,7 @@ struct Count {
 
 /// conformations: of each sampling. engine/brute is asked as well, at one conformation in a hundred.
 Count check(Scene& scene, std::size_t conformations) {
-  Contestant wide = engine<Wide>(scene, "wide", true), brute = engine<Brute>(scene, "brute", false);
+  Contestant wide = engine<Simd>(scene, "simd", true), brute = engine<Brute>(scene, "brute", false);
   Reference reference(scene.input());
   Count count;
   for (const Sampling sampling : all_samplings) {

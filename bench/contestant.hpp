@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "hinge/engine/lazy.hpp"
-#include "hinge/engine/wide.hpp"
+#include "hinge/engine/simd.hpp"
 #include "oracle/fcl_oracle.hpp"
 #include "peers/brute_simd.hpp"
 #include "peers/chain_tree.hpp"
@@ -169,9 +169,9 @@ inline bool answers(const Contestant& c, Query query, Sampling sampling) {
   return query == Query::any || query == Query::all || (query == Query::closest && sampling == Sampling::near_free);
 }
 
-/// engine/wide first: the others are compared with it.
+/// engine/simd first: the others are compared with it.
 inline std::vector<Contestant> contestants(const Scene& scene) {
-  return {engine<Wide>(scene, "wide", true),
+  return {engine<Simd>(scene, "simd", true),
           fcl(scene),
           peer<Grid>(scene, "grid"),
           engine<Lazy>(scene, "lazy", false),

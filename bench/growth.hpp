@@ -78,11 +78,11 @@ inline double allocated() {
 /// Time of a yes/no query when nothing but the last ten residues of a helix moves: the static rest should not matter.
 inline void run_tail(Results& results) {
   std::printf("\ntail: an ideal helix, its last ten residues free; yes/no, microseconds\n%8s %10s %10s %10s %10s\n",
-              "atoms", "sampling", "wide", "lazy", "grid");
+              "atoms", "sampling", "simd", "lazy", "grid");
   for (const std::size_t residues : {150U, 1500U, 6000U}) {
     const std::string words = "A:" + std::to_string(residues - 9) + "-" + std::to_string(residues);
     Scene scene(ideal_helix(residues), words);
-    std::vector<Contestant> all{engine<Wide>(scene, "wide", true), engine<Lazy>(scene, "lazy", false),
+    std::vector<Contestant> all{engine<Simd>(scene, "simd", true), engine<Lazy>(scene, "lazy", false),
                                 peer<Grid>(scene, "grid")};
     for (const Sampling sampling : {Sampling::random, Sampling::near_free}) {
       const Cell cell = Measurement(scene, all, Query::any, sampling).run({2.0, 100});
@@ -124,7 +124,7 @@ inline void run_growth(Results& results, std::size_t most_atoms) {
     Scene scene(make_protein(copies(one, step.copies)), "every:16");
     const Conformation conformation = scene.conformation(Sampling::near_free, 0);
     const double before = allocated();
-    std::vector<Contestant> all{engine<Wide>(scene, "wide", true)};
+    std::vector<Contestant> all{engine<Simd>(scene, "simd", true)};
     for (const Query query : all_queries) {  // scratch is made as it is needed
       Answer answer;
       all.front().prepare(conformation);

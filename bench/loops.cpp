@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "hinge/core/philox.hpp"
-#include "hinge/detail/kinematics/pivot_closure.hpp"
+#include "hinge/detail/kinematics/tripeptide_closure.hpp"
 #include "hinge/kinematics/closure_solver.hpp"
 #include "hinge/molecular/closed_sampler.hpp"
 #include "hinge/molecular/loop.hpp"
@@ -147,7 +147,7 @@ int main(int argc, char** argv) {
     chain.end_at = chain.pivots[2].at;
     chain.end_behind = chain.pivots[2].behind;
     const double start = thread_microseconds();
-    solutions += close_pivots(chain).size();
+    solutions += solve_tripeptide_closure(chain).size();
     times.push_back(thread_microseconds() - start);
   }
   std::sort(times.begin(), times.end());

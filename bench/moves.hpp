@@ -50,7 +50,7 @@ class ChainMover {
  public:
   explicit ChainMover(const Scene& scene)
       : tree_(scene.input()),
-        frames_(scene.make<Wide>()),
+        frames_(scene.make<Simd>()),
         parts_(*frames_.model().groups()),
         place_of_(scene.dof_count()) {
     const SelectedModel<Point>& model = frames_.model();
@@ -97,7 +97,7 @@ class ChainMover {
 
  private:
   ChainSearch<Leaves> tree_;
-  Molecular<Wide> frames_;
+  Molecular<Simd> frames_;
   detail::MovingParts parts_;
   std::vector<std::uint32_t> place_of_, joints_, body_, moved_;
   std::vector<GroupId> group_of_;
@@ -110,7 +110,7 @@ class ChainMover {
 /// now faster and now slower; the best time of each step counts.
 inline Walk walk(Scene& scene, std::size_t dofs, std::size_t steps) {
   constexpr double sigma = 3.0 * std::numbers::pi / 180.0;
-  auto full = scene.make<Wide>(), moved_only = full;
+  auto full = scene.make<Simd>(), moved_only = full;
   MoveChecker moves(full);
   ChainMover<ScalarLeaves<BoxVolume>> chain(scene);
   ChainMover<LaneLeaves<BoxVolume>> chain16(scene);

@@ -25,7 +25,7 @@ using namespace hinge::bench;
 
 void print_header(const char* title) {
   std::printf("\n%s\n%-7s %4s %5s %6s %-9s %-8s", title, "setup", "free", "dof", "atoms", "sampling", "query");
-  for (const char* who : {"wide", "fcl", "grid", "lazy", "chain-s", "chain-b", "chain16b", "brute", "nanofl.", "gemmi"})
+  for (const char* who : {"simd", "fcl", "grid", "lazy", "chain-s", "chain-b", "chain16b", "brute", "nanofl.", "gemmi"})
     std::printf(" %9s", who);
   std::printf(" collide diff\n");
 }
@@ -33,7 +33,7 @@ void print_header(const char* title) {
 void print_cell(const Setup& setup, const Scene& scene, Query query, Sampling sampling, const Cell& cell) {
   std::printf("%-7s %4d %5zu %6zu %-9s %-8s", setup.name.c_str(), setup.residues, scene.dof_count(), scene.size(),
               name(sampling), name(query));
-  for (const char* who : {"wide", "fcl", "grid", "lazy", "chain-spheres", "chain-boxes", "chain16-boxes", "brute",
+  for (const char* who : {"simd", "fcl", "grid", "lazy", "chain-spheres", "chain-boxes", "chain16-boxes", "brute",
                           "nanoflann", "gemmi"}) {
     const auto s =
         std::find_if(cell.series.begin(), cell.series.end(), [who](const Series& x) { return x.name == who; });
@@ -65,11 +65,11 @@ int run_table(Results& results, const Setup& setup, Scene& scene, double seconds
 void run_selection_change(Results& results, const Setup& setup, const Scene& scene) {
   double wide = std::numeric_limits<double>::infinity(), lazy = wide;
   for (int k = 0; k < 5; ++k) {
-    wide = std::min(wide, microseconds([&] { scene.make<Wide>(); }));
+    wide = std::min(wide, microseconds([&] { scene.make<Simd>(); }));
     lazy = std::min(lazy, microseconds([&] { scene.make<Lazy>(); }));
   }
   std::printf("%-7s %4d %5zu %6zu changing the selection: wide %.0f, lazy %.0f\n", setup.name.c_str(), setup.residues,
-              scene.dof_count(), scene.size(), wide, lazy);
+              scene.dof_count(), scene.size(), simd, lazy);
   Json row = {{"kind", "selection"}};
   row.update(describe(setup, scene));
   row.update({{"wide_us", wide}, {"lazy_us", lazy}});
@@ -124,7 +124,7 @@ double throughput(Scene& scene, Sampling sampling, int threads) {
   for (std::uint64_t k = 0; k < 64; ++k) q.push_back(scene.configuration(sampling, k));
   std::atomic<long> total{0};
   const auto work = [&] {
-    auto hierarchy = scene.make<Wide>();
+    auto hierarchy = scene.make<Simd>();
     const auto start = Clock::now();
     long count = 0, colliding = 0;
     for (; seconds_since(start) < seconds; ++count) {

@@ -177,7 +177,7 @@ std::vector<Path> walk_paths(H& h, double amplitude, int count) {
 }
 
 inline PathRow measure_paths(const Scene& scene, const ProteinPaths& set, int count) {
-  auto h = scene.make<Wide>();
+  auto h = scene.make<Simd>();
   return measure_paths(h, walk_paths(h, set.amplitude * degree, count));
 }
 

@@ -51,7 +51,7 @@ int run_proteins(Results& results, int count) {
 
 /// Time that FCL takes for states a tenth of a degree apart, poses given, over that of certified free paths; the better
 /// of its loop over pairs and its manager, as Debian ships it. NaN without a free path.
-double fcl_ratio(const Subject& subject, const robotics::RobotHierarchy<Wide>& h, const std::vector<Path>& paths) {
+double fcl_ratio(const Subject& subject, const robotics::RobotHierarchy<Simd>& h, const std::vector<Path>& paths) {
   constexpr int most = 10;  // it takes long
   oracle::FclRobot<oracle::FclBuild::debian> fcl(subject.meshes(), subject.pairs());
   CertifiedPath certify(h);
@@ -102,8 +102,8 @@ int run_robots(Results& results, int count) {
   for (const SubjectKind& kind : subject_kinds) {
     const Subject subject = make_subject(kind, 0);
     const robotics::Robot& robot = subject.robot();
-    const robotics::RobotHierarchy<Wide> h(robot.model(), subject.filter(), robotics::LinkMargins(robot));
-    robotics::RobotHierarchy<Wide> ends = h;
+    const robotics::RobotHierarchy<Simd> h(robot.model(), subject.filter(), robotics::LinkMargins(robot));
+    robotics::RobotHierarchy<Simd> ends = h;
     for (const double amplitude : {5.0, 20.0}) {
       std::vector<Path> paths;
       for (std::uint64_t k = 0;

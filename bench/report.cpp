@@ -62,7 +62,7 @@ std::string times(const Found& found, bool loops) {
                                                                {"random", "all"},
                                                                {"near-free", "within"},
                                                                {"near-free", "closest"}};
-  const Strings columns = {"wide",        "fcl",           "grid",  "lazy",      "chain-spheres",
+  const Strings columns = {"simd",        "fcl",           "grid",  "lazy",      "chain-spheres",
                            "chain-boxes", "chain16-boxes", "brute", "nanoflann", "gemmi"};
   std::string out;
   for (const auto& [sampling, query] : shown) {
@@ -126,7 +126,7 @@ const Strings colours = {"#1b6ca8", "#c8553d", "#3a7d44"};
 
 void plot_ratios(const Found& found, const std::string& folder) {
   const Strings queries = {"any", "all", "closest"};
-  Plot plot("near-free: time over engine/wide's (blue any, red all, green closest)", 0.1, 1000);
+  Plot plot("near-free: time over engine/simd's (blue any, red all, green closest)", 0.1, 1000);
   for (const Json& row : found.rows("summary ratio")) {
     const auto q = std::find(queries.begin(), queries.end(), Found::text(row, "query")) - queries.begin();
     const auto p = std::find(peers.begin(), peers.end(), Found::text(row, "peer")) - peers.begin();

@@ -89,14 +89,14 @@ class GeometricMean {
 /// chain: ChainTree as published; chain16: with leaves of sixteen compared side by side, a design of this project's.
 inline constexpr const char* peer_names[] = {"fcl", "grid", "lazy", "chain", "chain16", "brute", "nanoflann", "gemmi"};
 
-/// Ratios of time to engine/wide's by query, sampling and peer, a value from each set-up.
+/// Ratios of time to engine/simd's by query, sampling and peer, a value from each set-up.
 class Ratios {
  public:
   /// Of two chain trees, NAME-spheres and NAME-boxes, the better one counts, set-up by set-up.
   void add(Query query, Sampling sampling, const Cell& cell) {
     std::map<std::string, double> best;
     for (const Series& s : cell.series) {
-      if (s.name == "wide") continue;
+      if (s.name == "simd") continue;
       const std::string peer = s.name.substr(0, s.name.find('-'));
       const auto [entry, first] = best.emplace(peer, s.ratio());
       if (!first) entry->second = std::min(entry->second, s.ratio());

@@ -18,7 +18,7 @@
 
 #include "hinge/batch/state_batch.hpp"
 #include "hinge/engine/lazy.hpp"
-#include "hinge/engine/wide.hpp"
+#include "hinge/engine/simd.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/molecule.hpp"
@@ -205,7 +205,7 @@ class Scene {
   double find_sigma(double share) const {
     const std::uint64_t samples = size() > 20'000 ? 20 : 100;  // large scenes take their time
     const double allowed = share * static_cast<double>(samples);
-    auto asked = make<Wide>();
+    auto asked = make<Simd>();
     double low = 1e-8, high = 0.2;
     while (high / low > 1.02) {
       const double middle = std::sqrt(low * high);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hinge/engine/wide.hpp"
+#include "hinge/engine/simd.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/ideal_protein.hpp"
@@ -20,7 +20,7 @@ namespace {
 
 using namespace hinge;
 using namespace hinge::molecular;
-using Molecular = Hierarchy<Point, BondExclusions, TypedThresholds, Wide>;
+using Molecular = Hierarchy<Point, BondExclusions, TypedThresholds, Simd>;
 
 const Molecule& ubiquitin() {
   static const Molecule molecule(read_structure(std::string(HINGE_SOURCE_DIR) + "/molecular/data/1ubq.pdb"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Time ratios of every peer to engine/wide, geometric means over the paper's set-ups, in ten minutes on two slow cores;
+// Time ratios of every peer to engine/simd, geometric means over the paper's set-ups, in ten minutes on two slow cores;
 // then those of FCL on robots, in two more. Answers are checked first, and again while timing.
 #include <algorithm>
 #include <array>
@@ -36,7 +36,7 @@ struct Checked {
   int differences = 0;
 };
 
-/// engine/wide against the reference, the SIMD brute force and, for small scenes, engine/brute, samplings in turn.
+/// engine/simd against the reference, the SIMD brute force and, for small scenes, engine/brute, samplings in turn.
 Checked check(Scene& scene, std::vector<Contestant>& all) {
   Reference reference(scene.input());
   std::vector<Contestant> asked{
@@ -70,7 +70,7 @@ std::array<double, N> take_turns(Scene& scene, Sampling sampling, int conformati
 
 /// Everything included: yes/no from the torsions over forward kinematics and coordinates alone.
 double floor_ratio(Scene& scene, Results& results, const Json& setup) {
-  Molecular<Wide> asked = scene.make<Wide>(), placed = scene.make<Wide>();
+  Molecular<Simd> asked = scene.make<Simd>(), placed = scene.make<Simd>();
   bool collides = false;
   double kept = 0.0;
   const auto us = take_turns<2>(scene, Sampling::near_free, 100, [&](std::size_t w, const std::vector<double>& q) {
@@ -93,7 +93,7 @@ double floor_ratio(Scene& scene, Results& results, const Json& setup) {
 
 /// Yes/no straight from random torsions, forward kinematics included on both sides (the faster one, for FCL too).
 double torsions_ratio(Scene& scene, Results& results, const Json& setup, double fcl_us) {
-  Molecular<Wide> asked = scene.make<Wide>(), placed = scene.make<Wide>();
+  Molecular<Simd> asked = scene.make<Simd>(), placed = scene.make<Simd>();
   Contestant manager = fcl(scene);
   const int conformations = std::clamp(static_cast<int>(0.5e6 / repetitions / fcl_us), 4, 100);  // half a second
   int differences = 0;

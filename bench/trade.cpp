@@ -74,10 +74,10 @@ double best_time(const Away& away, const Work& work) {
   return best;
 }
 
-/// engine/wide, exact.
+/// engine/simd, exact.
 Variant asked_exactly(std::string name, const Protein& protein, const DofSelection& selection) {
   const auto h =
-      std::make_shared<Molecular<Wide>>(protein.molecule->model(), selection, protein.filter, protein.thresholds);
+      std::make_shared<Molecular<Simd>>(protein.molecule->model(), selection, protein.filter, protein.thresholds);
   return {std::move(name), [=](const Turns& turns) {
             const std::vector<double> q = configuration(*protein.molecule, selection, turns);
             const std::vector<double> home(q.size(), 0.0);

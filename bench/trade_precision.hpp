@@ -63,7 +63,7 @@ std::uint64_t missing(const std::vector<Hit>& hits, const std::vector<Hit>& othe
 inline void trade_precision(Scene& scene, Sampling sampling, std::size_t count, Results& results) {
   constexpr std::size_t n = precisions.size();
   constexpr std::array asked = {Query::any, Query::all, Query::within};
-  std::vector<Molecular<Wide>> h(n, scene.make<Wide>());
+  std::vector<Molecular<Simd>> h(n, scene.make<Simd>());
   std::vector<std::vector<double>> q;
   for (std::uint64_t k = 0; k < count; ++k) q.push_back(scene.configuration(sampling, k));
   std::array<PrecisionTotals, n> totals;

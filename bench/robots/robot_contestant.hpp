@@ -55,7 +55,7 @@ class HingeRobot {
         scene_(std::move(scene)) {
     for (const std::vector<double>& q : subject.training(training_configurations)) {
       robot_.update(q);
-      robot_.learn_order();
+      robot_.calibrate_pair_order();
     }
   }
 
@@ -63,7 +63,7 @@ class HingeRobot {
   void learn_scene(const Subject& subject) {
     for (const std::vector<double>& q : subject.training(training_configurations)) {
       robot_.update(q);
-      robot_.learn_order(*scene_);
+      robot_.calibrate_pair_order(*scene_);
     }
   }
 

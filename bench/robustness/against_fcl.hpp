@@ -28,7 +28,7 @@
 namespace hinge::bench {
 
 using Json = nlohmann::ordered_json;
-using Exact = test::Wide;
+using Exact = test::Simd;
 
 inline constexpr std::uint64_t robustness_seed = 2005;
 

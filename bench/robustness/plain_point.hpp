@@ -18,7 +18,7 @@ namespace hinge::bench {
 
 struct PlainPoint {
   Point point;
-  static constexpr bool has_no_body = HasNoBody<Point>;  ///< what engines may pass over is the same
+  static constexpr bool is_point_like = IsPointLike<Point>;  ///< what engines may pass over is the same
 
   PlainPoint placed(const Pose& pose) const noexcept { return {point.placed(pose)}; }
   Aabb bounds() const noexcept { return point.bounds(); }
@@ -68,6 +68,6 @@ struct detail::Batch<bench::PlainPoint> {
   }
 };
 
-static_assert(HasClosestPoints<bench::PlainPoint> && detail::TurnsBatch<bench::PlainPoint>);
+static_assert(HasClosestPoints<bench::PlainPoint> && detail::TransformsBatch<bench::PlainPoint>);
 
 }  // namespace hinge

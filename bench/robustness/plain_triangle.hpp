@@ -133,7 +133,7 @@ template <>
 struct detail::Leaf<bench::PlainTriangle> {
   using Same = Leaf<Triangle>;
   using Turned = Same::Turned;
-  static constexpr bool keeps_trees = true;
+  static constexpr bool uses_static_bvh = true;
   static constexpr std::size_t floats = Same::floats;
 
   static void set(float* at, std::size_t lane, const bench::PlainTriangle& t, const Vec3& origin,
@@ -156,6 +156,6 @@ class detail::PairQueue<bench::PlainTriangle> {
   PairQueue<Triangle> queue_;
 };
 
-static_assert(HasClosestPoints<bench::PlainTriangle> && detail::KeepsTrees<bench::PlainTriangle>);
+static_assert(HasClosestPoints<bench::PlainTriangle> && detail::UsesStaticBvh<bench::PlainTriangle>);
 
 }  // namespace hinge

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "hinge/core/id.hpp"
-#include "hinge/engine/wide.hpp"
+#include "hinge/engine/simd.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/policy/distance_matrix.hpp"
 #include "hinge/robotics/tested_pairs.hpp"
@@ -149,7 +149,7 @@ inline std::vector<Json> price_of_molecules() {
     const molecular::Molecule& molecule = *protein.molecule;
     const DofSelection selection =
         molecule.select(molecular::select_torsions(molecule, "count:" + std::to_string(setup.residues), true));
-    Molecular<Wide> exact(recast<Point>(molecule.model()), selection, protein.filter, protein.thresholds);
+    Molecular<Simd> exact(recast<Point>(molecule.model()), selection, protein.filter, protein.thresholds);
     Hierarchy<PlainPoint, molecular::BondExclusions, TypedThresholds> plain(
         recast<PlainPoint>(molecule.model()), selection, protein.filter, protein.thresholds);
     for (const Sampling sampling : all_samplings) {
@@ -183,8 +183,8 @@ inline std::vector<Json> price_of_robots() {
     for (const std::vector<double>& q : subject.training(trained)) {
       exact.update(q);
       plain.update(q);
-      exact.learn_order();
-      plain.learn_order();
+      exact.calibrate_pair_order();
+      plain.calibrate_pair_order();
     }
     for (const Question question : questions) {
       const auto asker = [&](auto& asked) {

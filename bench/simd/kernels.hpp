@@ -10,7 +10,7 @@
 
 namespace hinge::bench {
 
-/// "One point against sixteen", in the layout of engine/wide: blocks of sixteen points, axis by axis.
+/// "One point against sixteen", in the layout of engine/simd: blocks of sixteen points, axis by axis.
 struct PointTasks {
   const float* packed;          ///< 48 numbers per block
   const std::uint8_t* classes;  ///< 16 per block, each below 16

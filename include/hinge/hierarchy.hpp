@@ -17,7 +17,7 @@
 #include "hinge/core/number_text.hpp"
 #include "hinge/detail/policy/largest_threshold.hpp"
 #include "hinge/engine/engine.hpp"
-#include "hinge/engine/wide.hpp"
+#include "hinge/engine/simd.hpp"
 #include "hinge/kinematics/frame.hpp"
 #include "hinge/model/model.hpp"
 #include "hinge/model/selected_model.hpp"
@@ -34,7 +34,7 @@ namespace hinge {
 /// A pair (i, j) collides when the filter admits it, its distance can change under the selected DOF, and
 /// d(i, j) < M(i, j), or, for closed solids, d(i, j) = 0 (BioCD eq. (1)). Lengths in the model's unit, angles in rad.
 /// One per thread: copies share the constant model and nothing else.
-template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf = Wide>
+template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf = Simd>
 requires Engine<EngineOf<P, F, D>, P, F, D>
 class Hierarchy {
  public:
@@ -65,21 +65,21 @@ class Hierarchy {
   /// Learns from the current state: engines that can order their work try what collides most often first in yes/no
   /// queries. To be called at some hundred states like those to come; answers stay the same. Costs about one query for
   /// all pairs of links.
-  void learn_order() {
-    if constexpr (requires { engine_.learn_order(); }) engine_.learn_order();
+  void calibrate_pair_order() {
+    if constexpr (requires { engine_.calibrate_pair_order(); }) engine_.calibrate_pair_order();
   }
   /// The same for yes/no queries of this model against others: which of its links are tried first. `other`, at its
   /// current state, stands for those to come. ModelError as by queries.
   template <PairFilter G = AdmitAll>
-  void learn_order(Hierarchy& other, const G& across = {}) {
+  void calibrate_pair_order(Hierarchy& other, const G& across = {}) {
     static_assert(CrossEngine<E, P, F, D, G>, "this engine or distance matrix cannot answer between two models");
     if (!matrix_.compatible(other.matrix_)) throw ModelError("the two models use different distance matrices");
-    if constexpr (requires { engine_.learn_order(other.engine_, across); }) {
+    if constexpr (requires { engine_.calibrate_pair_order(other.engine_, across); }) {
       if (this == &other) {
         Hierarchy twin(other);  // engines keep scratch on either side
-        engine_.learn_order(twin.engine_, across);
+        engine_.calibrate_pair_order(twin.engine_, across);
       } else {
-        engine_.learn_order(other.engine_, across);
+        engine_.calibrate_pair_order(other.engine_, across);
       }
     }
   }

@@ -16,7 +16,7 @@
 #include "hinge/engine/brute.hpp"
 #include "hinge/engine/engine.hpp"
 #include "hinge/engine/lazy.hpp"
-#include "hinge/engine/wide.hpp"
+#include "hinge/engine/simd.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/kinematics/closure_equations.hpp"
 #include "hinge/kinematics/closure_solver.hpp"

@@ -47,13 +47,13 @@ struct Worst {
 };
 
 /// Verdicts, pairs and closest pairs of the first conformations on both engines; the number that differ.
-int differences(Checker& wide, Checker& brute, const Sampling& sampling, std::uint64_t count) {
+int differences(Checker& simd, Checker& brute, const Sampling& sampling, std::uint64_t count) {
   int different = 0;
   for (std::uint64_t k = 0; k < count; ++k) {
-    const auto q = sample_configuration(sampling, k, wide.dof_count());
+    const auto q = sample_configuration(sampling, k, simd.dof_count());
     for (const char* text : {"any", "all", "within:1", "closest"}) {
       const Mode mode = Mode::parse(text);
-      const Verdict a = wide.check(q, mode), b = brute.check(q, mode);
+      const Verdict a = simd.check(q, mode), b = brute.check(q, mode);
       if (a.collides != b.collides || a.pairs != b.pairs || a.closest != b.closest) ++different;
     }
   }
@@ -114,16 +114,16 @@ Exit run_demo(const Options& options) {
   for (const std::size_t count : counts) {
     const std::string spec = fmt::format("count:{}", count);
     const auto selection = molecule->select(select_torsions(*molecule, spec, options.omega));
-    Checker wide(molecule, selection, rules);
+    Checker simd(molecule, selection, rules);
     rules.engine = "brute";
     Checker brute(molecule, selection, rules);
-    rules.engine = "wide";
+    rules.engine = "simd";
     for (std::size_t n = 0; n < plots.size(); ++n) {
       plots[n].labels.push_back(std::to_string(count));
-      fmt::print("{:>8} {:>5} {:<8}", count, wide.dof_count(), samplings[n].name);
+      fmt::print("{:>8} {:>5} {:<8}", count, simd.dof_count(), samplings[n].name);
       std::uint64_t colliding = 0;
       for (std::size_t m = 0; m < plots[n].curves.size(); ++m) {
-        hinge::Ensemble workers(wide, threads);
+        hinge::Ensemble workers(simd, threads);
         const auto start = std::chrono::steady_clock::now();
         const Mode mode = Mode::parse(modes[m]);
         const Sampling& sampling = samplings[n].sampling;
@@ -146,14 +146,14 @@ Exit run_demo(const Options& options) {
         const double rate = static_cast<double>(options.count) / seconds.count();
         plots[n].curves[m].values.push_back(rate);
         if (most_clashes_at) {
-          wide.check(sample_configuration(sampling, *most_clashes_at, wide.dof_count()), mode);
-          worst.positions = wide.positions();
+          simd.check(sample_configuration(sampling, *most_clashes_at, simd.dof_count()), mode);
+          worst.positions = simd.positions();
         }
         fmt::print(" {:>14.0f}", rate);
         std::fflush(stdout);
       }
       fmt::print("  {:8.2f} %\n", 100.0 * static_cast<double>(colliding) / static_cast<double>(options.count));
-      different += differences(wide, brute, samplings[n].sampling, std::min(verified, options.count));
+      different += differences(simd, brute, samplings[n].sampling, std::min(verified, options.count));
     }
   }
   fmt::print("\nbrute force on {} conformations of each row, all four modes: {} differences\n",

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hinge/molecular/fit_turns.hpp"
+#include "hinge/molecular/fit_torsions.hpp"
 #include "options.hpp"
 
 namespace biocd {

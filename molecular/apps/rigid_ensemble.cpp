@@ -12,7 +12,7 @@
 
 #include "frames.hpp"
 #include "hinge/core/error.hpp"
-#include "hinge/molecular/fit_turns.hpp"
+#include "hinge/molecular/fit_torsions.hpp"
 
 namespace biocd {
 
@@ -83,7 +83,7 @@ Deviations measure(const Options& options, const Job& job) {
       all.groups[g].add(superposed, atoms[g][superposed.atom], name);
     }
     if (!job.molecule->placed_parts().empty()) return;
-    model.check(fit_turns(*job.molecule, job.checker.selection(), positions), Mode{Mode::Kind::any});
+    model.check(fit_torsions(*job.molecule, job.checker.selection(), positions), Mode{Mode::Kind::any});
     const Superposition rebuilt = superpose(model.positions(), positions);
     all.model.add(rebuilt, rebuilt.atom, name);
   });

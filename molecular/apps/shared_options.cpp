@@ -110,7 +110,7 @@ void add_model_options(CLI::App& command, Options& o) {
                        "pairs that collide in the file's (first) model do not count, but for those of "
                        "two files, or of a placed part and the rest");
   command.add_flag("--exempt-interfaces", o.check.exempt_interfaces, "nor do these")->needs(exempt);
-  command.add_option("--engine", o.check.engine, "wide, lazy (the paper's) or brute")->capture_default_str();
+  command.add_option("--engine", o.check.engine, "simd, lazy (the paper's) or brute")->capture_default_str();
   command.add_option("--explain", o.explain, "say which rule keeps or drops the pair of atoms i,j (numbers from 0)");
 }
 

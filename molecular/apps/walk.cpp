@@ -26,8 +26,8 @@ using namespace hinge::molecular;
 using Moves = hinge::MoveChecker<hinge::Point, BondExclusions, hinge::TypedThresholds>;
 
 void check_options(const Options& options, const Job& job) {
-  if (options.check.engine != "wide")
-    throw hinge::ModelError("walk: engine '" + options.check.engine + "': moves are answered by wide alone");
+  if (options.check.engine != "simd")
+    throw hinge::ModelError("walk: engine '" + options.check.engine + "': only the simd engine answers moves");
   if (!options.place.empty()) throw hinge::ModelError("--place: a walk turns torsions, expected no placed parts");
   const std::size_t dof = job.checker.dof_count();
   if (dof == 0)
@@ -65,7 +65,7 @@ Exit run_walk(const Options& options) {
   }
   check_options(options, job);
   const Structure& s = job.molecule->structure();
-  Moves moves(MolecularHierarchy<hinge::Wide>(job.molecule->model(), job.checker.selection(), job.checker.exclusions(),
+  Moves moves(MolecularHierarchy<hinge::Simd>(job.molecule->model(), job.checker.selection(), job.checker.exclusions(),
                                               job.checker.thresholds().matrix));
   check_start(options, s, moves);
   if (options.output == Output::table) fmt::print("{}", heading(options, job));

@@ -44,7 +44,7 @@ struct Options {
   std::vector<std::string> environment;                      // bodies, see bodies.hpp
   std::vector<std::pair<std::string, std::string>> allowed;  // a link and a body that may touch
   std::string floating_base;                                 // fixed or free; empty: not said
-  std::string engine = "wide";
+  std::string engine = "simd";
   bool contained = false;  // closed meshes are solid
   unsigned threads = 1;
   // path

@@ -130,7 +130,7 @@ void add_check_options(CLI::App& command, Options& o) {
       ->default_str(o.mode);
   add_environment_option(command, o);
   add_contained_option(command, o);
-  command.add_option("--engine", o.engine, "wide, lazy (the paper's) or brute")->capture_default_str();
+  command.add_option("--engine", o.engine, "simd, lazy (the paper's) or brute")->capture_default_str();
   add_number(command, "--threads", o.threads, NumberRange<unsigned>{1, 1024},
              "worker threads; the output does not depend on them");
   command.add_option("--out", o.out, "CSV file of the configurations to write, as --csv-in reads them");

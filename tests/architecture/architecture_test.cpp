@@ -112,7 +112,7 @@ TEST(PlantedInclude, UpwardIsCaught) {
 
 TEST(PlantedInclude, SidewaysIsCaught) {
   EXPECT_EQ(floor_breaches("include/hinge/policy/x.hpp", "#include \"hinge/kinematics/joint.hpp\""), 1U);
-  EXPECT_EQ(floor_breaches("include/hinge/detail/engine/wide/x.hpp", "#include \"hinge/engine/lazy.hpp\""), 1U);
+  EXPECT_EQ(floor_breaches("include/hinge/detail/engine/simd/x.hpp", "#include \"hinge/engine/lazy.hpp\""), 1U);
   EXPECT_EQ(floor_breaches("molecular/src/io/x.cpp", "#include \"hinge/robotics/link.hpp\""), 1U);
 }
 

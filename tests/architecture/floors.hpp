@@ -24,7 +24,7 @@ inline const std::map<std::string, int>& floors() {
                                                             {"primitive"},
                                                             {"model"},
                                                             {"query"},
-                                                            {"engine", "engine/brute", "engine/lazy", "engine/wide"},
+                                                            {"engine", "engine/brute", "engine/lazy", "engine/simd"},
                                                             {"hierarchy.hpp"},
                                                             {"path", "batch", "moves"},
                                                             {"hinge.hpp"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sizes that leave the range of floats, where engine/wide must answer as brute force does.
+// Sizes that leave the range of floats, where engine/simd must answer as brute force does.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,7 +38,7 @@ Model<Point> two_groups(double size) {
   return builder.finish();
 }
 
-void expect_equal(PointsOn<Wide>& wide, PointsOn<Brute>& brute, double margin) {
+void expect_equal(PointsOn<Simd>& wide, PointsOn<Brute>& brute, double margin) {
   const std::vector<Hit> all = brute.self_collisions();
   EXPECT_EQ(wide.self_collides(), !all.empty());
   EXPECT_EQ(wide.self_collisions(), all);
@@ -46,7 +46,7 @@ void expect_equal(PointsOn<Wide>& wide, PointsOn<Brute>& brute, double margin) {
   EXPECT_EQ(wide.self_closest().value().gap(), brute.self_closest().value().gap());
 }
 
-void expect_on_its_sides(PointsOn<Wide>& wide, PointsOn<Brute>& brute, double margin) {
+void expect_on_its_sides(PointsOn<Simd>& wide, PointsOn<Brute>& brute, double margin) {
   for (const double below : {0.0, margin}) {
     const auto list = [&](const QueryOptions& o) { return wide.self_within(below, o); };
     test::expect_on_their_sides({}, brute.self_within(below), list, [&](const QueryOptions& o) {
@@ -55,14 +55,14 @@ void expect_on_its_sides(PointsOn<Wide>& wide, PointsOn<Brute>& brute, double ma
   }
 }
 
-std::uint64_t expect_on_their_sides(PointsOn<Wide>& a, PointsOn<Wide>& b, const std::vector<Hit>& exact,
+std::uint64_t expect_on_their_sides(PointsOn<Simd>& a, PointsOn<Simd>& b, const std::vector<Hit>& exact,
                                     double margin) {
   const auto list = [&](const QueryOptions& options) { return a.within(b, margin, AdmitAll{}, options); };
   return test::expect_on_their_sides({}, exact, list, [&](const QueryOptions& o) { return !list(o).empty(); });
 }
 
 void expect_equal_on(const Model<Point>& model, double clearance, const std::vector<double>& q = {}) {
-  PointsOn<Wide> wide(model, AdmitAll{}, UniformClearance(clearance));
+  PointsOn<Simd> wide(model, AdmitAll{}, UniformClearance(clearance));
   PointsOn<Brute> brute(model, AdmitAll{}, UniformClearance(clearance));
   if (!q.empty()) {
     wide.update(q);
@@ -93,7 +93,7 @@ TEST(WideExtremes, HoldForTwoModelsOfVeryDifferentSize) {
   for (const double size : {1e-300, 1e-60, 1e-42, 1e-38, 1e-30, 1e-10, 1e10, 1e30, 1e60, 1e150}) {
     SCOPED_TRACE(size);
     const Model<Point> other = sliders({{0, 0, 0}, {size, 0, 0}});
-    PointsOn<Wide> a(model, AdmitAll{}, UniformClearance(0.5)), b(other, AdmitAll{}, UniformClearance(0.5));
+    PointsOn<Simd> a(model, AdmitAll{}, UniformClearance(0.5)), b(other, AdmitAll{}, UniformClearance(0.5));
     PointsOn<Brute> c(model, AdmitAll{}, UniformClearance(0.5)), d(other, AdmitAll{}, UniformClearance(0.5));
     EXPECT_EQ(a.collisions(b), c.collisions(d));
     EXPECT_EQ(b.collisions(a), d.collisions(c));
@@ -116,7 +116,7 @@ TEST(WideExtremes, HoldForCoordinatesFarBeyondTheSizeOfTheModel) {
     const std::vector<Vec3> far = {Vec3(draw(), 0, 0), Vec3(draw(), draw(), 0), Vec3(0, draw(), draw())};
     const double clearance = random.below(2) == 0 ? 0.0 : std::abs(draw());
     const Model<Point>& model = round % 2 == 0 ? groups : own;
-    PointsOn<Wide> wide(model, AdmitAll{}, UniformClearance(clearance)),
+    PointsOn<Simd> wide(model, AdmitAll{}, UniformClearance(clearance)),
         other(small, AdmitAll{}, UniformClearance(clearance));
     PointsOn<Brute> brute(model, AdmitAll{}, UniformClearance(clearance)),
         other_brute(small, AdmitAll{}, UniformClearance(clearance));
@@ -151,7 +151,7 @@ TEST(WideExtremes, HoldWhereSquaresUnderflow) {
   const double w = std::ldexp(1.0, -75);
   const Model<Point> model = sliders(std::vector<Vec3>(4, Vec3::Zero()));
   for (const double clearance : {0.0, 1.5 * w}) {
-    PointsOn<Wide> wide(model, AdmitAll{}, UniformClearance(clearance));
+    PointsOn<Simd> wide(model, AdmitAll{}, UniformClearance(clearance));
     PointsOn<Brute> brute(model, AdmitAll{}, UniformClearance(clearance));
     for (const auto& points :
          {std::vector<Point>{
@@ -173,7 +173,7 @@ TEST(WideExtremes, LeaveNothingUndecidedWhereFloatsDoNotHoldThem) {
   // Twice the distance of the two models; and far above the error of small coordinates, however large they become.
   for (const double clearance : {2.0, 1e15}) {
     SCOPED_TRACE(clearance);
-    PointsOn<Wide> a(large, AdmitAll{}, UniformClearance(clearance)), b(small, AdmitAll{}, UniformClearance(clearance));
+    PointsOn<Simd> a(large, AdmitAll{}, UniformClearance(clearance)), b(small, AdmitAll{}, UniformClearance(clearance));
     PointsOn<Brute> c(large, AdmitAll{}, UniformClearance(clearance)),
         d(small, AdmitAll{}, UniformClearance(clearance));
     for (const double travel : {0.0, 1e100}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The band of engine/wide against observed errors: floats against the double coordinates verdicts are about.
+// The band of engine/simd against observed errors: floats against the double coordinates verdicts are about.
 // docs/explanation/float_filter.md derives it and tells the worst shares found here.
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "engine/random_mechanism.hpp"
-#include "hinge/detail/engine/wide/into.hpp"
-#include "hinge/detail/engine/wide/wide_side.hpp"
+#include "hinge/detail/engine/simd/cross_model_transform.hpp"
+#include "hinge/detail/engine/simd/simd_side.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/model/placement.hpp"
 #include "hinge/model/selected_model.hpp"
@@ -28,19 +28,19 @@ using test::Random;
 constexpr std::size_t n = detail::simd::width;
 constexpr double u = 0x1p-24;
 
-/// One model as engine/wide keeps it, all of it placed.
+/// One model as engine/simd keeps it, all of it placed.
 struct Placed {
   Placed(const Model<Point>& model, bool inside_groups, double clearance = 0.0)
       : selected(std::make_shared<const SelectedModel<Point>>(model, DofSelection::all(model.tree()))),
         placement(selected),
-        side(std::make_shared<const detail::WideParts<Point>>(
+        side(std::make_shared<const detail::SimdParts<Point>>(
                  inside_groups ? detail::BlockLayout::by_index(*selected) : detail::BlockLayout::by_groups(*selected),
                  detail::ThresholdClasses(UniformClearance(clearance), model.size()), *selected),
              *selected, AdmitAll{}, inside_groups) {}
 
   void make() {
     side.begin(placement, false, {});
-    for (std::size_t k = 0; k < side.layout().units.size(); ++k) side.state().refresh(k, placement);
+    for (std::size_t k = 0; k < side.layout().entries.size(); ++k) side.state().refresh(k, placement);
     for (std::uint32_t b = 0; b < side.layout().block_count(); ++b) side.state().block(b, placement);
   }
   /// A slot's coordinates in double, as verdicts see them.
@@ -52,7 +52,7 @@ struct Placed {
 
   std::shared_ptr<const SelectedModel<Point>> selected;
   Placement<Point> placement;
-  detail::WideSide<Point> side;
+  detail::SimdSide<Point> side;
 };
 
 /// Worst share of the band that an error took, by what the two points belong to.
@@ -101,10 +101,10 @@ void check_boxes(Placed& m, Worst& worst) {
       }
     return out / half_band;
   };
-  for (std::size_t w = 0; w < layout.units.size(); ++w) {
-    const detail::Unit& unit = layout.units[w];
+  for (std::size_t w = 0; w < layout.entries.size(); ++w) {
+    const detail::SweepEntry& unit = layout.entries[w];
     for (std::uint32_t b = unit.first_block; b < unit.first_block + unit.block_count; ++b) {
-      worst.take(worst.boxes, outside(m.side.state().units().get(w), b));
+      worst.take(worst.boxes, outside(m.side.state().entries().get(w), b));
       if (unit.block_count == 1) continue;
       const std::uint32_t child = b - unit.first_block;
       const auto& levels = m.side.parts().rigid.tree[w].levels;
@@ -223,7 +223,7 @@ TEST(FloatFilter, BandCoversAlignedRoundings) {
   worst.print("aligned roundings");
 }
 
-/// Two models with origins and scales of their own; the margin as Wide makes it.
+/// Two models with origins and scales of their own; the margin as Simd makes it.
 TEST(FloatFilter, BandCoversTwoModels) {
   Random random(4);
   for (const double far : {0.0, 10.0, 1e3, 1e6}) {
@@ -234,7 +234,7 @@ TEST(FloatFilter, BandCoversTwoModels) {
           b(model_of(3, repetition % 3 == 0 ? 5 : 40, random.uniform(0.1, 20), away, random), false);
       turn(a, offset, 1.0, random);
       turn(b, away, 1.0, random);
-      const detail::Into<Point> into(a.side, b.side);
+      const detail::CrossModelTransform<Point> into(a.side, b.side);
       const double scale = b.side.layout().scale, ratio = static_cast<double>(into.scale);
       for (int k = 0; k < 500; ++k) {
         const std::size_t i = random.below(a.slots()), block = random.below(b.slots()) / n;

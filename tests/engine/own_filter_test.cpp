@@ -46,7 +46,7 @@ TEST(OwnFilter, IsAskedOfPairsOutsideAllLists) {
   };
   const std::size_t expected = found.template operator()<Brute>();
   EXPECT_GT(expected, 40U);
-  EXPECT_EQ(found.template operator()<Wide>(), expected);
+  EXPECT_EQ(found.template operator()<Simd>(), expected);
   EXPECT_EQ(found.template operator()<Lazy>(), expected);
 }
 
@@ -59,7 +59,7 @@ void compare_own(std::uint64_t seeds = 25) {
     Random random(seed);
     const Model<P> model = test::random_model(random, 10, random.one_in(2) ? 4 : 20, false, test::make_primitive<P>);
     const F filter = test::own_filter<F>(model, random);
-    const UniformClearance clearance{HasNoBody<P> ? 1.0 : 0.3};
+    const UniformClearance clearance{IsPointLike<P> ? 1.0 : 0.3};
     Hierarchy<P, F, UniformClearance, EngineOf> tested(model, filter, clearance), other = tested;
     Hierarchy<P, F, UniformClearance, Brute> reference(model, filter, clearance), same = reference;
     std::vector<double> q(tested.dof_count());
@@ -68,8 +68,8 @@ void compare_own(std::uint64_t seeds = 25) {
       tested.update(q);
       reference.update(q);
       if (state == 1) {
-        tested.learn_order();
-        tested.learn_order(other, filter);
+        tested.calibrate_pair_order();
+        tested.calibrate_pair_order(other, filter);
       }
       const std::vector<Hit> expected = reference.self_collisions(), across = reference.collisions(same, filter);
       hits += expected.size() + across.size();
@@ -82,20 +82,20 @@ void compare_own(std::uint64_t seeds = 25) {
   EXPECT_GT(hits, seeds);
 }
 
-// Filters are asked in the same places whatever the primitive; points and triangles have code of their own in Wide.
+// Filters are asked in the same places whatever the primitive; points and triangles have code of their own in Simd.
 TEST(OwnFilter, DerivedFromAdmitAllIsAsked) {
-  compare_own<Point, OwnOfAll, Wide>();
-  compare_own<Triangle, OwnOfAll, Wide>();
+  compare_own<Point, OwnOfAll, Simd>();
+  compare_own<Triangle, OwnOfAll, Simd>();
   compare_own<Capsule, OwnOfAll, Lazy>();
 }
 
 // Filters that promise the same are the same to an engine: own_filters.hpp says what each of these promises.
 TEST(OwnFilter, DerivedFromDifferentLinksIsAsked) {
   compare_own<Point, OwnOfLinks, Lazy>();
-  compare_own<Triangle, OwnWithLinks, Wide>();
+  compare_own<Triangle, OwnWithLinks, Simd>();
 }
 TEST(OwnFilter, DerivedFromAListIsAsked) {
-  compare_own<Point, OwnOfList, Wide>();
+  compare_own<Point, OwnOfList, Simd>();
   compare_own<Point, OwnOfList, Lazy>();
 }
 

@@ -113,8 +113,8 @@ class Pair {
   Reference reference;
 
  private:
-  /// Only points on engine/wide are measured in float; all else is decided.
-  static constexpr bool measures = std::is_same_v<Tested, Hierarchy<Point, F, TypedThresholds, Wide>>;
+  /// Only points on engine/simd are measured in float; all else is decided.
+  static constexpr bool measures = std::is_same_v<Tested, Hierarchy<Point, F, TypedThresholds, Simd>>;
   static void expect_decided(std::uint64_t undecided) {
     if (!measures) {
       EXPECT_EQ(undecided, 0U);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The trees of engine/wide: what they hold, and every query through them against brute force.
+// The trees of engine/simd: what they hold, and every query through them against brute force.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,9 +13,9 @@
 
 #include "engine/random_mechanism.hpp"
 #include "engine/side_by_side.hpp"
-#include "hinge/detail/engine/wide/tree/earlier_parts.hpp"
-#include "hinge/detail/engine/wide/tree/static_tree.hpp"
-#include "hinge/detail/engine/wide/tree/tree_parts.hpp"
+#include "hinge/detail/engine/simd/tree/admitted_pairs.hpp"
+#include "hinge/detail/engine/simd/tree/static_tree.hpp"
+#include "hinge/detail/engine/simd/tree/tree_parts.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
@@ -107,12 +107,12 @@ TEST(StaticTree, StaysShallowOnInputThatCannotBeCutWell) {
   expect_whole(exponential, 60);
 }
 
-TEST(EarlierParts, KeepWhatIsLeftOutInMemoryForThatAlone) {
+TEST(AdmittedPairs, KeepWhatIsLeftOutInMemoryForThatAlone) {
   Random random(12);
   for (const std::size_t n : {1U, 16U, 17U, 100U, 1000U})
     for (const std::size_t one_in : {2U, 30U, 3000U}) {
       SCOPED_TRACE(testing::Message() << "seed 12, " << n << " parts, one pair in " << one_in << " left out");
-      detail::EarlierParts parts;
+      detail::AdmittedPairs parts;
       std::vector<std::vector<bool>> tested(n, std::vector<bool>(n, false));
       for (std::size_t p = 0; p < n; ++p) {
         const std::size_t end = p - random.below(std::min<std::size_t>(p + 1, 20));
@@ -128,7 +128,7 @@ TEST(EarlierParts, KeepWhatIsLeftOutInMemoryForThatAlone) {
     }
   // A chain of links, each left out with its neighbour and the base.
   const std::size_t n = 100'000;
-  detail::EarlierParts chain;
+  detail::AdmittedPairs chain;
   for (std::size_t p = 0; p < n; ++p) {
     chain.add(p);
     if (p > 0) chain.leave_out(0);
@@ -165,7 +165,7 @@ TEST(TreeQueries, EqualBruteForceOnLinksOfManyTriangles) {
     Random random(seed);
     const auto model = bumpy_chain(random, 3, 20 + 40 * (seed % 3), 1.5);
     const DifferentLinks filter({model.links().begin(), model.links().end()});
-    test::compare_with_brute<Triangle, DifferentLinks, Wide>(random, filter, model);
+    test::compare_with_brute<Triangle, DifferentLinks, Simd>(random, filter, model);
     if (HasFailure()) return;
   }
 }
@@ -176,7 +176,7 @@ TEST(TreeQueries, EqualBruteForceWithoutThresholds) {
     Random random(seed);
     const auto model = bumpy_chain(random, seed % 5 == 0 ? 3 : 6, seed % 5 == 0 ? 300 : 60, 1.0);
     const DifferentLinks filter({model.links().begin(), model.links().end()});
-    Hierarchy<Triangle, DifferentLinks, UniformClearance, Wide> tested(model, filter, UniformClearance(0.0));
+    Hierarchy<Triangle, DifferentLinks, UniformClearance, Simd> tested(model, filter, UniformClearance(0.0));
     Hierarchy<Triangle, DifferentLinks, UniformClearance, Brute> reference(model, filter, UniformClearance(0.0));
     LinkPairHits links(model.links());
     std::vector<double> q(tested.dof_count());
@@ -184,7 +184,7 @@ TEST(TreeQueries, EqualBruteForceWithoutThresholds) {
     for (int k = 0; seed % 2 == 0 && k < 10; ++k) {
       for (double& value : q) value = random.uniform(-3.0, 3.0);
       tested.update(q);
-      tested.learn_order();
+      tested.calibrate_pair_order();
     }
     for (int step = 0; step < 6; ++step) {
       for (double& value : q) value = random.uniform(-3.0, 3.0);
@@ -224,7 +224,7 @@ TEST(TreeQueries, EqualBruteForceWhereLinksOfAGroupAreTestedWithOthers) {
             random.one_in(seed % 2 == 0 ? 200 : 8))
           ignored.emplace_back(id<LinkId>(a), id<LinkId>(b));
     const DifferentLinks filter({model.links().begin(), model.links().end()}, ignored);
-    Hierarchy<Triangle, DifferentLinks, UniformClearance, Wide> tested(model, filter, UniformClearance(0.0));
+    Hierarchy<Triangle, DifferentLinks, UniformClearance, Simd> tested(model, filter, UniformClearance(0.0));
     Hierarchy<Triangle, DifferentLinks, UniformClearance, Brute> reference(model, filter, UniformClearance(0.0));
     const detail::TreeParts<Triangle> parts(tested.model(), filter, UniformClearance(0.0));
     merged += parts.alike.size() == 0 ? 0 : 1;
@@ -232,7 +232,7 @@ TEST(TreeQueries, EqualBruteForceWhereLinksOfAGroupAreTestedWithOthers) {
     for (int step = 0; step < 8; ++step) {
       for (double& value : q) value = random.uniform(-1.5, 1.5);
       tested.update(q);
-      if (seed % 4 < 2) tested.learn_order();
+      if (seed % 4 < 2) tested.calibrate_pair_order();
       reference.update(q);
       const auto all = reference.self_collisions();
       (all.empty() ? apart : collides) += 1;
@@ -274,7 +274,7 @@ TEST(TreeQueries, EqualBruteForceFarFromTheOriginAndAtAnyScale) {
       Random random(5);
       const auto model = bumpy_chain(random, 4, 60, size);
       const DifferentLinks filter({model.links().begin(), model.links().end()});
-      Hierarchy<Triangle, DifferentLinks, UniformClearance, Wide> tested(model, filter, UniformClearance(0.0));
+      Hierarchy<Triangle, DifferentLinks, UniformClearance, Simd> tested(model, filter, UniformClearance(0.0));
       Hierarchy<Triangle, DifferentLinks, UniformClearance, Brute> reference(model, filter, UniformClearance(0.0));
       for (int step = 0; step < 3; ++step) {
         std::vector<Pose> poses{Pose{}};
@@ -300,7 +300,7 @@ TEST(TreeQueries, EqualBruteForceBetweenModelsOfDifferentSizes) {
     Random random(3);
     const auto model = bumpy_chain(random, 3, 80, 1.0), other = bumpy_chain(random, 3, 80, ratio);
     const auto filter = [](const Model<Triangle>& m) { return DifferentLinks({m.links().begin(), m.links().end()}); };
-    Hierarchy<Triangle, DifferentLinks, UniformClearance, Wide> a(model, filter(model), UniformClearance(0.01)),
+    Hierarchy<Triangle, DifferentLinks, UniformClearance, Simd> a(model, filter(model), UniformClearance(0.01)),
         b(other, filter(other), UniformClearance(0.01));
     Hierarchy<Triangle, DifferentLinks, UniformClearance, Brute> c(model, filter(model), UniformClearance(0.01)),
         d(other, filter(other), UniformClearance(0.01));
@@ -318,7 +318,7 @@ TEST(TreeQueries, EqualBruteForceBetweenModelsOfDifferentSizes) {
       EXPECT_EQ(a.collides(b), c.collides(d));
       EXPECT_EQ(b.collides(a), c.collides(d));
       // An order of links changes no answer.
-      if (step > 0) a.learn_order(b);
+      if (step > 0) a.calibrate_pair_order(b);
     }
     if (HasFailure()) return;
   }

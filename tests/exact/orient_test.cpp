@@ -44,7 +44,7 @@ TEST(ErrorFree, SumsAndProductsLoseNothing) {
   Random random(1);
   for (std::size_t k = 0; k < cases(); ++k) {
     const double a = random_of_exponent(random, -400, 400), b = random_of_exponent(random, -400, 400);
-    const Exactly sum = two_sum(a, b), difference = two_difference(a, b), product = two_product(a, b);
+    const ValueAndError sum = two_sum(a, b), difference = two_difference(a, b), product = two_product(a, b);
     EXPECT_EQ(sum.value, a + b);
     EXPECT_EQ(big(sum.value) + big(sum.rest), big(a) + big(b));
     EXPECT_EQ(big(difference.value) + big(difference.rest), big(a) - big(b));

@@ -135,7 +135,7 @@ TEST(Chains, OfAHundredThousandJointsAreExactToABillionthWithoutRecursion) {
   }
 }
 
-/// Groups of twenty points, which engine/wide keeps in their own frames, and of two, which share blocks.
+/// Groups of twenty points, which engine/simd keeps in their own frames, and of two, which share blocks.
 Model<Point> mixed_chain(Random& random) {
   ModelBuilder<Point> builder;
   LinkId parent = world;

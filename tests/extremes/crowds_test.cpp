@@ -121,7 +121,7 @@ void expect_n_log_n(const QueryCounts& eighth, const QueryCounts& whole) {
 
 TEST(Crowds, AtOnePointHit) {
   expect_bounded_depth(at_one_point(crowd()));
-  for (const char* engine : {"lazy", "wide"}) {
+  for (const char* engine : {"lazy", "simd"}) {
     const Answer answer = ask_yes_or_no(at_one_point(crowd()), 3.0, engine);
     EXPECT_TRUE(answer.collides);
     EXPECT_LT(answer.counts.pairs_tested, 1000U);
@@ -129,7 +129,7 @@ TEST(Crowds, AtOnePointHit) {
 }
 
 TEST(Crowds, AtOnePointWithThresholdsOfZeroAreFreeAndCostNothing) {
-  for (const char* engine : {"lazy", "wide"}) {
+  for (const char* engine : {"lazy", "simd"}) {
     const Answer answer = ask_yes_or_no(at_one_point(crowd()), 0.0, engine);
     EXPECT_FALSE(answer.collides);
     EXPECT_EQ(answer.counts.pairs_tested + answer.counts.boxes_tested, 0U);
@@ -218,23 +218,23 @@ TEST(Crowds, ExponentiallySpacedInTwoGroupsEqualOnBothEngines) {
 TEST(Crowds, InOneDiameterEqualBruteForce) {
   const std::vector<Vec3> points = in_one_diameter(crowd());
   expect_bounded_depth(points);
-  for (const char* engine : {"lazy", "wide"}) EXPECT_TRUE(ask_yes_or_no(points, 3.0, engine).collides);
+  for (const char* engine : {"lazy", "simd"}) EXPECT_TRUE(ask_yes_or_no(points, 3.0, engine).collides);
   const double m = 0.02;
   const Answer lazy = ask_all(points, m, "lazy");
   expect_sampled(lazy.hits, points, m);
   const std::vector<Vec3> eighth = in_one_diameter(crowd() / 8);
   expect_n_log_n(ask_all(eighth, 2 * m, "lazy").counts, lazy.counts);
-  // Blocks of engine/wide follow the chain, here one that jumps about: each is as large as the whole.
-  const Answer wide = ask_all(points, m, "wide");
+  // Blocks of engine/simd follow the chain, here one that jumps about: each is as large as the whole.
+  const Answer wide = ask_all(points, m, "simd");
   EXPECT_EQ(wide.hits, lazy.hits);
-  expect_n_log_n(ask_all(eighth, 2 * m, "wide").counts, wide.counts);
+  expect_n_log_n(ask_all(eighth, 2 * m, "simd").counts, wide.counts);
 }
 
 TEST(Crowds, OnALineEqualBruteForce) {
   const std::vector<Vec3> points = on_a_line(crowd());
   expect_bounded_depth(points);
   const double m = 0.15;
-  for (const char* engine : {"lazy", "wide"}) {
+  for (const char* engine : {"lazy", "simd"}) {
     const Answer answer = ask_all(points, m, engine);
     EXPECT_EQ(answer.hits.size(), points.size() - 1);
     expect_sampled(answer.hits, points, m);
@@ -250,7 +250,7 @@ TEST(Crowds, ExponentiallySpacedEqualBruteForce) {
   EXPECT_GT(lazy.hits.size(), 1000U);
   expect_sampled(lazy.hits, points, m);
   // In float nearly all of them are one point.
-  const Answer wide = ask_all(points, m, "wide");
+  const Answer wide = ask_all(points, m, "simd");
   EXPECT_EQ(wide.hits, lazy.hits);
   EXPECT_LE(wide.counts.pairs_tested + wide.counts.boxes_tested, 100 * points.size());
 }

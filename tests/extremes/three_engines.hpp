@@ -46,7 +46,7 @@ AnyEngine<P> on_engine(const std::string& name, const Model<P>& model, const F& 
 template <class P, class F, class D>
 std::vector<AnyEngine<P>> on_three_engines(const Model<P>& model, const F& filter, const D& matrix) {
   return {on_engine<Brute>("brute", model, filter, matrix), on_engine<Lazy>("lazy", model, filter, matrix),
-          on_engine<Wide>("wide", model, filter, matrix)};
+          on_engine<Simd>("simd", model, filter, matrix)};
 }
 
 /// Points, every pair admitted; compiled in three_engines_test.cpp.

@@ -16,7 +16,7 @@
 #include "fuzz/scene.hpp"
 #include "hinge/core/finite.hpp"
 #include "hinge/engine/brute.hpp"
-#include "hinge/engine/wide.hpp"
+#include "hinge/engine/simd.hpp"
 #include "hinge/hierarchy.hpp"
 
 namespace {
@@ -37,7 +37,7 @@ class Attempt {
     if (!selection || !thresholds) return;
     const fuzz::ExcludedPairs filter(bytes_.one_in(16) ? model->size() + 1 : model->size(), bytes_);
     std::optional<On<hinge::Brute>> brute;
-    std::optional<On<hinge::Wide>> wide;
+    std::optional<On<hinge::Simd>> wide;
     const bool made = fuzz::accepts([&] { brute.emplace(*model, *selection, filter, *thresholds); });
     fuzz::require(made == fuzz::accepts([&] { wide.emplace(*model, *selection, filter, *thresholds); }),
                   "one engine takes what the other refuses");
@@ -160,7 +160,7 @@ class Attempt {
     return {{placed.begin(), placed.end()}, hierarchy.self_collisions()};
   }
 
-  void update(On<hinge::Brute>& brute, On<hinge::Wide>& wide) {
+  void update(On<hinge::Brute>& brute, On<hinge::Simd>& wide) {
     const Picture before = picture(wide);
     const std::uint8_t kind = bytes_.byte() % 4;
     const std::size_t off = bytes_.one_in(16) ? 1 : 0;
@@ -191,7 +191,7 @@ class Attempt {
         "a refused update changed the state");
   }
 
-  void ask(On<hinge::Brute>& brute, On<hinge::Wide>& wide) {
+  void ask(On<hinge::Brute>& brute, On<hinge::Simd>& wide) {
     for (const P& p : wide.placed())
       fuzz::require(hinge::is_finite(p.bounds().lower) && hinge::is_finite(p.bounds().upper),
                     "a placed primitive is not finite");

@@ -20,7 +20,7 @@
 #include "fuzz/scene.hpp"
 #include "hinge/engine/brute.hpp"
 #include "hinge/engine/lazy.hpp"
-#include "hinge/engine/wide.hpp"
+#include "hinge/engine/simd.hpp"
 #include "hinge/hierarchy.hpp"
 
 namespace fuzz {
@@ -43,20 +43,20 @@ struct Engines {
   void each(const F& f) {
     f(brute, "brute");
     f(lazy, "lazy");
-    f(wide, "wide");
+    f(wide, "simd");
   }
   template <class F>
   void each(Engines& other, const F& f) {
     f(brute, other.brute, "brute");
     f(lazy, other.lazy, "lazy");
-    f(wide, other.wide, "wide");
+    f(wide, other.wide, "simd");
   }
 
   ExcludedPairs filter;
   hinge::TypedThresholds matrix;
   On<hinge::Brute> brute;
   On<hinge::Lazy> lazy;
-  On<hinge::Wide> wide;
+  On<hinge::Simd> wide;
 };
 
 enum class State : std::uint8_t { configuration, poses, coordinates };
@@ -100,7 +100,7 @@ class QueryCheck {
   void run() {
     const ThresholdTable table(numbers_);
     Engines<P> first = make(table);
-    if (bytes_.one_in(3)) first.each([](auto& h, const char*) { h.learn_order(); });
+    if (bytes_.one_in(3)) first.each([](auto& h, const char*) { h.calibrate_pair_order(); });
     State state = State::configuration;
     check_self(first, state);
     std::optional<Engines<P>> second;

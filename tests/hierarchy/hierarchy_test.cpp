@@ -13,7 +13,7 @@
 #include "engine/random_mechanism.hpp"
 #include "hinge/engine/brute.hpp"
 #include "hinge/engine/lazy.hpp"
-#include "hinge/engine/wide.hpp"
+#include "hinge/engine/simd.hpp"
 #include "hinge/primitive/point.hpp"
 #include "hinge/primitive/sphere.hpp"
 
@@ -42,7 +42,7 @@ struct On {
 };
 template <class Engine>
 class EveryHierarchy : public testing::Test {};
-using Engines = testing::Types<On<Brute>, On<Lazy>, On<Wide>>;
+using Engines = testing::Types<On<Brute>, On<Lazy>, On<Simd>>;
 TYPED_TEST_SUITE(EveryHierarchy, Engines);
 
 TYPED_TEST(EveryHierarchy, AnswersForNoAndOnePrimitive) {
@@ -207,7 +207,7 @@ TEST(Hierarchy, CountsItsWork) {
   EXPECT_GT(few.nodes_split, 0U);
   QueryCounts wide_counts;
   options.counts = &wide_counts;
-  PointsOn<Wide> wide(model, AdmitAll{}, UniformClearance{0.5});
+  PointsOn<Simd> wide(model, AdmitAll{}, UniformClearance{0.5});
   wide.self_collisions(options);
   EXPECT_GT(wide_counts.boxes_tested, 0U);
   EXPECT_GT(wide_counts.pairs_tested, 0U);

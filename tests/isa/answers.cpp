@@ -8,7 +8,7 @@
 
 #include "hinge/detail/simd/instruction_set.hpp"
 #include "hinge/engine/brute.hpp"
-#include "hinge/engine/wide.hpp"
+#include "hinge/engine/simd.hpp"
 #include "isa/mechanism.hpp"
 #include "isa/ties.hpp"
 
@@ -45,7 +45,7 @@ template <class P, class F, class D>
 int compare_engines(const char* what, std::uint64_t seed, const Model<P>& model, const F& filter, const D& matrix,
                     int configurations, const Expected& expected) {
   announce(what, seed, model);
-  return compare("wide", answers_of<P, F, D, Wide>(seed, model, filter, matrix, configurations), expected) +
+  return compare("simd", answers_of<P, F, D, Simd>(seed, model, filter, matrix, configurations), expected) +
          compare("brute", answers_of<P, F, D, Brute>(seed, model, filter, matrix, configurations), expected);
 }
 
@@ -53,7 +53,7 @@ template <class P, class F, class D>
 int compare_ties(const char* what, std::uint64_t seed, Grid grid, const Model<P>& model, const F& filter,
                  const D& matrix, const Expected& expected) {
   announce(what, seed, model);
-  return compare("wide", tied_answers_of<P, F, D, Wide>(seed, grid, model, filter, matrix, 8), expected) +
+  return compare("simd", tied_answers_of<P, F, D, Simd>(seed, grid, model, filter, matrix, 8), expected) +
          compare("brute", tied_answers_of<P, F, D, Brute>(seed, grid, model, filter, matrix, 8), expected);
 }
 

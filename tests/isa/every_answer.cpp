@@ -12,7 +12,7 @@
 #include "hinge/detail/simd/instruction_set.hpp"
 #include "hinge/engine/brute.hpp"
 #include "hinge/engine/lazy.hpp"
-#include "hinge/engine/wide.hpp"
+#include "hinge/engine/simd.hpp"
 #include "isa/answers.hpp"
 #include "isa/mechanism.hpp"
 #include "isa/ties.hpp"
@@ -45,7 +45,7 @@ void print(const char* what, const Answers& wide, const Answers& brute, const An
 template <class P, class F, class D>
 void random_scene(const char* what, std::uint64_t seed, const Model<P>& model, const F& filter, const D& matrix) {
   constexpr int steps = 9;
-  print(what, answers_of<P, F, D, Wide>(seed, model, filter, matrix, steps),
+  print(what, answers_of<P, F, D, Simd>(seed, model, filter, matrix, steps),
         answers_of<P, F, D, Brute>(seed, model, filter, matrix, steps),
         answers_of<P, F, D, Lazy>(seed, model, filter, matrix, steps));
 }
@@ -53,7 +53,7 @@ void random_scene(const char* what, std::uint64_t seed, const Model<P>& model, c
 template <class P, class F, class D>
 void ties(const char* what, std::uint64_t seed, Grid grid, const Model<P>& model, const F& filter, const D& matrix) {
   constexpr int steps = 5;
-  print(what, tied_answers_of<P, F, D, Wide>(seed, grid, model, filter, matrix, steps),
+  print(what, tied_answers_of<P, F, D, Simd>(seed, grid, model, filter, matrix, steps),
         tied_answers_of<P, F, D, Brute>(seed, grid, model, filter, matrix, steps),
         tied_answers_of<P, F, D, Lazy>(seed, grid, model, filter, matrix, steps));
 }

@@ -69,7 +69,7 @@ std::vector<Vec3> boat() {
   return {{0, y, z}, {a, bond / 2, 0}, {a, -bond / 2, 0}, {0, -y, z}, {-a, -bond / 2, 0}, {-a, bond / 2, 0}};
 }
 
-std::size_t held(const KinematicTree& tree, const detail::GeometryError& error = {}) {
+std::size_t held(const KinematicTree& tree, const detail::GeometryTolerance& error = {}) {
   return rigid_cycle_dofs(tree, DofSelection::all(tree), error).size();
 }
 
@@ -217,7 +217,7 @@ TEST(ClosureSolver, RefusesBadNumbers) {
 TEST(RigidCycles, HoldTheChairButNotTheBoat) {
   EXPECT_EQ(held(ring(chair())), 5U);
   EXPECT_EQ(held(ring(boat())), 0U);
-  const detail::GeometryError decimals{8.7e-4, 1.5e-3};
+  const detail::GeometryTolerance decimals{8.7e-4, 1.5e-3};
   EXPECT_EQ(held(ring(chair()), decimals), 5U);
   // The boat as a file has it is rigid if its decimals are taken for exact, and may move if they are not.
   std::vector<Vec3> rounded = boat();

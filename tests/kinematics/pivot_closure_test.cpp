@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/random_mechanism.hpp"
-#include "hinge/detail/kinematics/pivot_closure.hpp"
+#include "hinge/detail/kinematics/tripeptide_closure.hpp"
 #include "hinge/kinematics/closure_solver.hpp"
 
 namespace hinge {
@@ -82,7 +82,7 @@ TEST(PivotClosures, AllCloseAndHoldTheConformationTheChainWasClosedIn) {
   for (int round = 0; round < 300; ++round) {
     const detail::OpenChain chain = any_chain(random);
     const KinematicTree tree = as_tree(chain);
-    const auto solutions = close_pivots(chain);
+    const auto solutions = solve_tripeptide_closure(chain);
     most = std::max(most, solutions.size());
     EXPECT_LE(solutions.size(), 16U);
     EXPECT_EQ(solutions.size() % 2, 0U) << round;  // roots of a periodic function come in pairs
@@ -100,7 +100,7 @@ TEST(PivotClosures, AreThoseThatASearchFinds) {
   for (int round = 0; round < rounds; ++round) {
     detail::OpenChain chain = any_chain(random);
     const KinematicTree closed = as_tree(chain);
-    const auto solutions = close_pivots(chain);
+    const auto solutions = solve_tripeptide_closure(chain);
     ClosureSolver solver(closed, DofSelection::all(closed));
     std::vector<bool> seen(solutions.size(), false);
     for (int start = 0; start < 400; ++start) {
@@ -133,7 +133,7 @@ TEST(PivotClosures, AreTheSameWhereverTheChainStartsFrom) {
                       poses[3] * chain.pivots[1].behind};
     open.pivots[2] = {poses[4] * chain.pivots[2].before, poses[4] * chain.pivots[2].at,
                       poses[5] * chain.pivots[2].behind};
-    const auto from_closed = close_pivots(chain), from_open = close_pivots(open);
+    const auto from_closed = solve_tripeptide_closure(chain), from_open = solve_tripeptide_closure(open);
     ASSERT_EQ(from_closed.size(), from_open.size()) << round;
     for (detail::PivotTurns q : from_open) {
       for (std::size_t k = 0; k < q.size(); ++k) q[k] += by[k];
@@ -149,9 +149,9 @@ TEST(PivotClosures, AreNoneWhereTheEndIsOutOfReach) {
   detail::OpenChain chain = any_chain(random);
   chain.end_at += Vec3(100, 0, 0);
   chain.end_behind += Vec3(100, 0, 0);
-  EXPECT_TRUE(close_pivots(chain).empty());
+  EXPECT_TRUE(solve_tripeptide_closure(chain).empty());
   chain.end_at = chain.pivots[0].at;
-  EXPECT_TRUE(close_pivots(chain).empty());
+  EXPECT_TRUE(solve_tripeptide_closure(chain).empty());
 }
 
 }  // namespace pivot_closure_test

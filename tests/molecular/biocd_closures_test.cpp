@@ -187,7 +187,7 @@ TEST(MoveCloser, WalksTheClosedSetWithTheVerdictsOfBruteForce) {
   rules.engine = "brute";
   Checker brute(m, selection, rules);
   MoveChecker<Point, BondExclusions, TypedThresholds> moves(
-      MolecularHierarchy<Wide>(m->model(), selection, brute.exclusions(), brute.thresholds().matrix));
+      MolecularHierarchy<Simd>(m->model(), selection, brute.exclusions(), brute.thresholds().matrix));
   MoveCloser closer(m->model().tree(), selection, kept.closures);
   const Bridge bridge;
   std::vector<DofChange> changes;

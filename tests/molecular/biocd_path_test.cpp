@@ -18,7 +18,7 @@
 #include "hinge/core/pose.hpp"
 #include "hinge/core/vec3.hpp"
 #include "hinge/kinematics/joint.hpp"
-#include "hinge/molecular/fit_turns.hpp"
+#include "hinge/molecular/fit_torsions.hpp"
 #include "hinge/molecular/path_checker.hpp"
 #include "hinge/molecular/read_structure.hpp"
 #include "hinge/molecular/sampler.hpp"
@@ -212,12 +212,12 @@ TEST(FitTurns, FindsTheConfigurationThatMadeTheCoordinates) {
   for (std::uint64_t k = 0; k < 5; ++k) {
     const std::vector<double> q = sample_configuration({7, {}}, k, all.dof_count());
     all.check(q, Mode{Mode::Kind::any});
-    const std::vector<double> found = fit_turns(*molecule, all.selection(), all.positions());
+    const std::vector<double> found = fit_torsions(*molecule, all.selection(), all.positions());
     for (std::size_t d = 0; d < q.size(); ++d)
       ASSERT_NEAR(std::remainder(found[d] - q[d], 2 * std::numbers::pi), 0.0, 1e-9) << k << ' ' << d;
   }
   std::vector<Vec3> on_a_line(molecule->structure().atoms.size(), Vec3::Zero());
-  EXPECT_THROW(fit_turns(*molecule, all.selection(), on_a_line), LoadError);
+  EXPECT_THROW(fit_torsions(*molecule, all.selection(), on_a_line), LoadError);
 }
 
 TEST(FitTurns, TakesTheShorterWay) {

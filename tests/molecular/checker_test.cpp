@@ -338,7 +338,7 @@ TEST(DecimalTies, OfAFileAreFreeInEveryModeAndEngine) {
   ASSERT_GT(below, differences.size() / 4) << "doubles answer rightly, so this tests nothing";
   const auto close = read_structure(nearer.path()).models.front();
 
-  for (const char* engine : {"wide", "lazy", "brute"}) {
+  for (const char* engine : {"simd", "lazy", "brute"}) {
     SCOPED_TRACE(engine);
     CheckOptions rules;
     rules.engine = engine;

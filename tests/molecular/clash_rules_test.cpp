@@ -270,7 +270,7 @@ void expect_definition(const std::shared_ptr<const Molecule>& molecule, const ch
   const Structure& s = molecule->structure();
   const auto bonds = bonds_between(s);
   const auto selection = molecule->select(select_torsions(*molecule, "every:8", false));
-  for (const char* engine : {"wide", "lazy", "brute"}) {
+  for (const char* engine : {"simd", "lazy", "brute"}) {
     CheckOptions options = by(rules);
     options.engine = engine;
     Checker checker(molecule, selection, options);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// engine/wide and engine/lazy against brute force on any molecule: verdicts, pairs, distances, in every mode.
+// engine/simd and engine/lazy against brute force on any molecule: verdicts, pairs, distances, in every mode.
 #pragma once
 
 #include <gtest/gtest.h>

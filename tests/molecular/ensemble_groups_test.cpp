@@ -109,8 +109,8 @@ TEST(EnsembleGroups, WrapAround) {
     narrow.add(ensemble.conformation(random, {std::numbers::pi + 0.1 * degree * k}));
     wide.add(ensemble.conformation(random, {std::numbers::pi / 10.5 * k}));
   }
-  EXPECT_NEAR(narrow.turn_spread(0), 0.1 * degree * std::sqrt(110.0 / 3.0), 1e-4 * degree);
-  EXPECT_GT(wide.turn_spread(0), 120.0 * degree);
+  EXPECT_NEAR(narrow.circular_std(0), 0.1 * degree * std::sqrt(110.0 / 3.0), 1e-4 * degree);
+  EXPECT_GT(wide.circular_std(0), 120.0 * degree);
   EXPECT_TRUE(find_ensemble_groups(narrow, 0.5).torsions.empty());
   EXPECT_EQ(find_ensemble_groups(wide, 0.5).torsions, hinge);
 }

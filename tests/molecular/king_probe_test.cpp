@@ -163,7 +163,7 @@ void Subject::ask_probe() {
   std::ostringstream all;
   all << "-3 -nolimit -nofacehbond -density" << dots_per_area << " -dumpatoms " << dump_.path().string()
       << " -self all " << pdb_.path().string();
-  // Wide contact, close contact, small overlap, bad overlap, hydrogen bond.
+  // Simd contact, close contact, small overlap, bad overlap, hydrogen bond.
   read_contacts(all.str(), [&](const Pair& pair, const std::string& kind, double gap) {
     ProbeContact& contact = contacts_[pair];
     contact.gap = gap;

@@ -463,7 +463,7 @@ TEST(PairScope, LeavesOutNothingElse) {
   const DofSelection selection = molecule->select_placed(all_torsions(*molecule));
   const std::vector<PlacementRange> ranges{{4.0, pi}, {4.0, pi}};
   for (const PairScope& asked : {scope(s, {{"A", "B"}}, {}), scope(s, {{"L", "A"}}, {"B"}), scope(s, {}, {"A"})})
-    for (const char* engine : {"wide", "lazy", "brute"}) {
+    for (const char* engine : {"simd", "lazy", "brute"}) {
       CheckOptions rules;
       rules.engine = engine;
       Checker whole(molecule, selection, rules);

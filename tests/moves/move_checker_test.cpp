@@ -19,7 +19,7 @@
 #include "engine/side_by_side.hpp"
 #include "hinge/engine/brute.hpp"
 #include "hinge/engine/lazy.hpp"
-#include "hinge/engine/wide.hpp"
+#include "hinge/engine/simd.hpp"
 #include "hinge/hierarchy.hpp"
 
 namespace hinge {
@@ -75,7 +75,7 @@ struct Tally {
 };
 
 /// A walk over a model, each move held against brute force.
-template <class P, template <class, class, class> class EngineOf = Wide, class F>
+template <class P, template <class, class, class> class EngineOf = Simd, class F>
 void walk(const Model<P>& model, const DofSelection& selection, const F& filter, const TypedThresholds& matrix,
           Random& random, int steps, double size, Tally& tally) {
   Hierarchy<P, F, TypedThresholds, Brute> reference(model, selection, filter, matrix);
@@ -146,9 +146,9 @@ void walk_random_models() {
   }
 }
 
-TEST(MoveChecker, AnswersForPointsAsFullQueries) { walk_random_models<Point, Wide>(); }
-TEST(MoveChecker, AnswersForSpheresAsFullQueries) { walk_random_models<Sphere, Wide>(); }
-TEST(MoveChecker, AnswersForTrianglesAsFullQueries) { walk_random_models<Triangle, Wide>(); }
+TEST(MoveChecker, AnswersForPointsAsFullQueries) { walk_random_models<Point, Simd>(); }
+TEST(MoveChecker, AnswersForSpheresAsFullQueries) { walk_random_models<Sphere, Simd>(); }
+TEST(MoveChecker, AnswersForTrianglesAsFullQueries) { walk_random_models<Triangle, Simd>(); }
 TEST(MoveChecker, AnswersForCapsulesOfAnotherEngineAsFullQueries) { walk_random_models<Capsule, Lazy>(); }
 
 TEST(MoveChecker, AsksAFilterDerivedFromAStockOne) {

@@ -157,7 +157,7 @@ void compare(const Shape& a, const Shape& b, const Pose& at_b, const std::string
 }
 
 bool exhaustive() { return std::getenv("HINGE_TEST_ALL") != nullptr; }
-constexpr std::array<const char*, 3> engines{"wide", "lazy", "brute"};
+constexpr std::array<const char*, 3> engines{"simd", "lazy", "brute"};
 
 void print(const char* what, std::uint64_t seed, const Count& count) {
   std::cout << what << ", seed " << seed << ": " << count.asked << " pairs of solids, " << count.together

@@ -20,7 +20,7 @@
 #include "hinge/bounds/aabb.hpp"
 #include "hinge/core/philox.hpp"
 #include "hinge/engine/lazy.hpp"
-#include "hinge/engine/wide.hpp"
+#include "hinge/engine/simd.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/query/link_pair_hits.hpp"
 #include "hinge/robotics/robot.hpp"
@@ -207,7 +207,7 @@ void compare_at_random(const char* engine, const robotics::Robot& robot, const r
 /// The paper's engine is slow on meshes, and sees fewer.
 void compare_both(const robotics::Robot& robot, const robotics::LinkPairs& disabled, std::uint64_t configurations,
                   std::uint64_t lazy_configurations) {
-  compare_at_random<Wide>("wide", robot, disabled, configurations);
+  compare_at_random<Simd>("simd", robot, disabled, configurations);
   compare_at_random<Lazy>("lazy", robot, disabled, lazy_configurations);
 }
 
@@ -231,7 +231,7 @@ TEST(FclRobots, AgreeOnTalos) {
 /// Two configurations, one free and one not, brought together until no double lies between them: FCL rounds placements
 /// differently, so either answer can be had there. Hinge has to be right on the coordinates it hands out.
 void settle_at_contact(const robotics::Robot& robot, const robotics::LinkPairs& disabled, std::uint64_t paths) {
-  Compared<Wide> compared(robot, disabled);
+  Compared<Simd> compared(robot, disabled);
   std::uint64_t bisected = 0;
   for (std::uint64_t k = 0; bisected < paths && k < 100 * paths; ++k) {
     SCOPED_TRACE(k);

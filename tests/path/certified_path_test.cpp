@@ -22,7 +22,7 @@
 #include "hinge/detail/path/relative_motion.hpp"
 #include "hinge/engine/brute.hpp"
 #include "hinge/engine/lazy.hpp"
-#include "hinge/engine/wide.hpp"
+#include "hinge/engine/simd.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/path/check_sampled.hpp"
 #include "hinge/policy/different_links.hpp"
@@ -86,7 +86,7 @@ Verdicts hold_against_brute_force(std::uint64_t seed, int cases, int states) {
     SCOPED_TRACE("seed " + std::to_string(seed) + ", case " + std::to_string(c));
     Random random(seed + 1000 * static_cast<std::uint64_t>(c));
     const Model<P> model = random_tree<P>(random);
-    const double clearance = random.one_in(4) ? 0.0 : random.uniform(0.0, HasNoBody<P> ? 1.2 : 0.4);
+    const double clearance = random.one_in(4) ? 0.0 : random.uniform(0.0, IsPointLike<P> ? 1.2 : 0.4);
     Bodies<P> plain = bodies(model, clearance);
     std::vector<double> from(plain.dof_count()), to(from);
     const double amplitude = std::pow(10.0, random.uniform(-2.5, 0.5));
@@ -94,7 +94,7 @@ Verdicts hold_against_brute_force(std::uint64_t seed, int cases, int states) {
     for (std::size_t k = 0; k < to.size(); ++k)
       to[k] = from[k] + (random.one_in(4) ? 0.0 : random.uniform(-amplitude, amplitude));
     const PathAnswer answer = c % 2 == 0 ? CertifiedPath(plain).check(from, to)
-                                         : CertifiedPath(bodies<Wide>(model, clearance)).check(from, to);
+                                         : CertifiedPath(bodies<Simd>(model, clearance)).check(from, to);
     EXPECT_LE(answer.counts.pairs_proved, answer.counts.pairs_listed);
     switch (answer.verdict) {
       case PathVerdict::free:
@@ -203,7 +203,7 @@ void come_near_a_point() {
 TEST(CertifiedPath, AnswersForAPointThatComesNearAnother) {
   come_near_a_point<Brute>();
   come_near_a_point<Lazy>();
-  come_near_a_point<Wide>();
+  come_near_a_point<Simd>();
 }
 
 /// Admits nothing, whatever its base says.
@@ -222,7 +222,7 @@ Model<P> arm_and_obstacle(const P& tip, const P& obstacle) {
 template <class P>
 void expect_filter_is_asked(const Model<P>& model) {
   const std::vector from{0.0}, to{pi};
-  EXPECT_EQ(CertifiedPath(bodies<Wide>(model, 0.1)).check(from, to).verdict, PathVerdict::colliding);
+  EXPECT_EQ(CertifiedPath(bodies<Simd>(model, 0.1)).check(from, to).verdict, PathVerdict::colliding);
   CertifiedPath none(Hierarchy(model, NoPair{}, UniformClearance(0.1)));
   EXPECT_EQ(none.check(from, to).verdict, PathVerdict::free);
 }
@@ -235,7 +235,7 @@ TEST(CertifiedPath, AsksAFilterDerivedFromAStockOne) {
 
 /// A copy, and one that was moved to, know nothing of the first one's path, which is gone.
 TEST(CertifiedPath, MayBeCopiedAndMovedAfterAPath) {
-  CertifiedPath first(bodies<Wide>(arm_and_obstacle(Point{{1, 0, 0}}, Point{{0, 1, 0}}), 0.1));
+  CertifiedPath first(bodies<Simd>(arm_and_obstacle(Point{{1, 0, 0}}, Point{{0, 1, 0}}), 0.1));
   const auto check = [](auto& path, double to) { return path.check(std::vector{0.0}, std::vector{to}).verdict; };
   EXPECT_EQ(check(first, 1.0), PathVerdict::free);
   CertifiedPath copy(first);
@@ -411,7 +411,7 @@ TEST(CertifiedPath, AnswersTheSameOnEveryEngine) {
     const test::ExcludedPairs pairs(model.size(), random, 3);
     const DofSelection selection = test::random_selection(model.tree(), random);
     Hierarchy<Point, test::ExcludedPairs, TypedThresholds, Brute> brute(model, selection, pairs, thresholds);
-    Hierarchy<Point, test::ExcludedPairs, TypedThresholds, Wide> wide(model, selection, pairs, thresholds);
+    Hierarchy<Point, test::ExcludedPairs, TypedThresholds, Simd> wide(model, selection, pairs, thresholds);
     std::vector<double> from(brute.dof_count()), to(from);
     for (double& q : from) q = random.uniform(-1, 1);
     for (std::size_t k = 0; k < to.size(); ++k) to[k] = from[k] + random.uniform(-0.3, 0.3);

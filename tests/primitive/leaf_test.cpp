@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "engine/random_mechanism.hpp"
-#include "hinge/detail/engine/wide/tree/relative_turn.hpp"
+#include "hinge/detail/engine/simd/tree/relative_transform.hpp"
 #include "hinge/detail/primitive/pair_queue.hpp"
 #include "hinge/detail/primitive/triangle_leaf.hpp"
 #include "hinge/primitive/sphere.hpp"
@@ -75,13 +75,13 @@ struct Packed {
 };
 
 template <class P>
-detail::RelativeTurn relative(const Scene<P>& scene, const Packed<P>& mine, const Packed<P>& theirs) {
+detail::RelativeTransform relative(const Scene<P>& scene, const Packed<P>& mine, const Packed<P>& theirs) {
   return {detail::TreeFrame(Frame(scene.a), Vec3::Zero()), 1.0, mine.extent,
           detail::TreeFrame(Frame(scene.b), Vec3::Zero()), 1.0, theirs.extent};
 }
 
 template <class P>
-typename detail::Leaf<P>::Turned turned(const Packed<P>& theirs, const detail::RelativeTurn& turn) {
+typename detail::Leaf<P>::Turned turned(const Packed<P>& theirs, const detail::RelativeTransform& turn) {
   return {theirs.floats.data(), {turn.b_to_a.rotation, turn.b_to_a.size, turn.b_to_a.translation}};
 }
 
@@ -89,7 +89,7 @@ typename detail::Leaf<P>::Turned turned(const Packed<P>& theirs, const detail::R
 template <class P>
 double check(const Scene<P>& scene, double margin) {
   const Packed<P> mine(scene.mine), theirs(scene.theirs);
-  const detail::RelativeTurn turn = relative(scene, mine, theirs);
+  const detail::RelativeTransform turn = relative(scene, mine, theirs);
   const auto there = turned(theirs, turn);
   const detail::Nearness near{detail::float_above(margin), turn.b_to_a.point_error, nullptr, nullptr};
   std::size_t left = 0, apart = 0;
@@ -139,7 +139,7 @@ TEST(TriangleLeaf, BoundsDistancesFromBothSides) {
     const double size = std::pow(10.0, random.uniform(-2.0, 2.0));
     const Scene<Triangle> scene = touching_triangles(random, size);
     const Packed<Triangle> mine(scene.mine), theirs(scene.theirs);
-    const detail::RelativeTurn turn = relative(scene, mine, theirs);
+    const detail::RelativeTransform turn = relative(scene, mine, theirs);
     const auto there = turned(theirs, turn);
     detail::PairQueue<Triangle> queue;
     const std::size_t shift = random.below(detail::simd::width);

@@ -62,8 +62,8 @@ TEST(Sphere, HasBoundsThatHoldItAndNoMore) {
     const Aabb box = sphere.bounds();
     for (int axis = 0; axis < 3; ++axis) {
       // Whatever is off is off by less than the spacing of doubles there.
-      const detail::exact::Exactly low = detail::exact::two_difference(sphere.center[axis], sphere.radius);
-      const detail::exact::Exactly high = detail::exact::two_sum(sphere.center[axis], sphere.radius);
+      const detail::exact::ValueAndError low = detail::exact::two_difference(sphere.center[axis], sphere.radius);
+      const detail::exact::ValueAndError high = detail::exact::two_sum(sphere.center[axis], sphere.radius);
       EXPECT_TRUE(box.lower[axis] < low.value || (box.lower[axis] == low.value && low.rest >= 0.0));
       EXPECT_TRUE(box.upper[axis] > high.value || (box.upper[axis] == high.value && high.rest <= 0.0));
       EXPECT_GE(box.lower[axis], std::nextafter(low.value, -1e300));

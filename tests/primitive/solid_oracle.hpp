@@ -22,7 +22,7 @@ namespace hinge::test {
 class SolidOracle {
  public:
   using Big = boost::multiprecision::cpp_int;
-  using Wide = boost::multiprecision::cpp_bin_float_50;
+  using Simd = boost::multiprecision::cpp_bin_float_50;
 
   SolidOracle(const Point& p, const Point& q)
       : SolidOracle(Capsule{p.position, p.position, 0.0}, {q.position, q.position, 0.0}) {}
@@ -72,12 +72,12 @@ class SolidOracle {
   }
 
   /// To some 45 digits: of the segments, and from surface to surface (negative inside).
-  Wide between() const { return ldexp(root(), unit_); }
-  Wide gap() const {
-    const Wide excess(Big(numerator_ - radii_ * radii_ * denominator_));
-    return excess == 0 ? Wide(0) : Wide(ldexp(excess / (Wide(denominator_) * (root() + Wide(radii_))), unit_));
+  Simd between() const { return ldexp(root(), unit_); }
+  Simd gap() const {
+    const Simd excess(Big(numerator_ - radii_ * radii_ * denominator_));
+    return excess == 0 ? Simd(0) : Simd(ldexp(excess / (Simd(denominator_) * (root() + Simd(radii_))), unit_));
   }
-  Wide largest_difference() const { return ldexp(Wide(largest_), unit_); }
+  Simd largest_difference() const { return ldexp(Simd(largest_), unit_); }
 
  private:
   using Vector = std::array<Big, 3>;
@@ -94,7 +94,7 @@ class SolidOracle {
 
   static Big dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
   static Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-  Wide root() const { return sqrt(Wide(numerator_) / Wide(denominator_)); }
+  Simd root() const { return sqrt(Simd(numerator_) / Simd(denominator_)); }
 
   void take(const Big& numerator, const Big& denominator) {
     if (found_ && numerator * denominator_ >= numerator_ * denominator) return;

@@ -17,7 +17,7 @@
 namespace hinge::test {
 
 using Big = boost::multiprecision::cpp_int;
-using Wide = boost::multiprecision::cpp_bin_float_50;
+using Simd = boost::multiprecision::cpp_bin_float_50;
 
 /// Whole multiples of 2^unit.
 class OracleDistance {
@@ -50,7 +50,7 @@ class OracleDistance {
   }
 
   /// To 50 digits.
-  Wide distance() const { return ldexp(sqrt(Wide(numerator_) / Wide(denominator_)), unit_); }
+  Simd distance() const { return ldexp(sqrt(Simd(numerator_) / Simd(denominator_)), unit_); }
 
  private:
   using Point = std::array<Big, 3>;

@@ -47,7 +47,7 @@ std::shared_ptr<const Robot> slider() {
 }
 
 RobotChecker checker_of(const std::shared_ptr<const Robot>& robot, double clearance = 0.0,
-                        const std::string& engine = "wide") {
+                        const std::string& engine = "simd") {
   return {robot, tested_pairs(*robot), LinkMargins(*robot, clearance), {engine}};
 }
 
@@ -59,7 +59,7 @@ std::set<Key> keys(const std::vector<BodyContact>& contacts) {
 }
 
 class EnvironmentOf : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(All, EnvironmentOf, testing::Values("wide", "lazy", "brute"),
+INSTANTIATE_TEST_SUITE_P(All, EnvironmentOf, testing::Values("simd", "lazy", "brute"),
                          [](const auto& engine) { return engine.param; });
 
 /// A body as the test knows it.
@@ -147,7 +147,7 @@ TEST_P(EnvironmentOf, AgreesWithAllPairsOneByOneWhileBodiesMoveComeAndGo) {
       }
       EXPECT_EQ(checker.collides(environment), !hits.empty());
       // An order changes no answer to come.
-      if (number % 2 == 0) checker.learn_order(environment);
+      if (number % 2 == 0) checker.calibrate_pair_order(environment);
       EXPECT_EQ(keys(checker.collisions(environment)), hits);
       EXPECT_EQ(keys(checker.within(environment, 0.1)), near);
       const auto closest = checker.closest(environment);
@@ -325,7 +325,7 @@ TEST(Environment, RefusesClearancesEnginesAndMargins) {
 TEST(Containment, OfLinksAndBodiesIsReportedBothWays) {
   const auto robot = slider();
   const LinkId body = *robot->find_link("cube"), hand = *robot->find_link("hand");
-  for (const std::string engine : {"wide", "lazy", "brute"}) {
+  for (const std::string engine : {"simd", "lazy", "brute"}) {
     RobotChecker checker = checker_of(robot, 0.0, engine);
     Environment environment(0.0, engine);
     const BodyId room = environment.add(cube(20.0)), speck = environment.add(cube(0.25), at(0.125));

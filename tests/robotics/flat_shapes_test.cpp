@@ -56,7 +56,7 @@ RobotChecker checker_of(const std::shared_ptr<const Robot>& robot, const std::st
 }
 
 TEST(FlatShapes, AreJudgedRightByEveryEngine) {
-  for (const std::string engine : {"wide", "lazy", "brute"})
+  for (const std::string engine : {"simd", "lazy", "brute"})
     for (const Case& c : cases()) {
       RobotChecker checker = checker_of(slider(c.shape), engine);
       for (const double x : {0.0, 0.125, 0.5, 1.0, 2.0, -2.0}) {
@@ -75,8 +75,8 @@ TEST(FlatShapes, CollideWithBodiesAndOnPaths) {
   wall.triangles.push_back({{-3, -4, -4}, {-3, 4, -4}, {-3, 0, 4}});
   const auto mesh = std::make_shared<const TriangleMesh>(wall);
   for (const Case& c : cases()) {
-    RobotChecker checker = checker_of(slider(c.shape), "wide");
-    Environment environment(0.0, "wide");
+    RobotChecker checker = checker_of(slider(c.shape), "simd");
+    Environment environment(0.0, "simd");
     environment.add(mesh, {}, "wall");
     checker.update(std::vector<double>{0, -2.5});
     EXPECT_EQ(checker.collides(environment), false);
@@ -92,7 +92,7 @@ TEST(FlatShapes, CollideWithBodiesAndOnPaths) {
 }
 
 TEST(FlatShapes, MayBeBodiesThemselves) {
-  for (const std::string engine : {"wide", "lazy", "brute"})
+  for (const std::string engine : {"simd", "lazy", "brute"})
     for (const Case& c : cases()) {
       RobotChecker checker = checker_of(slider(SphereShape{0.25}), engine);
       Environment environment(0.0, engine);
@@ -117,7 +117,7 @@ TEST(FlatShapes, AreTakenByTiersAndTheMatrix) {
     const auto robot = slider(c.shape);
     for (const Tier tier : {Tier::mesh, Tier::hull, Tier::capsule, Tier::spheres}) {
       const auto tiered = std::make_shared<const Robot>(with_tiers(robot->description(), Tiers{tier}));
-      RobotChecker checker = checker_of(tiered, "wide");
+      RobotChecker checker = checker_of(tiered, "simd");
       checker.update(std::vector<double>{0, 0.5 + c.reach});
       EXPECT_TRUE(checker.collides()) << which << " " << name(tier);
       checker.update(std::vector<double>{0, 3.0});

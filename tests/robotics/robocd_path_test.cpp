@@ -179,8 +179,8 @@ TEST_P(RobotPathCheckerSlice, AgreesWithBruteForce) {
     const auto make = [&](const char* engine) {
       return RobotChecker(robot, tested_pairs(*robot), LinkMargins(*robot, clearance), {engine});
     };
-    RobotChecker wide = make("wide"), brute = make("brute");
-    Environment around(clearance, "wide"), brute_around(clearance, "brute");
+    RobotChecker wide = make("simd"), brute = make("brute");
+    Environment around(clearance, "simd"), brute_around(clearance, "brute");
     const bool among_bodies = r % 4 != 3;
     for (std::size_t b = 0; among_bodies && b < 3; ++b) {
       const auto mesh = test::random_mesh(stream, 4, 0.3);

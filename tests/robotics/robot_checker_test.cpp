@@ -47,13 +47,13 @@ RobotDescription slider(const Shape& first = BoxShape{}, const Shape& second = B
 }
 
 RobotChecker slider_checker(const RobotDescription& description, double clearance = 0.0,
-                            const std::string& engine = "wide") {
+                            const std::string& engine = "simd") {
   const auto robot = std::make_shared<const Robot>(description);
   return {robot, tested_pairs(*robot), LinkMargins(*robot, clearance), {engine}};
 }
 
 class EveryEngine : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(All, EveryEngine, testing::Values("wide", "lazy", "brute"),
+INSTANTIATE_TEST_SUITE_P(All, EveryEngine, testing::Values("simd", "lazy", "brute"),
                          [](const auto& engine) { return engine.param; });
 
 /// What pairs of grown triangles say one by one, placed by Eigen.
@@ -354,10 +354,10 @@ TEST(RobotChecker, RefusesWhatDoesNotBelongTogether) {
   const auto make = [&](const LinkPairs& pairs, const LinkMargins& margins, const std::string& engine) {
     return hinge::test::refusal<Error>([&] { const RobotChecker checker(robot, pairs, margins, {engine}); });
   };
-  EXPECT_EQ(make(tested_pairs(*robot), LinkMargins(*robot), "wide"), "");
-  EXPECT_EQ(make(tested_pairs(*robot), LinkMargins(*robot), "fast"), "engine 'fast': expected wide, lazy or brute");
-  EXPECT_NE(make(tested_pairs(*other), LinkMargins(*robot), "wide"), "");
-  EXPECT_NE(make(tested_pairs(*robot), LinkMargins(*other), "wide"), "");
+  EXPECT_EQ(make(tested_pairs(*robot), LinkMargins(*robot), "simd"), "");
+  EXPECT_EQ(make(tested_pairs(*robot), LinkMargins(*robot), "fast"), "engine 'fast': expected simd, lazy or brute");
+  EXPECT_NE(make(tested_pairs(*other), LinkMargins(*robot), "simd"), "");
+  EXPECT_NE(make(tested_pairs(*robot), LinkMargins(*other), "simd"), "");
   EXPECT_EQ(hinge::test::refusal<Error>([&] { RobotChecker(nullptr, LinkPairs(3), LinkMargins(*robot)); }),
             "robot checker: expected a robot, got none");
 
@@ -396,7 +396,7 @@ TEST(Containment, OfLinksIsReportedWhereNothingTouches) {
   hollow->triangles = tessellate(BoxShape{Vec3::Constant(4.0)}).triangles;
   description.links[0].geometry = {{MeshShape{hollow}}};
   description.links[2].geometry = {cube(1.0), cube(1.0, {0, 0, 3})};
-  for (const std::string engine : {"wide", "lazy", "brute"}) {
+  for (const std::string engine : {"simd", "lazy", "brute"}) {
     RobotChecker checker = slider_checker(description, 0.0, engine);
     EXPECT_TRUE(checker.not_closed().empty());
     EXPECT_FALSE(checker.collides());

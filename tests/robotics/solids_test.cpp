@@ -84,7 +84,7 @@ std::shared_ptr<const Robot> pair_of(const Shape& a, const Shape& b, const Pose&
   return std::make_shared<const Robot>(robot);
 }
 
-RobotChecker checker_of(const std::shared_ptr<const Robot>& robot, const std::string& engine = "wide",
+RobotChecker checker_of(const std::shared_ptr<const Robot>& robot, const std::string& engine = "simd",
                         double clearance = 0.0) {
   return {robot, tested_pairs(*robot), LinkMargins(*robot, clearance), {engine}};
 }
@@ -108,7 +108,7 @@ TEST(Solids, CollideWhenTheyShareAPoint) {
     const double expected = distance_of_solids(a, {}, b, at_b);
     if (expected > 0.0 && expected < tolerance) continue;
     const auto robot = pair_of(a, b, at_b);
-    const std::string engine = k % 3 == 0 ? "wide" : k % 3 == 1 ? "lazy" : "brute";
+    const std::string engine = k % 3 == 0 ? "simd" : k % 3 == 1 ? "lazy" : "brute";
     RobotChecker checker = checker_of(robot, engine);
     const bool hit = expected == 0.0;
     ASSERT_EQ(checker.collides(), hit);

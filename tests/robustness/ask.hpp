@@ -14,7 +14,7 @@
 #include "hinge/core/pose.hpp"
 #include "hinge/engine/brute.hpp"
 #include "hinge/engine/lazy.hpp"
-#include "hinge/engine/wide.hpp"
+#include "hinge/engine/simd.hpp"
 #include "hinge/policy/collector.hpp"
 #include "robustness/case.hpp"
 
@@ -65,7 +65,7 @@ template <class Run>
 auto on(EngineName engine, const Run& run) {
   if (engine == EngineName::brute) return run.template operator()<Brute>();
   if (engine == EngineName::lazy) return run.template operator()<Lazy>();
-  return run.template operator()<Wide>();
+  return run.template operator()<Simd>();
 }
 
 }  // namespace hinge::robustness

@@ -86,7 +86,7 @@ struct Case {
 
 enum class EngineName : std::uint8_t { brute, lazy, wide };
 inline constexpr std::array<std::pair<EngineName, const char*>, 3> engine_names{
-    {{EngineName::brute, "brute"}, {EngineName::lazy, "lazy"}, {EngineName::wide, "wide"}}};
+    {{EngineName::brute, "brute"}, {EngineName::lazy, "lazy"}, {EngineName::wide, "simd"}}};
 
 struct LinkPairAnswer {
   std::size_t i = 0, j = 0;

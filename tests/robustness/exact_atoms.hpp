@@ -17,7 +17,7 @@
 namespace hinge::test {
 
 using Big = boost::multiprecision::cpp_int;
-using Wide = boost::multiprecision::cpp_bin_float_50;
+using Simd = boost::multiprecision::cpp_bin_float_50;
 
 /// x / 2^-1074, whole for every double.
 inline Big in_smallest_doubles(double x) {
@@ -53,9 +53,9 @@ inline bool exactly_closer(const double* p, const double* q, double m) {
 }
 
 /// One ulp to either side of the rounded value, except where it is exact in an obvious way.
-inline robustness::Bracket bracket_of(const Wide& x) {
+inline robustness::Bracket bracket_of(const Simd& x) {
   const auto d = static_cast<double>(x);
-  if (Wide(d) == x) return {d, d};
+  if (Simd(d) == x) return {d, d};
   return {std::nextafter(d, 0.0), std::nextafter(d, std::numeric_limits<double>::infinity())};
 }
 
@@ -87,7 +87,7 @@ inline robustness::Truth exact_truth(const robustness::Atoms& atoms) {
   truth.hit = !truth.pairs->empty();
   if (closest.second == 0) return truth;
   const Big square = exact_square(atoms.x.data() + 3 * closest.first, atoms.x.data() + 3 * closest.second);
-  truth.distance = bracket_of(ldexp(sqrt(Wide(square)), -1074));
+  truth.distance = bracket_of(ldexp(sqrt(Simd(square)), -1074));
   return truth;
 }
 

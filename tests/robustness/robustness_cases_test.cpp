@@ -68,7 +68,7 @@ TEST(RobustnessCases, AnswersWithoutJudgingWhatHoldsNoTruth) {
   const auto lines = lines_of(said.out);
   ASSERT_EQ(lines.size(), 6U) << said.out;
   EXPECT_EQ(lines[0], R"({"id":"t","engine":"brute","refused":false,"hit":false,"pair_count":0,"distance":"0x1p+1"})");
-  EXPECT_EQ(lines[5], R"({"id":"p","engine":"wide","refused":false,"hit":true,"pair_count":1,"distance":"0x1p+0"})");
+  EXPECT_EQ(lines[5], R"({"id":"p","engine":"simd","refused":false,"hit":true,"pair_count":1,"distance":"0x1p+0"})");
 }
 
 TEST(RobustnessCases, CountsCasesAndEnginesWhereTheTruthIsThere) {

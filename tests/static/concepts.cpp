@@ -4,7 +4,7 @@
 
 #include "hinge/engine/brute.hpp"
 #include "hinge/engine/lazy.hpp"
-#include "hinge/engine/wide.hpp"
+#include "hinge/engine/simd.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/policy/different_links.hpp"
 #include "hinge/primitive/capsule.hpp"
@@ -88,30 +88,30 @@ concept EngineFor = Engine<E, P, AdmitAll, UniformClearance>;
 static_assert(EngineFor<Brute<Point, AdmitAll, UniformClearance>, Point>);
 static_assert(EngineFor<Lazy<Triangle, AdmitAll, UniformClearance>, Triangle>);
 static_assert(!EngineFor<Lazy<Point, AdmitAll, UniformClearance>, Sphere>);
-static_assert(EngineFor<Wide<Point, AdmitAll, UniformClearance>, Point>);
-static_assert(EngineFor<Wide<Triangle, AdmitAll, UniformClearance>, Triangle>);
+static_assert(EngineFor<Simd<Point, AdmitAll, UniformClearance>, Point>);
+static_assert(EngineFor<Simd<Triangle, AdmitAll, UniformClearance>, Triangle>);
 static_assert(!EngineFor<detail::LazyTree, Point>);
 static_assert(CrossEngine<Lazy<Point, AdmitAll, UniformClearance>, Point, AdmitAll, UniformClearance, AdmitAll>);
 static_assert(!CrossEngine<Lazy<Point, AdmitAll, OwnOnly>, Point, AdmitAll, OwnOnly, AdmitAll>);
-static_assert(CrossEngine<Wide<Point, AdmitAll, TypedThresholds>, Point, AdmitAll, TypedThresholds, AdmitAll>);
-static_assert(!CrossEngine<Wide<Point, AdmitAll, OwnOnly>, Point, AdmitAll, OwnOnly, AdmitAll>);
+static_assert(CrossEngine<Simd<Point, AdmitAll, TypedThresholds>, Point, AdmitAll, TypedThresholds, AdmitAll>);
+static_assert(!CrossEngine<Simd<Point, AdmitAll, OwnOnly>, Point, AdmitAll, OwnOnly, AdmitAll>);
 /// An order can be learned against another model, whether the engine has one or not.
 template <class P, template <class, class, class> class EngineOf>
 using On = Hierarchy<P, AdmitAll, UniformClearance, EngineOf>;
 template <class P>
-void learn(On<P, Wide>& wide, On<P, Lazy>& lazy, On<P, Brute>& brute) {
-  wide.learn_order(wide);
-  lazy.learn_order(lazy);
-  brute.learn_order(brute);
+void learn(On<P, Simd>& wide, On<P, Lazy>& lazy, On<P, Brute>& brute) {
+  wide.calibrate_pair_order(wide);
+  lazy.calibrate_pair_order(lazy);
+  brute.calibrate_pair_order(brute);
 }
-template void learn(On<Point, Wide>&, On<Point, Lazy>&, On<Point, Brute>&);
-template void learn(On<Sphere, Wide>&, On<Sphere, Lazy>&, On<Sphere, Brute>&);
-template void learn(On<Capsule, Wide>&, On<Capsule, Lazy>&, On<Capsule, Brute>&);
-template void learn(On<Triangle, Wide>&, On<Triangle, Lazy>&, On<Triangle, Brute>&);
+template void learn(On<Point, Simd>&, On<Point, Lazy>&, On<Point, Brute>&);
+template void learn(On<Sphere, Simd>&, On<Sphere, Lazy>&, On<Sphere, Brute>&);
+template void learn(On<Capsule, Simd>&, On<Capsule, Lazy>&, On<Capsule, Brute>&);
+template void learn(On<Triangle, Simd>&, On<Triangle, Lazy>&, On<Triangle, Brute>&);
 
-static_assert(TypesPrimitives<TypedThresholds> && !TypesPrimitives<UniformClearance>);
-static_assert(!GrowsPrimitives<TypedThresholds> && !GrowsPrimitives<UniformClearance>);
-static_assert(detail::TurnsBatch<Point> && !detail::TurnsBatch<Sphere>);
+static_assert(TypedThresholdMatrix<TypedThresholds> && !TypedThresholdMatrix<UniformClearance>);
+static_assert(!AdditiveRadii<TypedThresholds> && !AdditiveRadii<UniformClearance>);
+static_assert(detail::TransformsBatch<Point> && !detail::TransformsBatch<Sphere>);
 static_assert(detail::TurnsOne<Point> && !detail::TurnsOne<Sphere>);
 
 static_assert(Id<PrimitiveId> && !Id<int> && !std::is_convertible_v<LinkId, PrimitiveId>);

@@ -109,7 +109,7 @@ class SphereBatch {
                         Survivor* to) const noexcept;
   template <bool first_only>
   detail::simd::Bits hits(const detail::BodyPair& pair, detail::simd::Bits lanes);
-  detail::simd::Bits decide(detail::simd::Bits lanes, PrimitiveId i, PrimitiveId j);
+  detail::simd::Bits test_pair(detail::simd::Bits lanes, PrimitiveId i, PrimitiveId j);
 
   [[gnu::always_inline]] static detail::simd::Float16 squared_distance(const detail::LaneVector& a,
                                                                        const detail::LaneVector& b) noexcept {
@@ -201,7 +201,7 @@ detail::simd::Bits SphereBatch::hits(const detail::BodyPair& pair, detail::simd:
       if (maybe == 0 || !bodies_.admitted(pair, in_a.ball - a.first, in_b.ball - b.first)) continue;
       const float sure = p.shrunk + q.shrunk;
       const detail::simd::Bits surely = sure > 0 ? less(squared, detail::simd::Float16(sure * sure)) & maybe : 0;
-      hit |= surely | decide(maybe & ~surely, bodies_.primitive(in_a.ball), bodies_.primitive(in_b.ball));
+      hit |= surely | test_pair(maybe & ~surely, bodies_.primitive(in_a.ball), bodies_.primitive(in_b.ball));
       if (first_only && hit != 0) return hit;
     }
   }
@@ -209,7 +209,7 @@ detail::simd::Bits SphereBatch::hits(const detail::BodyPair& pair, detail::simd:
 }
 
 /// The lanes in which the double rule says that the spheres touch.
-inline detail::simd::Bits SphereBatch::decide(detail::simd::Bits lanes, PrimitiveId i, PrimitiveId j) {
+inline detail::simd::Bits SphereBatch::test_pair(detail::simd::Bits lanes, PrimitiveId i, PrimitiveId j) {
   detail::simd::Bits hit = 0;
   for (; lanes != 0; lanes &= lanes - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));

@@ -13,8 +13,8 @@
 #include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/detail/batch/configuration_block.hpp"
+#include "hinge/detail/batch/displacement_bounds.hpp"
 #include "hinge/detail/batch/frame_lanes.hpp"
-#include "hinge/detail/batch/lane_travel.hpp"
 #include "hinge/detail/batch/list_allowance.hpp"
 #include "hinge/detail/batch/near_list.hpp"
 #include "hinge/detail/policy/largest_threshold.hpp"
@@ -37,7 +37,7 @@ struct BatchCounts {
 /// pairs are free there by the triangle inequality. The list is tested with a configuration in each SIMD lane, and kept
 /// while nothing leaves the ways it was made for. Verdicts and pairs are those of a Hierarchy asked one by one, to the
 /// last bit. Configurations too far from each other are answered one by one. One per thread.
-template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf = Wide>
+template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf = Simd>
 class StateBatch {
  public:
   static constexpr std::size_t size = detail::FrameLanes::size;  ///< configurations in a full block
@@ -68,7 +68,7 @@ class StateBatch {
                       [&](const auto& pair, detail::simd::Bits surely, detail::simd::Bits maybe) {
                         hit |= surely;
                         for (maybe &= ~hit; maybe != 0; maybe &= maybe - 1)
-                          if (decide(pair, static_cast<std::size_t>(std::countr_zero(maybe)))) hit |= maybe & -maybe;
+                          if (test_pair(pair, static_cast<std::size_t>(std::countr_zero(maybe)))) hit |= maybe & -maybe;
                         return (lanes & ~hit) != 0;
                       });
         },
@@ -134,7 +134,7 @@ class StateBatch {
     const P& local = single_.model().primitives()[index(i)];
     return group == GroupId{0} ? local : local.placed(frames_.pose(group, lane));
   }
-  bool decide(const typename List::Pair& pair, std::size_t lane) noexcept {
+  bool test_pair(const typename List::Pair& pair, std::size_t lane) noexcept {
     ++counts_.decided;
     return closer_than(placed(pair.first, lane), placed(pair.second, lane), pair.threshold);
   }
@@ -154,7 +154,7 @@ class StateBatch {
 
   Hierarchy<P, F, D, EngineOf> single_;
   detail::FrameLanes frames_;
-  detail::LaneTravel travel_;
+  detail::DisplacementBounds travel_;
   List near_;
   std::span<const double> block_{};  // while a query runs
   bool has_list_ = false;

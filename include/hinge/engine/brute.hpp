@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "hinge/core/id.hpp"
-#include "hinge/detail/query/offer.hpp"
 #include "hinge/detail/query/pair_rules.hpp"
+#include "hinge/detail/query/test_pair.hpp"
 #include "hinge/engine/engine.hpp"
 #include "hinge/model/placement.hpp"
 #include "hinge/query/query_options.hpp"
@@ -57,7 +57,7 @@ class Brute {
   static bool test(C& collector, const Rules& rules, const P& p, const P& q, std::size_t i, std::size_t j) {
     const auto a = id<PrimitiveId>(i), b = id<PrimitiveId>(j);
     if (rules.options.counts != nullptr) ++rules.options.counts->pairs_tested;
-    detail::offer(collector, a, b, p, q, rules.threshold(a, b), [&] { return rules.admits(a, b); });
+    detail::test_pair(collector, a, b, p, q, rules.threshold(a, b), [&] { return rules.admits(a, b); });
     return !collector.done();
   }
 

@@ -15,8 +15,8 @@
 #include "hinge/detail/engine/lazy/lazy_layout.hpp"
 #include "hinge/detail/engine/lazy_tree.hpp"
 #include "hinge/detail/engine/traversal.hpp"
-#include "hinge/detail/query/offer.hpp"
 #include "hinge/detail/query/pair_rules.hpp"
+#include "hinge/detail/query/test_pair.hpp"
 #include "hinge/engine/engine.hpp"
 #include "hinge/model/placement.hpp"
 #include "hinge/query/query_options.hpp"
@@ -36,11 +36,11 @@ class Lazy {
         matrix_(std::move(matrix)),
         trees_(layout_->body_count()),
         built_(layout_->body_count(), 0) {
-    if constexpr (HasNoBody<P>) {
-      const std::vector<std::uint8_t> idle = zero_thresholds(matrix_, placement_.model().size());
+    if constexpr (IsPointLike<P>) {
+      const std::vector<std::uint8_t> never_collides = zero_thresholds(matrix_, placement_.model().size());
       for (std::uint32_t l = 0; l < layout_->leaf_count(); ++l)
-        idle_.push_back(
-            std::ranges::all_of(layout_->primitives(l), [&](PrimitiveId i) { return idle[index(i)] != 0; }));
+        never_collides_.push_back(
+            std::ranges::all_of(layout_->primitives(l), [&](PrimitiveId i) { return never_collides[index(i)] != 0; }));
     }
   }
 
@@ -69,8 +69,9 @@ class Lazy {
     const detail::CrossRules<P, G, D> rules{placement_, other.placement_, across, matrix_, other.matrix_, options};
     const auto cutoff = [&] { return collector.cutoff(); };
     // Compatible tables of types are alike; of other matrices nothing is known but that no threshold is above 0.
-    const bool skip_idle = without_margin(collector, options) && other.without_margin(collector, options) &&
-                           (TypesPrimitives<D> || (idle_.front() != 0 && other.idle_.front() != 0));
+    const bool skip_never_colliding =
+        without_margin(collector, options) && other.without_margin(collector, options) &&
+        (TypedThresholdMatrix<D> || (never_collides_.front() != 0 && other.never_collides_.front() != 0));
     traverse(
         upper_, other.upper_, stack_, counts, cutoff,
         [&](std::uint32_t a, std::uint32_t b) {
@@ -84,15 +85,16 @@ class Lazy {
                 counts.pairs_tested += p.size() * q.size();
                 for (const PrimitiveId i : p)
                   for (const PrimitiveId j : q) {
-                    detail::offer(collector, i, j, placement_.placed()[index(i)], other.placement_.placed()[index(j)],
-                                  rules.threshold(i, j), [&] { return rules.admits(i, j); });
+                    detail::test_pair(collector, i, j, placement_.placed()[index(i)],
+                                      other.placement_.placed()[index(j)], rules.threshold(i, j),
+                                      [&] { return rules.admits(i, j); });
                     if (collector.done()) return false;
                   }
                 return true;
               },
-              skip_idle);
+              skip_never_colliding);
         },
-        skip_idle);
+        skip_never_colliding);
     add(options.counts, counts);
   }
 
@@ -139,15 +141,15 @@ class Lazy {
   }
 
   std::span<const std::uint8_t> idle_of(std::size_t body) const noexcept {
-    if (idle_.empty()) return {};
-    return std::span(idle_).subspan(layout_->first_leaf(body),
-                                    layout_->first_leaf(body + 1) - layout_->first_leaf(body));
+    if (never_collides_.empty()) return {};
+    return std::span(never_collides_)
+        .subspan(layout_->first_leaf(body), layout_->first_leaf(body + 1) - layout_->first_leaf(body));
   }
 
   /// Does the query ask for collisions alone, so that primitives whose thresholds are all 0 take no part?
   template <Collector C>
   bool without_margin(const C& collector, const QueryOptions& options) const noexcept {
-    return !idle_.empty() && asks_collisions(collector) && !options.adds_clearance();
+    return !never_collides_.empty() && asks_collisions(collector) && !options.adds_clearance();
   }
 
   double extra_of(std::size_t body, std::span<const double> clearance) const noexcept {
@@ -158,25 +160,26 @@ class Lazy {
 
   void make_upper(std::span<const double> clearance) {
     boxes_.clear();
-    idle_bodies_.clear();
+    never_colliding_.clear();
     for (std::size_t b = 0; b < trees_.size(); ++b) {
-      idle_bodies_.push_back(trees_[b].node(0).idle);
+      never_colliding_.push_back(trees_[b].node(0).never_collides);
       const Aabb& root = trees_[b].node(0).box;
       const double extra = extra_of(b, clearance);
       boxes_.push_back(extra > 0.0 ? root.inflated(extra) : root);
     }
-    upper_.reset(boxes_, idle_bodies_);
+    upper_.reset(boxes_, never_colliding_);
   }
 
   template <Collector C>
   void run_self(C& collector, const Rules& rules, QueryCounts& counts) {
     const QueryOptions& options = rules.options;
-    const bool skip_idle = without_margin(collector, options);
+    const bool skip_never_colliding = without_margin(collector, options);
     for (std::uint32_t b = 0; b < trees_.size(); ++b) {
       const bool deforms = placement_.groups_may_deform();
       if (layout_->groups(b).size() > 1 || deforms)
         for (std::uint32_t l = layout_->first_leaf(b); l < layout_->first_leaf(b + 1); ++l)
-          if (!(skip_idle && idle_[l] != 0) && !test_leaves(l, l, collector, rules, counts)) return;
+          if (!(skip_never_colliding && never_collides_[l] != 0) && !test_leaves(l, l, collector, rules, counts))
+            return;
       if (deforms && !test_bodies(b, b, collector, rules, counts)) return;
     }
     make_upper(options.clearance);
@@ -185,7 +188,7 @@ class Lazy {
         [&](std::uint32_t a, std::uint32_t b) {
           return (options.moved_only && !moved_apart(a, b)) || test_bodies(a, b, collector, rules, counts);
         },
-        skip_idle);
+        skip_never_colliding);
   }
 
   bool moved_apart(std::uint32_t a, std::uint32_t b) noexcept {
@@ -212,8 +215,8 @@ class Lazy {
   bool test_leaves(std::uint32_t a, std::uint32_t b, C& collector, const Rules& rules, QueryCounts& counts) {
     const std::span<const P> placed = placement_.placed();
     const auto test = [&](PrimitiveId i, PrimitiveId j) {
-      detail::offer(collector, i, j, placed[index(i)], placed[index(j)], rules.threshold(i, j),
-                    [&] { return rules.admits(i, j); });
+      detail::test_pair(collector, i, j, placed[index(i)], placed[index(j)], rules.threshold(i, j),
+                        [&] { return rules.admits(i, j); });
       return !collector.done();
     };
     std::span<const detail::LazyLayout::PrimitivePair> sri;
@@ -235,13 +238,13 @@ class Lazy {
   Placement<P> placement_;
   F filter_;
   D matrix_;
-  std::vector<detail::LazyTree> trees_;    // per body, items are its leaves
-  std::vector<std::uint64_t> built_;       // per body: sum of the versions its tree was built from
-  std::vector<std::uint8_t> idle_;         // per leaf: its thresholds are all 0; empty where that means nothing
-  detail::LazyTree upper_;                 // items are bodies
-  std::vector<std::uint8_t> idle_bodies_;  // scratch
-  std::vector<Aabb> boxes_;                // scratch
-  detail::NodePairs stack_;                // scratch
+  std::vector<detail::LazyTree> trees_;        // per body, items are its leaves
+  std::vector<std::uint64_t> built_;           // per body: sum of the versions its tree was built from
+  std::vector<std::uint8_t> never_collides_;   // per leaf: its thresholds are all 0; empty where that means nothing
+  detail::LazyTree upper_;                     // items are bodies
+  std::vector<std::uint8_t> never_colliding_;  // scratch
+  std::vector<Aabb> boxes_;                    // scratch
+  detail::NodePairs stack_;                    // scratch
 };
 
 }  // namespace hinge

@@ -33,7 +33,7 @@ namespace hinge {
 /// A state, and one move away from it. Verdicts and pairs are those of Hierarchy's queries at the configuration after
 /// the move, and frames those that forward kinematics gives there, to the bit: nothing adds up over moves. One per
 /// thread. docs/explanation/moves.md says how.
-template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf = Wide>
+template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf = Simd>
 class MoveChecker {
  public:
   /// Starts at the reference, every value 0.
@@ -85,7 +85,7 @@ class MoveChecker {
 
  private:
   // Other primitives, and those that engines keep in trees, are asked for with queries for what moved.
-  static constexpr bool by_blocks = detail::TurnsBatch<P> && !detail::KeepsTrees<P>;
+  static constexpr bool by_blocks = detail::TransformsBatch<P> && !detail::UsesStaticBvh<P>;
   // With fewer blocks than this to a changed joint the full query wins, which looks near the root first: most blocks
   // are cut then. The share of blocks that move does not matter (bench/moves.cpp).
   static constexpr std::size_t least_blocks_per_joint = 4;

@@ -53,7 +53,7 @@ class CertifiedPath {
   static constexpr double most_above_limit = 1.5;
   static constexpr double most_pieces = 4096.0;
   // Links of many primitives with an extent are listed as wholes first: their pairs would be too many.
-  static constexpr bool by_links = detail::KeepsTrees<P>;
+  static constexpr bool by_links = detail::UsesStaticBvh<P>;
   // Displacements up to this share of the model are listed for; larger ones make long lists, smaller ones many. Near
   // the best for proteins and robots (bench/paths.cpp); answers do not depend on it.
   static constexpr double list_share = by_links ? 1.0 / 160.0 : 1.0 / 40.0;
@@ -218,7 +218,7 @@ bool CertifiedPath<P, F, D, EngineOf>::judge(const detail::PathSegment& segment)
     if (radii.before == 0.0 && radii.after == 0.0) {
       if (collides(pair, middle)) return true;
       // What never moves, and what nothing comes closer to than 0, is free as it is.
-      if ((groups[a].stands && groups[b].stands) || (HasNoBody<P> && m == 0.0)) {
+      if ((groups[a].stands && groups[b].stands) || (IsPointLike<P> && m == 0.0)) {
         ++answer_.counts.pairs_proved;
         continue;
       }

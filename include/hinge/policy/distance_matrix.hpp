@@ -33,7 +33,7 @@ concept DistanceMatrix = std::copyable<D> && requires(const D& matrix, Primitive
 /// Optional refinement: M is the real sum of two radii and a clearance, which no double may hold; threshold(i, j) is
 /// that sum rounded. Verdicts are about the real sum where the primitive has a closer_than(p, q, RadiusSum).
 template <class D>
-concept GrowsPrimitives = DistanceMatrix<D> && requires(const D& matrix, PrimitiveId i, PrimitiveId j) {
+concept AdditiveRadii = DistanceMatrix<D> && requires(const D& matrix, PrimitiveId i, PrimitiveId j) {
   { matrix.sum(i, j) }
   noexcept->std::same_as<RadiusSum>;
 };
@@ -49,7 +49,7 @@ concept CrossMatrix = DistanceMatrix<D> && requires(const D& matrix, const D& ot
 
 /// Optional refinement: thresholds depend on few types, so that engines can look them up by type.
 template <class D>
-concept TypesPrimitives = DistanceMatrix<D> && requires(const D& matrix, PrimitiveId i, std::size_t type) {
+concept TypedThresholdMatrix = DistanceMatrix<D> && requires(const D& matrix, PrimitiveId i, std::size_t type) {
   { matrix.type_count() }
   noexcept->std::same_as<std::size_t>;
   { matrix.type(i) }
@@ -61,7 +61,7 @@ concept TypesPrimitives = DistanceMatrix<D> && requires(const D& matrix, Primiti
 /// Per primitive of n, 1 or 0: are its thresholds with all others 0?
 template <DistanceMatrix D>
 std::vector<std::uint8_t> zero_thresholds(const D& matrix, std::size_t n) {
-  if constexpr (TypesPrimitives<D>) {
+  if constexpr (TypedThresholdMatrix<D>) {
     std::vector<std::uint8_t> zero_type(matrix.type_count(), 1), zero(n);
     for (std::size_t s = 0; s < zero_type.size(); ++s)
       for (std::size_t t = 0; t < zero_type.size(); ++t)
@@ -157,6 +157,6 @@ inline TypedThresholds::TypedThresholds(std::vector<std::uint16_t> types, std::s
   data_ = std::make_shared<const Data>(Data{std::move(types), type_count, std::move(table), std::move(reach)});
 }
 
-static_assert(CrossMatrix<UniformClearance> && CrossMatrix<TypedThresholds> && TypesPrimitives<TypedThresholds>);
+static_assert(CrossMatrix<UniformClearance> && CrossMatrix<TypedThresholds> && TypedThresholdMatrix<TypedThresholds>);
 
 }  // namespace hinge

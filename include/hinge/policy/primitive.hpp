@@ -94,8 +94,8 @@ const char* flaw_of(const P& p) noexcept {
 /// Optional refinement: nothing comes closer than 0 to it, not even what lies in the same place (BioCD's atoms:
 /// strictly d < M). Where its thresholds are all 0 it never collides, and engines may pass it over.
 template <class P>
-concept HasNoBody = Primitive<P> && requires {
-  requires P::has_no_body;
+concept IsPointLike = Primitive<P> && requires {
+  requires P::is_point_like;
 };
 
 /// Do p and q come closer than m (>= 0)? The rule for closed solids: d < m, or they touch (d = 0) whatever m is. A

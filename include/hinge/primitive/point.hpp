@@ -17,7 +17,7 @@
 namespace hinge {
 
 struct Point {
-  static constexpr bool has_no_body = true;
+  static constexpr bool is_point_like = true;
   Vec3 position = Vec3::Zero();
 
   Point placed(const Pose& pose) const noexcept { return {pose * position}; }

@@ -32,8 +32,8 @@ struct Sphere {
   Aabb bounds() const noexcept {
     Aabb box;
     for (int k = 0; k < 3; ++k) {
-      const detail::exact::Exactly low = detail::exact::two_difference(center[k], radius),
-                                   high = detail::exact::two_sum(center[k], radius);
+      const detail::exact::ValueAndError low = detail::exact::two_difference(center[k], radius),
+                                         high = detail::exact::two_sum(center[k], radius);
       box.lower[k] = low.rest < 0.0 ? detail::next_down(low.value) : low.value;
       box.upper[k] = high.rest > 0.0 ? detail::next_up(high.value) : high.value;
     }

@@ -17,7 +17,7 @@ struct QueryCounts {
 };
 
 /// How a verdict is reached. Exact: that of the real numbers that coordinates and thresholds are. The fast ones decide
-/// by floats alone wherever those measure a distance: in engine/wide, of points, in queries that do not rank. A pair
+/// by floats alone wherever those measure a distance: in engine/simd, of points, in queries that do not rank. A pair
 /// whose d - M they cannot tell from the limit is undecided: it counts as a hit in order never to miss one, or as none
 /// in order never to cry wolf. docs/explanation/numerics.md has the width of that band. Hits carry float distances,
 /// which are off by less than it. All other queries are answered exactly, and leave nothing undecided.

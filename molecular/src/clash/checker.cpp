@@ -159,7 +159,7 @@ Checker::Checker(std::shared_ptr<const Molecule> molecule, DofSelection selectio
   auto exempt = never_counted(molecule_->structure(), *thresholds_->rules);
   exclusions_ = std::make_shared<const BondExclusions>(molecule_->structure(), min_bonds_, exempt, options.scope);
 
-  MolecularHierarchy<Wide> rigid(molecule_->model(), molecule_->select({}), *exclusions_, thresholds_->matrix);
+  MolecularHierarchy<Simd> rigid(molecule_->model(), molecule_->select({}), *exclusions_, thresholds_->matrix);
   rigid.update_placed(as_points(molecule_->structure().models.front()));
   std::vector<Hit> reference;
   for (const Contact& contact : contacts(rigid, as_written(*thresholds_), 0.0)) reference.push_back(contact.hit);
@@ -183,13 +183,13 @@ Checker::Checker(std::shared_ptr<const Molecule> molecule, DofSelection selectio
 }
 
 Checker::AnyHierarchy Checker::make(const std::string& engine, DofSelection selection) const {
-  if (engine == "wide")
-    return MolecularHierarchy<Wide>(molecule_->model(), std::move(selection), *exclusions_, thresholds_->matrix);
+  if (engine == "simd")
+    return MolecularHierarchy<Simd>(molecule_->model(), std::move(selection), *exclusions_, thresholds_->matrix);
   if (engine == "lazy")
     return MolecularHierarchy<Lazy>(molecule_->model(), std::move(selection), *exclusions_, thresholds_->matrix);
   if (engine == "brute")
     return MolecularHierarchy<Brute>(molecule_->model(), std::move(selection), *exclusions_, thresholds_->matrix);
-  throw ModelError("engine '" + engine + "': expected wide, lazy or brute");
+  throw ModelError("engine '" + engine + "': expected simd, lazy or brute");
 }
 
 const DofSelection& Checker::selection() const {

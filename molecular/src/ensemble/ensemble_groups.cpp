@@ -123,7 +123,7 @@ EnsembleGroups find_ensemble_groups(const EnsembleSpread& spread, double toleran
   std::vector<std::size_t> order(spread.torsions().size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::vector<double> turns;
-  for (const std::size_t k : order) turns.push_back(spread.turn_spread(k));
+  for (const std::size_t k : order) turns.push_back(spread.circular_std(k));
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return turns[a] < turns[b]; });
   for (const std::size_t k : order) {
     if (!(turns[k] * beside_axis <= tolerance)) continue;

@@ -10,7 +10,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/detail/core/sincos.hpp"
-#include "hinge/molecular/fit_turns.hpp"
+#include "hinge/molecular/fit_torsions.hpp"
 
 namespace hinge::molecular {
 
@@ -118,7 +118,7 @@ void EnsembleSpread::add(std::span<const Vec3> positions) {
   }
 }
 
-double EnsembleSpread::turn_spread(std::size_t k) const noexcept {
+double EnsembleSpread::circular_std(std::size_t k) const noexcept {
   const double n = static_cast<double>(count_);
   const double squared = (cosines_[k] * cosines_[k] + sines_[k] * sines_[k]) / (n * n);
   return squared > 0.0 ? std::sqrt(std::max(0.0, -std::log(squared))) : std::numeric_limits<double>::infinity();

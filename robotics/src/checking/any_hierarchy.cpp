@@ -8,10 +8,10 @@ namespace hinge::robotics {
 
 AnyHierarchy make_hierarchy(const std::string& engine, const Model<Triangle>& model, const LinkPairFilter& filter,
                             const LinkMargins& margins) {
-  if (engine == "wide") return RobotHierarchy<Wide>(model, filter, margins);
+  if (engine == "simd") return RobotHierarchy<Simd>(model, filter, margins);
   if (engine == "lazy") return RobotHierarchy<Lazy>(model, filter, margins);
   if (engine == "brute") return RobotHierarchy<Brute>(model, filter, margins);
-  throw ModelError("engine '" + engine + "': expected wide, lazy or brute");
+  throw ModelError("engine '" + engine + "': expected simd, lazy or brute");
 }
 
 }  // namespace hinge::robotics

@@ -51,8 +51,8 @@ Aabb box_of(const Robot& robot) {
 Environment::Environment(double clearance, std::string engine) : clearance_(clearance), engine_(std::move(engine)) {
   if (!is_finite(clearance) || clearance < 0.0)
     throw ModelError("clearance of an environment is " + number_text(clearance) + ": expected a finite length >= 0");
-  if (engine_ != "wide" && engine_ != "lazy" && engine_ != "brute")
-    throw ModelError("engine '" + engine_ + "': expected wide, lazy or brute");
+  if (engine_ != "simd" && engine_ != "lazy" && engine_ != "brute")
+    throw ModelError("engine '" + engine_ + "': expected simd, lazy or brute");
 }
 
 BodyId Environment::add(const Shape& shape, const Pose& pose, std::string name, const Tessellation& tessellation) {

@@ -34,7 +34,7 @@ namespace {
 
 /// A hierarchy whose yes/no query also sees what lies inside solids.
 struct WithInsides {
-  RobotHierarchy<Wide>& surfaces;
+  RobotHierarchy<Simd>& surfaces;
   const SolidPairs& pairs;
   const Robot& robot;
   std::vector<std::array<double, 3>> scratch{};

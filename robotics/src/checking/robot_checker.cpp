@@ -125,8 +125,8 @@ Pose RobotChecker::link_pose(LinkId link) {
   return std::visit([&](auto& hierarchy) { return hierarchy.link_pose(link); }, *hierarchy_);
 }
 
-void RobotChecker::learn_order() {
-  std::visit([](auto& hierarchy) { hierarchy.learn_order(); }, *hierarchy_);
+void RobotChecker::calibrate_pair_order() {
+  std::visit([](auto& hierarchy) { hierarchy.calibrate_pair_order(); }, *hierarchy_);
 }
 
 template <class Found>

@@ -72,11 +72,12 @@ std::vector<RobotChecker::BodyPair> RobotChecker::body_pairs(Environment& enviro
   return pairs;
 }
 
-void RobotChecker::learn_order(Environment& environment) {
+void RobotChecker::calibrate_pair_order(Environment& environment) {
   for (const BodyPair& pair : body_pairs(environment, 0.0))
     if (pair.held == nullptr)
-      ask(pair, environment,
-          [](auto& mine, auto& theirs, const auto& filter, const QueryOptions&) { mine.learn_order(theirs, filter); });
+      ask(pair, environment, [](auto& mine, auto& theirs, const auto& filter, const QueryOptions&) {
+        mine.calibrate_pair_order(theirs, filter);
+      });
 }
 
 bool RobotChecker::collides(Environment& environment) {

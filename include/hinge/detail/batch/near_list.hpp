@@ -14,8 +14,8 @@
 
 #include "hinge/core/id.hpp"
 #include "hinge/core/vec3.hpp"
+#include "hinge/detail/batch/displacement_bounds.hpp"
 #include "hinge/detail/batch/frame_lanes.hpp"
-#include "hinge/detail/batch/lane_travel.hpp"
 #include "hinge/detail/bounds/float_box.hpp"
 #include "hinge/detail/query/pair_rules.hpp"
 #include "hinge/detail/simd/lanes.hpp"
@@ -49,13 +49,13 @@ class NearList {
   /// pairs: sorted. The reference of `travel` is the one they were found at.
   template <class D>
   void assign(std::span<const std::pair<PrimitiveId, PrimitiveId>> pairs, const D& matrix,
-              const SelectedModel<P>& model, const LaneTravel& travel) {
+              const SelectedModel<P>& model, const DisplacementBounds& travel) {
     for (const Listed& listed : listed_) place_of_[index(listed.primitive)] = nowhere;
     listed_.clear();
     pairs_.clear();
     for (const auto& [i, j] : pairs) {
       const Threshold threshold = threshold_of(matrix, i, j);
-      if constexpr (HasNoBody<P>)
+      if constexpr (IsPointLike<P>)
         if (threshold == 0.0) continue;
       Pair pair{i, j, place(i, model, travel), place(j, model, travel), {}, 0.0F, 0.0F, 0.0F, threshold};
       if constexpr (by_ways) {
@@ -74,8 +74,8 @@ class NearList {
 
   /// visit(pair, lanes surely closer than the threshold, lanes that may be) -> go on? In all others the pair is free.
   template <class Visit>
-  void visit(const FrameLanes& frames, const SelectedModel<P>& model, const LaneTravel& travel, simd::Bits lanes,
-             const Visit& visit) {
+  void visit(const FrameLanes& frames, const SelectedModel<P>& model, const DisplacementBounds& travel,
+             simd::Bits lanes, const Visit& visit) {
     if constexpr (by_ways) {
       place_ways(frames, model, travel);
       for (const Pair& pair : pairs_) {
@@ -119,7 +119,7 @@ class NearList {
     float error;
   };
 
-  std::uint32_t place(PrimitiveId i, const SelectedModel<P>& model, const LaneTravel& travel) {
+  std::uint32_t place(PrimitiveId i, const SelectedModel<P>& model, const DisplacementBounds& travel) {
     std::uint32_t& place = place_of_[index(i)];
     if (place == nowhere) {
       place = static_cast<std::uint32_t>(listed_.size());
@@ -130,7 +130,7 @@ class NearList {
     return place;
   }
 
-  void place_ways(const FrameLanes& frames, const SelectedModel<P>& model, const LaneTravel& travel) noexcept {
+  void place_ways(const FrameLanes& frames, const SelectedModel<P>& model, const DisplacementBounds& travel) noexcept {
     GroupId present{};  // the world stands still
     LaneStep step;
     for (std::size_t k = 0; k < listed_.size(); ++k) {

@@ -25,14 +25,14 @@ class LazyTree {
     std::uint32_t end = 0;
     std::uint32_t left = 0;  ///< children are left and left + 1; 0 while not split
     std::uint32_t depth = 0;
-    bool idle = false;  ///< all its items are
+    bool never_collides = false;  ///< all its items are
     bool is_leaf() const noexcept { return end - begin == 1; }
     std::uint32_t size() const noexcept { return end - begin; }
   };
 
-  /// Drops the tree and makes the root of these boxes; at least one. idle: items, not 0, that queries without a margin
-  /// may pass over; empty: none. Both are copied.
-  void reset(std::span<const Aabb> boxes, std::span<const std::uint8_t> idle = {});
+  /// Drops the tree and makes the root of these boxes; at least one. never_collides: items, not 0, that queries without
+  /// a margin may pass over; empty: none. Both are copied.
+  void reset(std::span<const Aabb> boxes, std::span<const std::uint8_t> never_collides = {});
 
   const Node& node(std::uint32_t k) const noexcept { return nodes_[k]; }
   std::size_t node_count() const noexcept { return nodes_.size(); }
@@ -49,29 +49,29 @@ class LazyTree {
 
  private:
   void make_children(std::uint32_t k);
-  /// Fills in the box of a node, and whether it is idle.
+  /// Fills in the box of a node, and whether it is never_collides.
   void join_items(Node& node) const noexcept {
-    node.idle = !idle_.empty();
+    node.never_collides = !never_collides_.empty();
     for (std::uint32_t i = node.begin; i < node.end; ++i) {
       node.box.extend(boxes_[order_[i]]);
-      node.idle = node.idle && idle_[order_[i]] != 0;
+      node.never_collides = node.never_collides && never_collides_[order_[i]] != 0;
     }
   }
   /// Number of items that go left, after reordering the node's range.
   std::uint32_t partition(const Node& node);
 
   std::vector<Aabb> boxes_;
-  std::vector<std::uint8_t> idle_;
+  std::vector<std::uint8_t> never_collides_;
   std::vector<std::uint32_t> order_;
   std::vector<Node> nodes_;
   std::uint32_t midpoint_depth_ = 0;
 };
 
-inline void LazyTree::reset(std::span<const Aabb> boxes, std::span<const std::uint8_t> idle) {
-  HINGE_ASSERT(idle.empty() || idle.size() == boxes.size());
+inline void LazyTree::reset(std::span<const Aabb> boxes, std::span<const std::uint8_t> never_collides) {
+  HINGE_ASSERT(never_collides.empty() || never_collides.size() == boxes.size());
   HINGE_ASSERT(!boxes.empty());
   boxes_.assign(boxes.begin(), boxes.end());
-  idle_.assign(idle.begin(), idle.end());
+  never_collides_.assign(never_collides.begin(), never_collides.end());
   order_.resize(boxes.size());
   std::iota(order_.begin(), order_.end(), 0U);
   Node root;

@@ -23,14 +23,14 @@ inline bool reaches(const Aabb& a, const Aabb& b, double cutoff) noexcept {
 
 /// Calls visit(item of a, item of b) -> bool for every pair of leaves whose boxes may hold wanted pairs; stops when it
 /// returns false, and then returns false itself. `cutoff()` may shrink on the way. Where a and b are the same tree,
-/// every unordered pair of different leaves comes once; a leaf is not tested with itself. skip_idle: pairs with an idle
-/// item are left out.
+/// every unordered pair of different leaves comes once; a leaf is not tested with itself. skip_never_colliding: pairs
+/// with an never_collides item are left out.
 template <class Cutoff, class Visit>
 bool traverse(LazyTree& a, LazyTree& b, NodePairs& stack, QueryCounts& counts, const Cutoff& cutoff, const Visit& visit,
-              bool skip_idle = false) {
+              bool skip_never_colliding = false) {
   const bool self = &a == &b;
   const auto push = [&](std::uint32_t m, std::uint32_t n) {
-    if (skip_idle && (a.node(m).idle || b.node(n).idle)) return;
+    if (skip_never_colliding && (a.node(m).never_collides || b.node(n).never_collides)) return;
     ++counts.boxes_tested;
     if (reaches(a.node(m).box, b.node(n).box, cutoff())) stack.emplace_back(m, n);
   };
@@ -47,7 +47,7 @@ bool traverse(LazyTree& a, LazyTree& b, NodePairs& stack, QueryCounts& counts, c
     const auto [m, n] = stack.back();
     stack.pop_back();
     if (self && m == n) {
-      if (a.node(m).is_leaf() || (skip_idle && a.node(m).idle)) continue;
+      if (a.node(m).is_leaf() || (skip_never_colliding && a.node(m).never_collides)) continue;
       const std::uint32_t left = split(a, m);
       stack.emplace_back(left, left);
       stack.emplace_back(left + 1, left + 1);

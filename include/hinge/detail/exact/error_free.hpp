@@ -23,29 +23,29 @@ inline constexpr double lost_squares = 0x1p-900;
 inline constexpr double largest_square = 0x1p1000;
 
 /// value + rest, exactly; value is that sum rounded to nearest.
-struct Exactly {
+struct ValueAndError {
   double value = 0.0;
   double rest = 0.0;
 };
 
 /// a + b (Knuth, The Art of Computer Programming 2, 4.2.2, theorem B); any finite a and b whose sum is finite.
-constexpr Exactly two_sum(double a, double b) noexcept {
+constexpr ValueAndError two_sum(double a, double b) noexcept {
   const double sum = a + b, of_b = sum - a, of_a = sum - of_b;
   return {sum, (a - of_a) + (b - of_b)};
 }
 
 /// a + b when |a| >= |b| or a = 0 (Dekker 1971).
-constexpr Exactly fast_two_sum(double a, double b) noexcept {
+constexpr ValueAndError fast_two_sum(double a, double b) noexcept {
   const double sum = a + b;
   return {sum, b - (sum - a)};
 }
 
-constexpr Exactly two_difference(double a, double b) noexcept { return two_sum(a, -b); }
+constexpr ValueAndError two_difference(double a, double b) noexcept { return two_sum(a, -b); }
 
 /// a b (Veltkamp's splitting, Dekker's product; the same numbers from a fused multiply-add where the CPU has one).
 /// Holds for |a|, |b| <= 2^995 and a product that is 0 or has a magnitude in [2^-967, 2^1022]; beyond, the halves
 /// overflow or the rest underflows.
-constexpr Exactly two_product(double a, double b) noexcept {
+constexpr ValueAndError two_product(double a, double b) noexcept {
 #ifdef __FP_FAST_FMA
   // Also because compilers that are left to contract fuse the product below into its own subtraction (g++ 12).
   if (!std::is_constant_evaluated()) {

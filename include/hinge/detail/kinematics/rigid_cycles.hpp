@@ -16,7 +16,7 @@
 namespace hinge::detail {
 
 /// How far the reference geometry may be off.
-struct GeometryError {
+struct GeometryTolerance {
   double point = 0.0;  ///< of a joint's or closure's point, model length unit
   double axis = 0.0;   ///< of a joint's axis, rad
 };
@@ -24,7 +24,7 @@ struct GeometryError {
 /// Is the smallest singular value of some closures' equations in some columns above what errors could have made of 0?
 /// So it is when J^T J less the square of that has a Cholesky decomposition.
 inline bool has_full_rank(const ClosureEquations& equations, const std::vector<std::size_t>& closures,
-                          const std::vector<std::size_t>& columns, const GeometryError& error) {
+                          const std::vector<std::size_t>& columns, const GeometryTolerance& error) {
   const std::size_t n = columns.size();
   std::size_t rows = 0;
   for (const std::size_t c : closures) rows += equations.row_count(c);
@@ -64,7 +64,7 @@ inline bool has_full_rank(const ClosureEquations& equations, const std::vector<s
 /// Other assemblies of the same ring are not reached by moving and stay unknown. Empty when the reference itself is not
 /// closed within 8 times error.point. Sorted. `kept`: the closures that hold, positions in tree.closures().
 inline std::vector<DofId> rigid_cycle_dofs(const KinematicTree& tree, const DofSelection& selection,
-                                           const GeometryError& error, std::span<const std::size_t> kept) {
+                                           const GeometryTolerance& error, std::span<const std::size_t> kept) {
   ClosureEquations equations(tree, selection, kept);
   if (!(equations.worst() <= 8.0 * error.point + 0x1p-30)) return {};
   equations.compute_jacobian();
@@ -118,7 +118,7 @@ inline std::vector<DofId> rigid_cycle_dofs(const KinematicTree& tree, const DofS
 
 /// The same with all closures of the tree.
 inline std::vector<DofId> rigid_cycle_dofs(const KinematicTree& tree, const DofSelection& selection,
-                                           const GeometryError& error = {}) {
+                                           const GeometryTolerance& error = {}) {
   return rigid_cycle_dofs(tree, selection, error, all_closures(tree));
 }
 

@@ -13,12 +13,12 @@
 #include <vector>
 
 #include "hinge/core/id.hpp"
-#include "hinge/detail/engine/wide/into.hpp"
-#include "hinge/detail/engine/wide/near_masks.hpp"
-#include "hinge/detail/engine/wide/run_tasks.hpp"
-#include "hinge/detail/engine/wide/tasks.hpp"
-#include "hinge/detail/engine/wide/threshold_classes.hpp"
-#include "hinge/detail/engine/wide/wide_state.hpp"
+#include "hinge/detail/engine/simd/candidate_list.hpp"
+#include "hinge/detail/engine/simd/cross_model_transform.hpp"
+#include "hinge/detail/engine/simd/exclusion_masks.hpp"
+#include "hinge/detail/engine/simd/narrow_phase.hpp"
+#include "hinge/detail/engine/simd/simd_state.hpp"
+#include "hinge/detail/engine/simd/threshold_classes.hpp"
 #include "hinge/detail/moves/move_blocks.hpp"
 #include "hinge/detail/moves/move_frames.hpp"
 #include "hinge/detail/moves/moved_blocks.hpp"
@@ -34,8 +34,8 @@
 
 namespace hinge::detail {
 
-/// For primitives whose batches turn (TurnsBatch). Blocks of one part keep their mutual placement and never meet: each
-/// is swept against all that stands still and what was turned before its part.
+/// For primitives whose batches turn (TransformsBatch). Blocks of one part keep their mutual placement and never meet:
+/// each is swept against all that stands still and what was turned before its part.
 template <Primitive P>
 class BlockMoves {
  public:
@@ -101,20 +101,21 @@ class BlockMoves {
 
  private:
   template <PairFilter F>
-  BlockMoves(std::shared_ptr<const WideParts<P>> wide, const SelectedModel<P>& model, const F& filter,
+  BlockMoves(std::shared_ptr<const SimdParts<P>> simd_parts, const SelectedModel<P>& model, const F& filter,
              const MovingParts& parts)
-      : table_(wide->classes.table(wide->layout.scale)),
-        moved_(wide->layout, model, parts),
-        blocks_(wide, parts, moved_.order()),
+      : table_(simd_parts->classes.table(simd_parts->layout.scale)),
+        moved_(simd_parts->layout, model, parts),
+        blocks_(simd_parts, parts, moved_.order()),
         frames_(model.groups(), parts),
-        near_(std::make_shared<const NearRows>(NearMasks(wide->layout, model, filter, false), blocks_.ranks())),
-        met_(wide->layout.block_count() + 1) {}
+        near_(std::make_shared<const NearRows>(ExclusionMasks(simd_parts->layout, model, filter, false),
+                                               blocks_.ranks())),
+        met_(simd_parts->layout.block_count() + 1) {}
   /// Primitives that no pair can hold are left out.
   template <DistanceMatrix D>
-  static std::shared_ptr<const WideParts<P>> wide_parts(const SelectedModel<P>& model, const D& matrix) {
-    std::vector<std::uint8_t> idle;
-    if constexpr (HasNoBody<P>) idle = zero_thresholds(matrix, model.size());
-    return std::make_shared<const WideParts<P>>(BlockLayout::by_groups(model, idle),
+  static std::shared_ptr<const SimdParts<P>> wide_parts(const SelectedModel<P>& model, const D& matrix) {
+    std::vector<std::uint8_t> never_collides;
+    if constexpr (IsPointLike<P>) never_collides = zero_thresholds(matrix, model.size());
+    return std::make_shared<const SimdParts<P>>(BlockLayout::by_groups(model, never_collides),
                                                 ThresholdClasses(matrix, model.size()), model);
   }
 
@@ -127,7 +128,7 @@ class BlockMoves {
     std::uint32_t block, rank;
     simd::Bits in_b;
   };
-  /// Tasks listed before they are run: a hit among the first saves turning the rest.
+  /// CandidateList listed before they are run: a hit among the first saves turning the rest.
   static constexpr std::size_t longest_run = 16 * simd::width;
 
   ThresholdTable table_;
@@ -139,7 +140,7 @@ class BlockMoves {
   std::vector<std::uint32_t> turned_parts_;  // of what was turned, but for blocks that are cut
   std::vector<Met> met_;                     // scratch
   RecentCollisions recent_;
-  Tasks tasks_;
+  CandidateList candidates_;
   Thresholds16 thresholds_;
   double cutoff_ = 0.0, motion_error_ = 0.0;  // that thresholds_ are for
   float extent_ = -1.0F;
@@ -156,8 +157,8 @@ void BlockMoves<P>::set_thresholds(double cutoff, double motion_error) noexcept 
                   float_above(beyond + blocks_.band(static_cast<double>(table_.largest) + beyond, motion_error)));
 }
 
-/// Lists the tasks of a block against all that stands still and the first `turned` of what was turned, as TaskLister
-/// does. pieces: when it is cut; lanes that moved with the other block are left out.
+/// Lists the candidates of a block against all that stands still and the first `turned` of what was turned, as
+/// BroadPhase does. pieces: when it is cut; lanes that moved with the other block are left out.
 template <Primitive P>
 void BlockMoves<P>::face(std::uint32_t b, std::size_t turned, std::span<const PartLanes> pieces, QueryCounts& counts) {
   const float more = thresholds_.margin();
@@ -195,9 +196,9 @@ void BlockMoves<P>::face(std::uint32_t b, std::size_t turned, std::span<const Pa
     if (k >= in_order) near = first;
     while (near->partner < rank) ++near;
     if (near->partner == rank) [[unlikely]]
-      tasks_.add_rows(b_by_one ? in_b : in_a, one, sixteen, near_->rows(b_by_one ? near->mine : near->its).data());
+      candidates_.add_rows(b_by_one ? in_b : in_a, one, sixteen, near_->rows(b_by_one ? near->mine : near->its).data());
     else
-      tasks_.add(b_by_one ? in_b : in_a, one, sixteen, b_by_one ? real_a : real);
+      candidates_.add(b_by_one ? in_b : in_a, one, sixteen, b_by_one ? real_a : real);
   }
 }
 
@@ -209,7 +210,7 @@ void BlockMoves<P>::face_itself(std::uint32_t b, std::span<const PartLanes> piec
     rest &= ~piece.lanes;
     LaneRows rows = near_->self(b);
     for (simd::Bits& row : rows) row &= rest;
-    tasks_.add_rows(piece.lanes & layout().blocks[b].real, blocks_.position(b), blocks_.position(b), rows.data());
+    candidates_.add_rows(piece.lanes & layout().blocks[b].real, blocks_.position(b), blocks_.position(b), rows.data());
   }
 }
 
@@ -220,23 +221,23 @@ bool BlockMoves<P>::search(const MovingParts& parts, double cutoff, double motio
   const float extent = blocks_.extent();
   for (const MovedBlocks::Range& range : moved_.whole()) blocks_.hide(range.begin, range.end);
   for (const MovedBlocks::Cut& cut : moved_.cut()) blocks_.hide(cut.rank, cut.rank + 1);
-  tasks_.clear();
+  candidates_.clear();
   set_thresholds(cutoff, motion_error);
   bool wanted = true;
   const auto run = [&] {
-    counts.pairs_tested += tasks_.size() * simd::width;
-    run_tasks<P>(tasks_, blocks_, blocks_, Exactly<P>{}, thresholds_,
-                 [&](std::uint32_t one, std::uint32_t sixteen, simd::Bits bits, const simd::Float16&) {
-                   for (; bits != 0 && wanted; bits &= bits - 1) {
-                     const std::uint32_t other = sixteen + static_cast<std::uint32_t>(std::countr_zero(bits));
-                     const std::uint32_t i = blocks_.slot(one), j = blocks_.slot(other);
-                     wanted = visit(blocks_.primitive_of_slot(i), blocks_.primitive_of_slot(j));
-                     if (!wanted)
-                       recent_.add({i, j}, {moved_.place(i), moved_.place(j)}, blocks_.threshold_row(one, other));
-                   }
-                   return wanted;
-                 });
-    tasks_.clear();
+    counts.pairs_tested += candidates_.size() * simd::width;
+    narrow_phase<P>(candidates_, blocks_, blocks_, Identity<P>{}, thresholds_,
+                    [&](std::uint32_t one, std::uint32_t sixteen, simd::Bits bits, const simd::Float16&) {
+                      for (; bits != 0 && wanted; bits &= bits - 1) {
+                        const std::uint32_t other = sixteen + static_cast<std::uint32_t>(std::countr_zero(bits));
+                        const std::uint32_t i = blocks_.slot(one), j = blocks_.slot(other);
+                        wanted = visit(blocks_.primitive_of_slot(i), blocks_.primitive_of_slot(j));
+                        if (!wanted)
+                          recent_.add({i, j}, {moved_.place(i), moved_.place(j)}, blocks_.threshold_row(one, other));
+                      }
+                      return wanted;
+                    });
+    candidates_.clear();
   };
   std::size_t patience = 1;
   const auto face_it = [&](std::uint32_t b, std::size_t turned, std::span<const PartLanes> pieces) {
@@ -246,7 +247,7 @@ bool BlockMoves<P>::search(const MovingParts& parts, double cutoff, double motio
       set_thresholds(cutoff, motion_error);
     }
     face(b, turned, pieces, counts);
-    if (tasks_.size() < patience) return;
+    if (candidates_.size() < patience) return;
     patience = std::min(2 * patience, longest_run);
     run();
   };

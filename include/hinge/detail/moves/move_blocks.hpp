@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MoveBlocks: float coordinates of engine/wide's blocks, turned by a move as rigid bodies, and turned back for nothing.
+// MoveBlocks: float coordinates of engine/simd's blocks, turned by a move as rigid bodies, and turned back for nothing.
 #pragma once
 
 #include <algorithm>
@@ -16,11 +16,11 @@
 #include "hinge/core/id.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/detail/bounds/float_box.hpp"
-#include "hinge/detail/engine/wide/block_layout.hpp"
-#include "hinge/detail/engine/wide/float_turn.hpp"
-#include "hinge/detail/engine/wide/threshold_classes.hpp"
-#include "hinge/detail/engine/wide/unit_boxes.hpp"
-#include "hinge/detail/engine/wide/wide_state.hpp"
+#include "hinge/detail/engine/simd/block_layout.hpp"
+#include "hinge/detail/engine/simd/entry_boxes.hpp"
+#include "hinge/detail/engine/simd/float_transform.hpp"
+#include "hinge/detail/engine/simd/simd_state.hpp"
+#include "hinge/detail/engine/simd/threshold_classes.hpp"
 #include "hinge/detail/kinematics/compose_frames.hpp"
 #include "hinge/detail/moves/moved_blocks.hpp"
 #include "hinge/detail/moves/moving_parts.hpp"
@@ -55,36 +55,37 @@ class MoveBlocks {
   static constexpr unsigned most_turns = 16;
 
   /// order: of MovedBlocks.
-  MoveBlocks(std::shared_ptr<const WideParts<P>> wide, const MovingParts& parts, std::span<const std::uint32_t> order)
-      : wide_(std::move(wide)),
-        floats_(2 * wide_->layout.block_count() * Batch<P>::floats),
+  MoveBlocks(std::shared_ptr<const SimdParts<P>> parts_of_model, const MovingParts& parts,
+             std::span<const std::uint32_t> order)
+      : simd_parts_(std::move(parts_of_model)),
+        floats_(2 * simd_parts_->layout.block_count() * Batch<P>::floats),
         class_(floats_.size()),
-        box_(2 * wide_->layout.block_count()),
-        turns_(2 * wide_->layout.block_count(), 0),
+        box_(2 * simd_parts_->layout.block_count()),
+        turns_(2 * simd_parts_->layout.block_count(), 0),
         order_(order.begin(), order.end()),
         rank_(order.size()),
-        boxes_(wide_->layout.block_count()),
-        standing_(wide_->layout.block_count()),
-        turned_boxes_(wide_->layout.block_count()) {
+        boxes_(simd_parts_->layout.block_count()),
+        standing_(simd_parts_->layout.block_count()),
+        turned_boxes_(simd_parts_->layout.block_count()) {
     constexpr std::size_t n = Batch<P>::floats;
     for (std::size_t place = 0; place < box_.size(); ++place)
-      std::copy_n(wide_->position_class.data() + place / 2 * n, n, class_.data() + place * n);
+      std::copy_n(simd_parts_->position_class.data() + place / 2 * n, n, class_.data() + place * n);
     for (std::uint32_t b = 0; b < layout().block_count(); ++b) {
       at_.push_back(2 * b);
       group_place_.push_back(parts.place(layout().groups_of(layout().blocks[b]).front()));
     }
     for (std::uint32_t r = 0; r < rank_.size(); ++r) rank_[order_[r]] = r;
-    for (const std::uint32_t g : wide_->mixed_group) mixed_place_.push_back(parts.place(id<GroupId>(g)));
+    for (const std::uint32_t g : simd_parts_->mixed_group) mixed_place_.push_back(parts.place(id<GroupId>(g)));
     double away = 0.0;
     for (const double x : layout().origin) away += 2.0 * std::abs(x);
-    rounding_size_ = layout().scale * (4.0 * wide_->rigid.largest_local + away);
+    rounding_size_ = layout().scale * (4.0 * simd_parts_->rigid.largest_local + away);
   }
 
-  const BlockLayout& layout() const noexcept { return wide_->layout; }
-  float reach(std::uint32_t b) const noexcept { return wide_->rigid.reach[b]; }
-  float largest_reach() const noexcept { return wide_->rigid.largest_reach; }
+  const BlockLayout& layout() const noexcept { return simd_parts_->layout; }
+  float reach(std::uint32_t b) const noexcept { return simd_parts_->rigid.reach[b]; }
+  float largest_reach() const noexcept { return simd_parts_->rigid.largest_reach; }
 
-  // What run_tasks asks for.
+  // What narrow_phase asks for.
   const float* packed() const noexcept { return floats_.data(); }
   const std::uint8_t* position_class() const noexcept { return class_.data(); }
   static constexpr bool has_extra() noexcept { return false; }
@@ -118,12 +119,12 @@ class MoveBlocks {
     float* to = floats_.data() + position(b);
     FloatBox box;
     if (layout().blocks[b].rigid) {
-      const FloatTurn turn(frames[group_place_[b]], layout().origin, layout().scale);
-      box = Batch<P>::turn(wide_->rigid.offsets.data() + b * Batch<P>::floats, turn.rotation(),
-                           turn(wide_->rigid.block[b].middle), to);
+      const FloatTransform turn(frames[group_place_[b]], layout().origin, layout().scale);
+      box = Batch<P>::turn(simd_parts_->rigid.offsets.data() + b * Batch<P>::floats, turn.rotation(),
+                           turn(simd_parts_->rigid.block[b].middle), to);
     } else {
-      const std::uint32_t first = wide_->mixed_slot[b];
-      box = Batch<P>::place(to, wide_->mixed.data() + first, mixed_place_.data() + first, frames, layout().origin,
+      const std::uint32_t first = simd_parts_->mixed_slot[b];
+      box = Batch<P>::place(to, simd_parts_->mixed.data() + first, mixed_place_.data() + first, frames, layout().origin,
                             layout().scale);
     }
     box_[at_[b]] = box.grown(reach(b));
@@ -214,7 +215,7 @@ class MoveBlocks {
   /// derives it.
   double band(double largest, double motion_error) const noexcept {
     constexpr double u = 0x1p-24, v = 0x1p-53, underflow = 0x1p-60;
-    const auto extent = static_cast<double>(extent_), half = static_cast<double>(wide_->rigid.largest_half);
+    const auto extent = static_cast<double>(extent_), half = static_cast<double>(simd_parts_->rigid.largest_half);
     const double placed =
         6 * u * (2 * extent + 10 * half) + 8 * u * largest + 16 * v * (extent + rounding_size_) + underflow;
     return placed + most_turns * (42 * u * extent + 2 * motion_error * layout().scale + underflow);
@@ -246,19 +247,19 @@ class MoveBlocks {
         extent < largest_sane_coordinate / 2 ? std::ldexp(1.0F, exponent) : std::numeric_limits<float>::infinity();
   }
 
-  std::shared_ptr<const WideParts<P>> wide_;
+  std::shared_ptr<const SimdParts<P>> simd_parts_;
   simd::AlignedVector<float> floats_;
   std::vector<std::uint8_t> class_;         // where the floats of a primitive start
   std::vector<FloatBox> box_;               // per place
   std::vector<std::uint8_t> turns_;         // per place: since it was placed in double
   std::vector<std::uint32_t> at_;           // per block: which of its places
   std::vector<std::uint32_t> group_place_;  // per block: of its first group
-  std::vector<std::uint32_t> mixed_place_;  // where WideParts has mixed_group
+  std::vector<std::uint32_t> mixed_place_;  // where SimdParts has mixed_group
   std::vector<std::uint32_t> order_, rank_;
-  UnitBoxes boxes_;  // of all blocks before the present move, by rank
-  ShownUnits standing_;
+  EntryBoxes boxes_;  // of all blocks before the present move, by rank
+  ShownEntries standing_;
   std::vector<std::uint32_t> turned_;
-  UnitBoxes turned_boxes_;  // of turned_
+  EntryBoxes turned_boxes_;  // of turned_
   double rounding_size_ = 0.0;
   float extent_ = 0.0F;
 };

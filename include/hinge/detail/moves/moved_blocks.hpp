@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "hinge/core/id.hpp"
-#include "hinge/detail/engine/wide/block_layout.hpp"
+#include "hinge/detail/engine/simd/block_layout.hpp"
 #include "hinge/detail/moves/moving_parts.hpp"
 #include "hinge/detail/simd/lanes.hpp"
 #include "hinge/model/selected_model.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "hinge/core/id.hpp"
-#include "hinge/detail/engine/wide/cut_blocks.hpp"
+#include "hinge/detail/engine/simd/cut_blocks.hpp"
 #include "hinge/detail/simd/lanes.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 

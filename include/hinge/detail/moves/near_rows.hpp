@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// NearRows: the rows of NearMasks from both sides, so that a pair of near blocks is tested from the cheaper one.
+// NearRows: the rows of ExclusionMasks from both sides, so that a pair of near blocks is tested from the cheaper one.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "hinge/detail/engine/wide/near_masks.hpp"
+#include "hinge/detail/engine/simd/exclusion_masks.hpp"
 #include "hinge/detail/simd/lanes.hpp"
 
 namespace hinge::detail {
@@ -26,7 +26,7 @@ class NearRows {
   };
 
   /// rank: of every block.
-  NearRows(const NearMasks& masks, std::span<const std::uint32_t> rank) : self_(rank.size()) {
+  NearRows(const ExclusionMasks& masks, std::span<const std::uint32_t> rank) : self_(rank.size()) {
     std::vector<std::vector<Near>> lists(rank.size());
     for (std::uint32_t b = 0; b < rank.size(); ++b) {
       for (const std::uint32_t a : masks.partners(b)) {

@@ -11,7 +11,7 @@
 #include "hinge/bounds/aabb.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/core/vec3.hpp"
-#include "hinge/detail/engine/wide/cut_blocks.hpp"
+#include "hinge/detail/engine/simd/cut_blocks.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 #include "hinge/model/selected_model.hpp"
 #include "hinge/policy/primitive.hpp"

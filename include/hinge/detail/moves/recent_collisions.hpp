@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "hinge/detail/engine/wide/run_tasks.hpp"
+#include "hinge/detail/engine/simd/narrow_phase.hpp"
 #include "hinge/detail/moves/move_blocks.hpp"
 #include "hinge/detail/moves/moving_parts.hpp"
 #include "hinge/detail/primitive/batch.hpp"

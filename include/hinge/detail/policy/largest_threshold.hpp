@@ -18,7 +18,7 @@ class LargestThreshold {
  public:
   /// n: how many primitives the matrix is for.
   LargestThreshold(const D& matrix, std::size_t n) {
-    if constexpr (TypesPrimitives<D>) {
+    if constexpr (TypedThresholdMatrix<D>) {
       occurs_.resize(matrix.type_count());
       to_type_.resize(matrix.type_count());
       for (std::size_t i = 0; i < n; ++i) occurs_[matrix.type(id<PrimitiveId>(i))] = 1;
@@ -33,7 +33,7 @@ class LargestThreshold {
   double within() const noexcept { return between(*this); }
   /// Between this model and another with a compatible matrix.
   double between(const LargestThreshold& other) const noexcept {
-    if constexpr (!TypesPrimitives<D>) return reach_ + other.reach_;
+    if constexpr (!TypedThresholdMatrix<D>) return reach_ + other.reach_;
     double largest = 0.0;
     for (std::size_t t = 0; t < std::min(to_type_.size(), other.occurs_.size()); ++t)
       if (other.occurs_[t] != 0) largest = std::max(largest, to_type_[t]);

@@ -238,8 +238,8 @@ struct Batch<Point> {
 
 /// Optional: a rigid batch is placed by turning its floats, without looking at the primitives.
 template <class P>
-concept TurnsBatch = requires(const float* local, const std::array<float, 9>& rotation,
-                              const std::array<float, 3>& translation, float* to) {
+concept TransformsBatch = requires(const float* local, const std::array<float, 9>& rotation,
+                                   const std::array<float, 3>& translation, float* to) {
   { Batch<P>::turn(local, rotation, translation, to) } -> std::same_as<FloatBox>;
 };
 
@@ -252,7 +252,7 @@ concept MeasuresDistances = requires {
 /// Optional: one primitive of a batch can be turned and measured by itself, without its batch. extent: the largest
 /// magnitude of its coordinates.
 template <class P>
-concept TurnsOne = TurnsBatch<P> && MeasuresDistances<P> &&
+concept TurnsOne = TransformsBatch<P> && MeasuresDistances<P> &&
     requires(const typename Batch<P>::One& one, const std::array<float, 9>& rotation,
              const std::array<float, 3>& translation) {
   { one.turned(rotation, translation) } -> std::same_as<typename Batch<P>::One>;

@@ -70,7 +70,7 @@ struct GridPoint {
   }
 
  private:
-  __extension__ using Wide = __int128;
+  __extension__ using Simd = __int128;
 
   /// What is out of range becomes its end, which no x is read from.
   static GridPoint nearest(const Vec3& x) noexcept {
@@ -94,15 +94,15 @@ struct GridPoint {
   [[gnu::cold, gnu::noinline]] bool closer_in_decimals(const GridPoint& q, double m) const noexcept {
     constexpr double billion = 1e9, largest = 0x1p62;
     if (!(m > 0.0)) return false;
-    Wide squared = 0;
+    Simd squared = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Wide d = thousandths[k] - q.thousandths[k];
+      const Simd d = thousandths[k] - q.thousandths[k];
       squared += d * d;
     }
     const double scaled = m * billion, whole = std::nearbyint(scaled);
     // The product is off by a half ulp.
     if (scaled < largest && std::abs(scaled - whole) <= 17 * exact::half_ulp * scaled) {
-      const Wide n = static_cast<std::int64_t>(whole), million = 1'000'000;
+      const Simd n = static_cast<std::int64_t>(whole), million = 1'000'000;
       return squared * million * million < n * n;
     }
     if (!is_finite(m)) return true;

@@ -102,8 +102,8 @@ struct Leaf {
 /// Do engines keep this primitive in trees of its rigid groups, in their frames, rather than in placed blocks? It pays
 /// where primitives have an extent and groups many of them. A specialisation of Leaf says so.
 template <class P>
-inline constexpr bool KeepsTrees = requires {
-  requires Leaf<P>::keeps_trees;
+inline constexpr bool UsesStaticBvh = requires {
+  requires Leaf<P>::uses_static_bvh;
 };
 
 }  // namespace hinge::detail

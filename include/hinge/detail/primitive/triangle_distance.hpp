@@ -16,7 +16,7 @@ namespace hinge::detail {
 
 /// ab - cd to about two half ulps of itself (Kahan), where nothing underflows.
 inline double difference_of_products(double a, double b, double c, double d) noexcept {
-  const exact::Exactly p = exact::two_product(a, b), q = exact::two_product(c, d);
+  const exact::ValueAndError p = exact::two_product(a, b), q = exact::two_product(c, d);
   return (p.value - q.value) + (p.rest - q.rest);
 }
 

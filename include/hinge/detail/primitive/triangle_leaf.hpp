@@ -40,7 +40,7 @@ struct Leaf<Triangle> {
   using Float16 = simd::Float16;
   using Lanes3 = Axis<Float16>;
   using One3 = Axis<float>;
-  static constexpr bool keeps_trees = true;
+  static constexpr bool uses_static_bvh = true;
   static constexpr std::size_t n = simd::width;
   static constexpr std::size_t floats = 9 * n;  ///< a's x, y, z, then b's, then c's
 

@@ -21,14 +21,14 @@ inline double clearance_of(std::span<const double> clearance, GroupId group) noe
 /// What closer_than compares with: M, or the sum it is made of.
 template <DistanceMatrix D>
 auto threshold_of(const D& matrix, PrimitiveId i, PrimitiveId j) noexcept {
-  if constexpr (GrowsPrimitives<D>)
+  if constexpr (AdditiveRadii<D>)
     return matrix.sum(i, j);
   else
     return matrix.threshold(i, j);
 }
 template <CrossMatrix D>
 auto threshold_of(const D& matrix, PrimitiveId i, const D& other, PrimitiveId j) noexcept {
-  if constexpr (GrowsPrimitives<D>)
+  if constexpr (AdditiveRadii<D>)
     return matrix.sum(i, other, j);
   else
     return matrix.threshold(i, other, j);

@@ -13,7 +13,7 @@
 
 #include "hinge/engine/brute.hpp"
 #include "hinge/engine/lazy.hpp"
-#include "hinge/engine/wide.hpp"
+#include "hinge/engine/simd.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/molecule.hpp"
@@ -36,7 +36,7 @@ struct CheckOptions {
   bool exempt_reference = false;   ///< pairs that collide in the reference never count, but for those of interfaces:
   bool exempt_interfaces = false;  ///< of two files, or of a placed part and what is none of it; these neither, if set
   PairScope scope{};            ///< which pairs are asked about, made for the molecule's structure; none else is named
-  std::string engine = "wide";  ///< "wide", "lazy" (the paper's) or "brute"
+  std::string engine = "simd";  ///< "simd", "lazy" (the paper's) or "brute"
 };
 
 /// A pair and whether it collides, which its rounded distance cannot say.
@@ -89,7 +89,7 @@ class Checker {
   std::vector<Vec3> positions();
 
  private:
-  using AnyHierarchy = std::variant<MolecularHierarchy<Wide>, MolecularHierarchy<Lazy>, MolecularHierarchy<Brute>>;
+  using AnyHierarchy = std::variant<MolecularHierarchy<Simd>, MolecularHierarchy<Lazy>, MolecularHierarchy<Brute>>;
   AnyHierarchy make(const std::string& engine, DofSelection selection) const;
 
   std::shared_ptr<const Molecule> molecule_;

@@ -51,7 +51,7 @@ class EnsembleSpread {
   std::span<const std::size_t> torsions() const noexcept { return torsions_; }
   /// Of torsions[k], rad: the circular standard deviation sqrt(-2 ln R), R the length of the mean of its unit vectors
   /// (K. Mardia and P. Jupp, Directional Statistics, 2000, eq. 2.3.11); infinite where they cancel.
-  double turn_spread(std::size_t k) const noexcept;
+  double circular_std(std::size_t k) const noexcept;
   /// The largest standard deviation, angstrom, of the distance of a point of one body from one of the other. Of a body
   /// to itself: between its own points.
   double distance_spread(std::size_t first, std::size_t second) const noexcept;

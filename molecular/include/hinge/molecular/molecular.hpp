@@ -11,7 +11,7 @@
 #include "hinge/molecular/components.hpp"
 #include "hinge/molecular/ensemble_groups.hpp"
 #include "hinge/molecular/ensemble_spread.hpp"
-#include "hinge/molecular/fit_turns.hpp"
+#include "hinge/molecular/fit_torsions.hpp"
 #include "hinge/molecular/held_placement.hpp"
 #include "hinge/molecular/hydrogen_bonds.hpp"
 #include "hinge/molecular/ideal_protein.hpp"

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "hinge/engine/wide.hpp"
+#include "hinge/engine/simd.hpp"
 #include "hinge/molecular/checker.hpp"
 #include "hinge/path/certified_path.hpp"
 #include "hinge/path/path_answer.hpp"
@@ -27,8 +27,8 @@ class PathChecker {
   PathAnswer sample(std::span<const double> from, std::span<const double> to, double resolution);
 
  private:
-  MolecularHierarchy<Wide> hierarchy_;
-  CertifiedPath<Point, BondExclusions, TypedThresholds, Wide> certified_;
+  MolecularHierarchy<Simd> hierarchy_;
+  CertifiedPath<Point, BondExclusions, TypedThresholds, Simd> certified_;
 };
 
 }  // namespace hinge::molecular

@@ -7,7 +7,7 @@
 
 #include "hinge/engine/brute.hpp"
 #include "hinge/engine/lazy.hpp"
-#include "hinge/engine/wide.hpp"
+#include "hinge/engine/simd.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/model/model.hpp"
@@ -20,9 +20,9 @@ namespace hinge::robotics {
 template <template <class, class, class> class EngineOf>
 using RobotHierarchy = Hierarchy<Triangle, LinkPairFilter, LinkMargins, EngineOf>;
 
-using AnyHierarchy = std::variant<RobotHierarchy<Wide>, RobotHierarchy<Lazy>, RobotHierarchy<Brute>>;
+using AnyHierarchy = std::variant<RobotHierarchy<Simd>, RobotHierarchy<Lazy>, RobotHierarchy<Brute>>;
 
-/// All DOF free. engine: "wide", "lazy" (the paper's) or "brute"; ModelError otherwise.
+/// All DOF free. engine: "simd", "lazy" (the paper's) or "brute"; ModelError otherwise.
 AnyHierarchy make_hierarchy(const std::string& engine, const Model<Triangle>& model, const LinkPairFilter& filter,
                             const LinkMargins& margins);
 

@@ -26,8 +26,8 @@ namespace hinge::robotics {
 class Environment {
  public:
   /// clearance: bodies have to stay that far from robots and from bodies held, finite, >= 0. engine: that of the robots
-  /// that will ask, "wide", "lazy" or "brute". Else ModelError.
-  explicit Environment(double clearance = 0.0, std::string engine = "wide");
+  /// that will ask, "simd", "lazy" or "brute". Else ModelError.
+  explicit Environment(double clearance = 0.0, std::string engine = "simd");
 
   /// The shape is in the body's own frame. Boxes, spheres, cylinders, capsules and solid meshes are solid, as those of
   /// links are. ModelError, naming the body: what tessellate() refuses, a solid mesh that is open, a pose that is not

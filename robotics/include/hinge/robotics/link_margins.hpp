@@ -74,6 +74,6 @@ class LinkMargins {
   std::shared_ptr<const Data> data_;
 };
 
-static_assert(CrossMatrix<LinkMargins> && GrowsPrimitives<LinkMargins> && KnowsSize<LinkMargins>);
+static_assert(CrossMatrix<LinkMargins> && AdditiveRadii<LinkMargins> && KnowsSize<LinkMargins>);
 
 }  // namespace hinge::robotics

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "hinge/core/id.hpp"
-#include "hinge/engine/wide.hpp"
+#include "hinge/engine/simd.hpp"
 #include "hinge/path/certified_path.hpp"
 #include "hinge/path/path_answer.hpp"
 #include "hinge/primitive/triangle.hpp"
@@ -75,9 +75,9 @@ class PathChecker {
   std::shared_ptr<const Robot> robot_;  // with the bodies as further links
   std::vector<LinkOrBody> owners_;      // by link
   std::optional<PathContact> always_;   // a contact that no joint can change
-  RobotHierarchy<Wide> hierarchy_;
+  RobotHierarchy<Simd> hierarchy_;
   std::shared_ptr<const SolidPairs> solid_pairs_;
-  CertifiedPath<Triangle, LinkPairFilter, LinkMargins, Wide> certified_;
+  CertifiedPath<Triangle, LinkPairFilter, LinkMargins, Simd> certified_;
 };
 
 }  // namespace hinge::robotics

@@ -36,7 +36,7 @@ struct Inside;
 using hinge::Mode;
 
 struct CheckOptions {
-  std::string engine = "wide";  ///< "wide", "lazy" (the paper's) or "brute"
+  std::string engine = "simd";  ///< "simd", "lazy" (the paper's) or "brute"
 };
 
 /// The answer for one configuration. `pairs` holds the pairs of links that the mode lists, sorted (all: colliding;
@@ -99,9 +99,9 @@ class RobotChecker {
 
   // --- queries at the current state ---
 
-  /// Learns from the current state which pairs of links yes/no queries try first (Hierarchy::learn_order): to be called
-  /// at some hundred states like those to come. Answers stay the same.
-  void learn_order();
+  /// Learns from the current state which pairs of links yes/no queries try first (Hierarchy::calibrate_pair_order): to
+  /// be called at some hundred states like those to come. Answers stay the same.
+  void calibrate_pair_order();
   bool collides();
   /// Pairs of links that collide, sorted.
   std::vector<LinkContact> colliding_links() { return within(0.0); }
@@ -123,7 +123,7 @@ class RobotChecker {
   // bodies. The clearance is the larger of the environment's and margins().clearance(). ModelError: another engine ---
 
   /// The same for collides(environment): which links are tried first, whatever the body.
-  void learn_order(Environment& environment);
+  void calibrate_pair_order(Environment& environment);
   bool collides(Environment& environment);
   /// Pairs of link and body (first links, then held bodies; each sorted).
   std::vector<BodyContact> collisions(Environment& environment) { return within(environment, 0.0); }

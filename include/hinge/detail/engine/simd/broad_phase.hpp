@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// BroadPhase: from boxes that come close to candidates, "one primitive against sixteen".
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hinge/core/id.hpp"
+#include "hinge/detail/bounds/float_box.hpp"
+#include "hinge/detail/engine/simd/candidate_list.hpp"
+#include "hinge/detail/engine/simd/cross_model_transform.hpp"
+#include "hinge/detail/engine/simd/exclusion_masks.hpp"
+#include "hinge/detail/engine/simd/resume_point.hpp"
+#include "hinge/detail/engine/simd/simd_side.hpp"
+#include "hinge/detail/primitive/batch.hpp"
+#include "hinge/model/placement.hpp"
+#include "hinge/query/query_options.hpp"
+
+namespace hinge::detail {
+
+/// Where the floats of a block start, and which slot the floats at a position are of.
+template <Primitive P>
+std::uint32_t position(std::uint32_t block) noexcept {
+  return block * static_cast<std::uint32_t>(Batch<P>::floats);
+}
+template <Primitive P>
+std::uint32_t slot(std::uint32_t position) noexcept {
+  constexpr auto floats = static_cast<std::uint32_t>(Batch<P>::floats);
+  return position / floats * static_cast<std::uint32_t>(simd::width) + position % floats;
+}
+
+/// `margin()`: what is not farther than a threshold plus this must be listed; extra clearances come on top; it may
+/// shrink on the way. `relieve` is called between blocks of a large entry, whose candidates may be as many as its
+/// pairs; it answers false to stop, and so do listers that were stopped.
+template <Primitive P>
+class BroadPhase {
+ public:
+  CandidateList candidates;
+  /// To be told of the entries that are done; knows of the one where a lister was stopped.
+  ResumePoint resume_point;
+
+  /// Adds the candidates between an entry and the ones before it, and inside it.
+  template <class Margin, class Relieve>
+  bool within(SimdSide<P>& side, std::size_t u, Placement<P>& placement, const Margin& margin, QueryCounts& counts,
+              const Relieve& relieve) {
+    const SweepEntry& entry = side.layout().entries[u];
+    const std::uint32_t first = entry.first_block;
+    const simd::Bits lanes = side.near().self_lanes(first);
+    if (lanes != 0 && !side.kept_apart(u, u))
+      candidates.add_rows(lanes, position<P>(first), position<P>(first), side.near().self_rows(first));
+    const auto found = side.entries().sweep(side.entries().get(u).grown(margin()), entry.sweep_end, counts);
+    if (found.empty()) return true;
+    const float extra = side.extra(first);
+    if (entry.block_count == 1) {
+      Facing facing(side, first, placement, margin() + extra);
+      for (const std::uint32_t w : found) {
+        if (side.kept_apart(u, w)) continue;
+        const SweepEntry& partner = side.layout().entries[w];
+        if (partner.block_count == 1) {
+          add_pair(side, facing, partner.first_block, facing.partners.find(partner.first_block), placement);
+        } else {
+          const float more = margin() + extra + side.extra(partner.first_block);
+          side.descend(w, side.state().block_box(first).grown(more), placement, counts, theirs_);
+          add_found(side, facing, placement);
+        }
+      }
+      return true;
+    }
+    for (const std::uint32_t w : found) {
+      if (side.kept_apart(u, w)) continue;
+      const float both = extra + side.extra(side.layout().entries[w].first_block);
+      side.descend(u, side.state().entries().get(w).grown(margin() + both), placement, counts, mine_);
+      for (const std::uint32_t b : mine_) {
+        const float near = margin() + both;
+        // Placed only when it meets something.
+        if (side.layout().entries[w].block_count == 1)
+          theirs_.assign(1, side.layout().entries[w].first_block);
+        else
+          side.descend(w, side.state().tree_box(u, b, placement).grown(near), placement, counts, theirs_);
+        if (theirs_.empty()) continue;
+        add_found(side, Facing(side, b, placement, margin() + extra), placement);
+        if (!relieve()) return stop(w, b);
+      }
+    }
+    return true;
+  }
+
+  /// Adds the candidates of an entry against another model, into whose unit and origin `into` brings coordinates.
+  template <class Margin, class Relieve>
+  bool across(SimdSide<P>& mine, std::size_t u, Placement<P>& placement, SimdSide<P>& theirs,
+              Placement<P>& other_placement, const CrossModelTransform<P>& into, const Margin& margin, bool moved_only,
+              QueryCounts& counts, const Relieve& relieve) {
+    const SweepEntry& entry = mine.layout().entries[u];
+    const float extra = mine.extra(entry.first_block) * into.scale;
+    const FloatBox box = into(mine.state().entries().get(u)).grown(margin() + extra);
+    const bool stood_still = moved_only && !mine.moved(u, placement);
+    for (const std::uint32_t w : theirs.entries().sweep(box, theirs.layout().entries.size(), counts)) {
+      if (stood_still && !theirs.moved(w, other_placement)) continue;
+      const SweepEntry& partner = theirs.layout().entries[w];
+      const float extras = extra + theirs.extra(partner.first_block);
+      if (entry.block_count == 1)
+        mine_.assign(1, entry.first_block);
+      else
+        mine.descend(u, into.back(theirs.state().entries().get(w).grown(margin() + extras)), placement, counts, mine_);
+      for (const std::uint32_t b : mine_) {
+        const float own = margin() + extras;
+        const float* at = mine.state().block(b, placement);
+        const float more = own + mine.parts().rigid.reach[b] * into.scale;
+        if (partner.block_count == 1)
+          theirs_.assign(1, partner.first_block);
+        else
+          theirs.descend(w, into(mine.state().block_box(b)).grown(own), other_placement, counts, theirs_);
+        for (const std::uint32_t a : theirs_) {
+          theirs.state().block(a, other_placement);
+          const FloatBox near = into.back(theirs.state().block_box(a).grown(more));
+          const simd::Bits lanes = Batch<P>::inside(at, BoxLanes(near)) & mine.layout().blocks[b].real;
+          candidates.add(lanes, position<P>(b), position<P>(a), theirs.layout().blocks[a].real);
+        }
+        if (!relieve()) return stop(w, b);
+      }
+    }
+    return true;
+  }
+
+ private:
+  /// Block b of mine_ was the last to be held against partner w.
+  bool stop(std::size_t w, std::uint32_t b) {
+    resume_point.stop(w, {mine_.begin(), std::find(mine_.begin(), mine_.end(), b) + 1});
+    return false;
+  }
+
+  /// A block, ready to be held against many others, whose extra clearances come on top.
+  struct Facing {
+    Facing(SimdSide<P>& side, std::uint32_t b, Placement<P>& placement, float more) noexcept
+        : block(b),
+          lanes(side.state().block(b, placement), more + side.parts().rigid.reach[b]),
+          box(side.state().block_box(b).grown(more + side.parts().rigid.largest_reach)),
+          partners(side.near(), b) {}
+    std::uint32_t block;
+    typename Batch<P>::Grown lanes;  // by its reach and more
+    BoxLanes box;                    // by its own reach, the largest of all, and more
+    ExclusionMasks::Partners partners;
+  };
+
+  /// A block against those found in trees.
+  [[gnu::noinline]] void add_found(SimdSide<P>& side, const Facing& facing, Placement<P>& placement) {
+    for (const std::uint32_t a : theirs_) add_pair(side, facing, a, side.near().find(facing.block, a), placement);
+  }
+
+  /// A block against block a before it: whichever side has fewer primitives near the other's box goes one by one.
+  [[gnu::always_inline]] void add_pair(SimdSide<P>& side, const Facing& facing, std::uint32_t a, const simd::Bits* rows,
+                                       Placement<P>& placement) {
+    const float* at_a = side.state().block(a, placement);
+    const std::uint32_t b = facing.block;
+    const simd::Bits real_b = side.layout().blocks[b].real, real_a = side.layout().blocks[a].real;
+    const FloatBox& box_a = side.state().block_box(a);
+    // (Growing by 0 can be felt in queries without extra clearances.)
+    const simd::Bits in_b =
+        (side.has_extra() ? facing.lanes.meets(box_a.grown(side.extra(a))) : facing.lanes.meets(box_a)) & real_b;
+    if (rows != nullptr) [[unlikely]]
+      return candidates.add_rows(in_b, position<P>(b), position<P>(a), rows);
+    const simd::Bits in_a = (side.has_extra() ? Batch<P>::inside(at_a, facing.box.grown(side.extra(a)))
+                                              : Batch<P>::inside(at_a, facing.box)) &
+                            real_a;
+    // Without branches, which nobody could foretell: an empty side lists nothing.
+    const bool b_by_one = std::popcount(in_b) <= std::popcount(in_a);
+    candidates.add(b_by_one ? in_b : in_a, position<P>(b_by_one ? b : a), position<P>(b_by_one ? a : b),
+                   b_by_one ? real_a : real_b);
+  }
+
+  std::vector<std::uint32_t> mine_, theirs_;  // blocks found in trees
+};
+
+}  // namespace hinge::detail

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Measure: verdicts by float distances, for queries that need not be exact.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "hinge/core/finite.hpp"
+#include "hinge/core/id.hpp"
+#include "hinge/detail/engine/simd/float_transform.hpp"
+#include "hinge/detail/engine/simd/narrow_phase.hpp"
+#include "hinge/detail/engine/simd/simd_side.hpp"
+#include "hinge/detail/engine/simd/threshold_classes.hpp"
+#include "hinge/detail/simd/lanes.hpp"
+#include "hinge/policy/primitive.hpp"
+
+namespace hinge::detail {
+
+/// For the candidates listed so far. Where floats do not hold the coordinates, or the squares of what is asked for,
+/// nothing is measured.
+class Measure {
+ public:
+  Measure() = default;
+  template <Primitive P, class Convert>
+  Measure(const SimdSide<P>& one, const SimdSide<P>& sixteen, const ThresholdTable& table,
+          const Thresholds16& thresholds, const Convert& convert, double cutoff) noexcept
+      : unit_(1.0 / sixteen.layout().scale) {
+    const float near =
+        table.largest + thresholds.margin() + one.largest_extra() * convert.scale + sixteen.largest_extra();
+    const float extent = std::max(one.state().extent(), sixteen.state().extent());
+    if (extent <= largest_sane_coordinate && is_finite(near * near))
+      error_ = convert.band(one, sixteen, table, cutoff) * unit_;
+  }
+
+  bool holds() const noexcept { return is_finite(error_); }
+
+  /// Primitive i against lanes of sixteen `others`, whose squared distances are in the engine's scaled unit; until the
+  /// collector wants no more. Returns how many stay undecided.
+  template <class TestPair>
+  [[gnu::always_inline]] std::uint64_t operator()(PrimitiveId i, const std::uint32_t* others, simd::Bits lanes,
+                                                  const simd::Float16& squared, const TestPair& test_pair) const {
+    alignas(64) std::array<float, simd::width> squares;
+    squared.store(squares.data());
+    std::uint64_t undecided = 0;
+    for (; lanes != 0 && !test_pair.collector.done(); lanes &= lanes - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(lanes));
+      const double distance = static_cast<double>(std::sqrt(squares[k])) * unit_;
+      undecided += test_pair(i, id<PrimitiveId>(others[k]), distance, error_);
+    }
+    return undecided;
+  }
+
+ private:
+  double unit_ = 0.0;  // the model's, a power of two: nothing is rounded
+  double error_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace hinge::detail

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// ResumePoint: which pairs a query of engine/simd is through with when it goes on in another way.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "hinge/core/id.hpp"
+#include "hinge/detail/engine/simd/block_layout.hpp"
+
+namespace hinge::detail {
+
+/// A query takes entries in order, with each its partners in order, and with each of those some blocks of the entry.
+class ResumePoint {
+ public:
+  /// Entries before u are done.
+  void reach(std::size_t u) noexcept {
+    entry_ = u;
+    partner_ = 0;
+    blocks_.clear();
+  }
+  /// Of the entry reached, partners before w are done, and these blocks of it with w.
+  void stop(std::size_t w, std::span<const std::uint32_t> blocks) {
+    partner_ = w;
+    blocks_.assign(blocks.begin(), blocks.end());
+    std::sort(blocks_.begin(), blocks_.end());
+  }
+
+  /// Is a pair inside one model done?
+  bool passed(const BlockLayout& layout, PrimitiveId i, PrimitiveId j) const noexcept {
+    return layout.entry_of(i) < layout.entry_of(j) ? passed(layout, j, layout, i) : passed(layout, i, layout, j);
+  }
+  /// Is the pair of i in an entry taken in order and j in a partner done?
+  bool passed(const BlockLayout& mine, PrimitiveId i, const BlockLayout& theirs, PrimitiveId j) const noexcept {
+    const std::size_t u = mine.entry_of(i), w = theirs.entry_of(j);
+    if (u != entry_) return u < entry_;
+    if (w != partner_) return w < partner_;
+    return std::binary_search(blocks_.begin(), blocks_.end(), mine.block_of[index(i)]);
+  }
+
+ private:
+  std::size_t entry_ = 0, partner_ = 0;
+  std::vector<std::uint32_t> blocks_;  // sorted
+};
+
+}  // namespace hinge::detail

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SimdSide: one model in one query of engine/simd: its blocks in their present state, and searches through them.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "hinge/detail/bounds/float_box.hpp"
+#include "hinge/detail/engine/simd/block_layout.hpp"
+#include "hinge/detail/engine/simd/exclusion_masks.hpp"
+#include "hinge/detail/engine/simd/simd_state.hpp"
+#include "hinge/detail/query/pair_rules.hpp"
+#include "hinge/detail/simd/gather_bits.hpp"
+#include "hinge/model/placement.hpp"
+#include "hinge/query/query_options.hpp"
+
+namespace hinge::detail {
+
+template <Primitive P>
+class SimdSide {
+ public:
+  static constexpr std::size_t no_component = ~std::size_t{0};
+
+  template <PairFilter F>
+  SimdSide(std::shared_ptr<const SimdParts<P>> parts, const SelectedModel<P>& model, const F& filter,
+           bool inside_groups)
+      : near_(std::make_shared<const ExclusionMasks>(parts->layout, model, filter, inside_groups)),
+        table_(parts->classes.table(parts->layout.scale)),
+        state_(std::move(parts), model),
+        grown_(layout().entries.size()) {}
+
+  const BlockLayout& layout() const noexcept { return state_.parts().layout; }
+  const SimdParts<P>& parts() const noexcept { return state_.parts(); }
+  const ExclusionMasks& near() const noexcept { return *near_; }
+  const ThresholdTable& table() const noexcept { return table_; }
+  SimdState<P>& state() noexcept { return state_; }
+  const SimdState<P>& state() const noexcept { return state_; }
+
+  /// A primitive that the layout holds, in double.
+  const P& exact(PrimitiveId i, Placement<P>& placement) noexcept {
+    const std::uint32_t b = layout().block_of[index(i)];
+    const std::uint32_t* const first = layout().primitive.data() + b * simd::width;
+    return state_.exact(b, placement)[std::find(first, first + simd::width, index(i)) - first];
+  }
+
+  /// What the options of a query mean for the entries. Entries are brought up to date one by one after that.
+  void begin(Placement<P>& placement, bool moved_only, std::span<const double> clearance) {
+    state_.begin(placement);
+    has_extra_ = !clearance.empty();
+    largest_extra_ = 0.0F;
+    if (has_extra_) {
+      extra_.resize(layout().block_count() * Batch<P>::floats);
+      float* at = extra_.data();
+      for (const Block& block : layout().blocks) {
+        double extra = 0.0;
+        for (const GroupId g : layout().groups_of(block)) extra = std::max(extra, clearance_of(clearance, g));
+        const float scaled = float_above(extra * layout().scale);
+        std::fill_n(at, simd::width, scaled);
+        at += Batch<P>::floats;
+        largest_extra_ = std::max(largest_extra_, scaled);
+      }
+      for (std::size_t u = 0; u < state_.first_entry(); ++u) grow(u);
+    }
+    component_.clear();
+    if (moved_only && !placement.groups_may_deform())
+      for (const SweepEntry& entry : layout().entries) {
+        const auto groups = layout().groups_of(layout().blocks[entry.first_block]);
+        std::size_t component = placement.component(groups.front());
+        for (const GroupId g : groups)
+          if (placement.component(g) != component) component = no_component;
+        component_.push_back(component);
+      }
+  }
+
+  /// Brings an entry up to date; to be called in order, from the first that may have moved.
+  [[gnu::always_inline]] void refresh(std::size_t u, Placement<P>& placement) noexcept {
+    state_.refresh(u, placement);
+    if (has_extra()) [[unlikely]]
+      grow(u);
+  }
+  /// Boxes of entries, grown by their reach and by their extra clearance.
+  EntryBoxes& entries() noexcept { return has_extra() ? grown_ : state_.entries(); }
+
+  /// Floats of all blocks, and the threshold classes of the primitives that start there.
+  const float* packed() const noexcept { return state_.packed(0); }
+  const std::uint8_t* position_class() const noexcept { return parts().position_class.data(); }
+
+  /// Extra clearances, scaled: of what has its floats at a position, of a block.
+  bool has_extra() const noexcept { return has_extra_; }
+  float extra_at(std::uint32_t position) const noexcept { return has_extra_ ? extra_[position] : 0.0F; }
+  float extra(std::uint32_t block) const noexcept {
+    return extra_at(block * static_cast<std::uint32_t>(Batch<P>::floats));
+  }
+  float largest_extra() const noexcept { return largest_extra_; }
+
+  /// Did the two entries (or the groups inside one) keep their relative placement, in a query that asks for what moved?
+  bool kept_apart(std::size_t u, std::size_t w) const noexcept {
+    return !component_.empty() && component_[u] == component_[w] && component_[u] != no_component;
+  }
+
+  /// Could the entry have moved in the last update?
+  bool moved(std::size_t u, Placement<P>& placement) const noexcept {
+    for (const GroupId g : layout().groups_of(layout().blocks[layout().entries[u].first_block]))
+      if (placement.moved(g)) return true;
+    return false;
+  }
+
+  /// The blocks in an entry's tree whose boxes share a point with `box`, into `blocks`.
+  void descend(std::size_t u, const FloatBox& box, Placement<P>& placement, QueryCounts& counts,
+               std::vector<std::uint32_t>& blocks) {
+    blocks.clear();
+    const BoxLanes probe(box);
+    const std::vector<BlockTree::Level>& levels = parts().rigid.tree[u].levels;
+    struct Node {
+      std::uint32_t row, level;
+    };
+    // Levels hold sixteen times the rows of the one above, so eight are more than a 32-bit index can fill; a level
+    // leaves at most fifteen rows waiting.
+    std::array<Node, 8 * simd::width> stack;
+    std::size_t waiting = 0;
+    stack[waiting++] = {0, static_cast<std::uint32_t>(levels.size() - 1)};
+    std::array<std::uint32_t, simd::width> found;
+    while (waiting > 0) {
+      const Node node = stack[--waiting];
+      const BoxRow& boxes = state_.tree_row(u, levels[node.level].first_row + node.row, placement);
+      ++counts.boxes_tested;
+      const auto first = static_cast<std::uint32_t>(node.row * simd::width);
+      simd::Bits bits = overlapping(boxes, probe);
+      // Said in numbers: an infinite box shares points with the places that hold none.
+      if (levels[node.level].boxes - first < simd::width)
+        bits &= (simd::Bits{1} << (levels[node.level].boxes - first)) - 1;
+      const std::size_t n = simd::append_lanes(bits, first, found.data());
+      for (std::size_t k = 0; k < n; ++k) {
+        if (node.level == 0)
+          blocks.push_back(layout().entries[u].first_block + found[k]);
+        else
+          stack[waiting++] = {found[k], node.level - 1};
+      }
+    }
+  }
+
+ private:
+  [[gnu::noinline]] void grow(std::size_t u) noexcept {
+    grown_.set(u, state_.entries().get(u).grown(extra(layout().entries[u].first_block)));
+    grown_.close(u);
+  }
+
+  std::shared_ptr<const ExclusionMasks> near_;
+  ThresholdTable table_;
+  SimdState<P> state_;
+  bool has_extra_ = false;
+  std::vector<float> extra_;  // where the floats of a primitive start; scaled
+  EntryBoxes grown_;          // with extra clearances
+  float largest_extra_ = 0.0F;
+  std::vector<std::size_t> component_;  // per entry; empty: every pair of entries counts
+};
+
+}  // namespace hinge::detail

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SimdSides: the sides of one model that engine/simd's queries choose from.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "hinge/detail/engine/simd/block_layout.hpp"
+#include "hinge/detail/engine/simd/simd_side.hpp"
+#include "hinge/detail/engine/simd/simd_state.hpp"
+#include "hinge/detail/engine/simd/threshold_classes.hpp"
+#include "hinge/model/placement.hpp"
+#include "hinge/model/selected_model.hpp"
+#include "hinge/policy/distance_matrix.hpp"
+#include "hinge/policy/pair_filter.hpp"
+#include "hinge/policy/primitive.hpp"
+
+namespace hinge::detail {
+
+/// Blocks by rigid groups, and by index for coordinates from elsewhere. Where some primitives are never_collides (they
+/// have no body and no threshold above 0), there is another side of each that holds the others alone, for queries
+/// without a margin. A side is made when it is first present.
+template <Primitive P>
+class SimdSides {
+ public:
+  template <DistanceMatrix D>
+  SimdSides(const SelectedModel<P>& model, const D& matrix) {
+    if constexpr (IsPointLike<P>) {
+      never_collides_ = zero_thresholds(matrix, model.size());
+      const auto count =
+          static_cast<std::size_t>(std::count(never_collides_.begin(), never_collides_.end(), std::uint8_t{1}));
+      all_never_collide_ = count == model.size();
+      if (count == 0) never_collides_.clear();
+    }
+  }
+
+  bool all_never_collide() const noexcept { return all_never_collide_; }
+
+  template <PairFilter F, DistanceMatrix D>
+  SimdSide<P>& present(const Placement<P>& placement, const F& filter, const D& matrix, bool without_margin) {
+    const bool deform = placement.groups_may_deform(), fewer = without_margin && !never_collides_.empty();
+    std::optional<SimdSide<P>>& side = sides_[2 * std::size_t{deform} + std::size_t{fewer}];
+    if (!side) {
+      const SelectedModel<P>& model = placement.model();
+      const std::span<const std::uint8_t> left_out =
+          fewer ? std::span(never_collides_) : std::span<const std::uint8_t>();
+      side.emplace(std::make_shared<const SimdParts<P>>(
+                       deform ? BlockLayout::by_index(model, left_out) : BlockLayout::by_groups(model, left_out),
+                       ThresholdClasses(matrix, model.size()), model),
+                   model, filter, deform);
+    }
+    return *side;
+  }
+
+ private:
+  std::vector<std::uint8_t> never_collides_;  // per primitive; empty: none is
+  bool all_never_collide_ = false;
+  std::array<std::optional<SimdSide<P>>, 4> sides_;
+};
+
+}  // namespace hinge::detail

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// ClosestSearch: the closest pair of two models, or of one: parts by the gap of their boxes, then their trees.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+#include <vector>
+
+#include "hinge/core/id.hpp"
+#include "hinge/detail/engine/simd/tree/find_closest.hpp"
+#include "hinge/detail/engine/simd/tree/near_search.hpp"
+#include "hinge/detail/engine/simd/tree/tree_operand.hpp"
+#include "hinge/detail/engine/simd/tree/tree_parts.hpp"
+#include "hinge/detail/engine/simd/tree/tree_state.hpp"
+#include "hinge/detail/engine/simd/tree/witnesses.hpp"
+#include "hinge/policy/collector.hpp"
+#include "hinge/query/query_options.hpp"
+
+namespace hinge::detail {
+
+/// Scratch of such searches. A PairTest is a TreePairTest.
+template <Primitive P>
+class ClosestSearch {
+ public:
+  ClosestSearch() { candidates_.reserve(most_candidates + simd::width); }
+  void reserve(std::size_t depth) { finder_.reserve(depth); }
+  void reserve_pairs(std::size_t most) { pairs_.reserve(most); }
+
+  /// list(bound) fills a list of pairs with all parts that may hold a pair with d - M <= bound.
+  template <Collector C, class PairTest, class List>
+  void run(const TreeOperand<P>& a, const TreeOperand<P>& b, NearSearch<P>& near, Witnesses<P>& witnesses,
+           const PairTest& pair_test, C& collector, QueryCounts& counts, const List& list) {
+    const double scale = a.state.parts().scale;
+    double bound = collector.cutoff();
+    if constexpr (KeepsSmallest<C>) bound = std::min(bound, witnesses.bound(a.placement, b.placement, pair_test));
+    pairs_.clear();
+    list(bound, pairs_);
+    std::sort(pairs_.begin(), pairs_.end(), [](const PartPair& x, const PartPair& y) {
+      return std::tie(x.gap, x.first, x.second) < std::tie(y.gap, y.first, y.second);
+    });
+    // No pair can come closer than this.
+    const double least = -std::max(a.state.parts().largest_threshold, b.state.parts().largest_threshold) -
+                         a.largest_clearance() - b.largest_clearance();
+    candidates_.clear();
+    const auto settle = [&] {
+      std::sort(candidates_.begin(), candidates_.end(),
+                [](const Candidate& x, const Candidate& y) { return x.lower < y.lower; });
+      for (const Candidate& c : candidates_) {
+        if (c.lower > collector.cutoff() || (KeepsSmallest<C> && collector.cutoff() <= least)) break;
+        const PrimitiveId i = a.primitive(c.slot_a), j = b.primitive(c.slot_b);
+        pair_test.test_pair(i, j, a.placement.alone(i), b.placement.alone(j));
+      }
+      candidates_.clear();
+      bound = std::min(bound, collector.cutoff());
+    };
+    if (KeepsSmallest<C> && least == 0.0) {
+      // Whether anything collides at all is found sooner than what is closest, and then nothing is closer.
+      for (const PartPair& pair : pairs_) {
+        if (pair.gap > 0.0F || collector.cutoff() <= least) break;
+        near.run(a, a.part(pair.first), b, b.part(pair.second), 0.0, pair_test, collector, counts);
+      }
+      bound = std::min(bound, collector.cutoff());
+    }
+    for (const PartPair& pair : pairs_) {
+      if (collector.done() || (KeepsSmallest<C> && collector.cutoff() <= least)) break;
+      const double extra = a.clearance_at(pair.first) + b.clearance_at(pair.second);
+      // Boxes that overlap say nothing about how deep.
+      if (pair.gap > 0.0F && static_cast<double>(pair.gap) / scale - extra > bound) {
+        if (extra == 0.0) break;  // nearest first
+        continue;
+      }
+      const float* const reach_a = a.state.parts().leaf_reach(0);
+      const float* const reach_b = b.state.parts().leaf_reach(0);
+      const double ratio = scale / b.state.parts().scale;
+      finder_.run(a.state.parts(), a.part(pair.first), b.state.parts(), b.part(pair.second),
+                  a.turn(a.part(pair.first), b, b.part(pair.second)).complete(), a.scaled(bound + extra), counts,
+                  [&](const auto& slots_a, const auto& slots_b, std::size_t n, const Bounds16& bounds) {
+                    for (std::size_t k = 0; k < n; ++k) {
+                      double reach = 0.0;
+                      if (reach_a != nullptr) reach += static_cast<double>(reach_a[slots_a[k]]);
+                      if (reach_b != nullptr) reach += static_cast<double>(reach_b[slots_b[k]]) * ratio;
+                      reach = reach / scale + extra;
+                      const double upper = static_cast<double>(bounds.upper[k]) / scale;
+                      if (KeepsSmallest<C> && upper - reach < bound) {
+                        const PrimitiveId i = a.primitive(slots_a[k]), j = b.primitive(slots_b[k]);
+                        if (pair_test.admits(i, j)) bound = std::min(bound, upper - pair_test.threshold(i, j));
+                      }
+                      const double lower = static_cast<double>(bounds.lower[k]) / scale - reach;
+                      if (lower <= bound) candidates_.push_back({slots_a[k], slots_b[k], lower});
+                    }
+                    if (!KeepsSmallest<C> || candidates_.size() >= most_candidates) settle();
+                    return a.scaled(bound + extra);
+                  });
+    }
+    settle();
+    if constexpr (KeepsSmallest<C> && requires { collector.hit()->first; })
+      if (collector.hit()) witnesses.remember(*collector.hit(), a.placement, b.placement);
+  }
+
+ private:
+  struct Candidate {
+    std::uint32_t slot_a, slot_b;
+    double lower;  // of d - M, model unit
+  };
+  static constexpr std::size_t most_candidates = 1024;
+
+  ClosestFinder<P> finder_;
+  std::vector<PartPair> pairs_;
+  std::vector<Candidate> candidates_;
+};
+
+}  // namespace hinge::detail

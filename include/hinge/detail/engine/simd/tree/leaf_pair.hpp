@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// TransformedLeaf: a leaf's primitives brought into another tree's frame. LeafPair: such a leaf and one of that tree.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "hinge/detail/engine/simd/tree/relative_transform.hpp"
+#include "hinge/detail/engine/simd/tree/tree_parts.hpp"
+#include "hinge/detail/primitive/leaf.hpp"
+
+namespace hinge::detail {
+
+template <Primitive P>
+class TransformedLeaf {
+ public:
+  /// y: the box of a leaf of `from`; `turn` brings what is in that tree to another one.
+  [[gnu::always_inline]] TransformedLeaf(const TreeParts<P>& from, BoxId y, const Turn& turn) noexcept
+      : leaf_(from.store.leaf(y)),
+        real_(from.store.real[leaf_]),
+        error_(turn.point_error),
+        reach_(from.leaf_reach(leaf_)),
+        turned_(from.leaf(leaf_), {turn.rotation, turn.size, turn.translation}) {
+    // Reaches are in the unit of the tree they come from.
+    if (reach_ != nullptr && turn.ratio != 1.0F) {
+      for (std::size_t k = 0; k < simd::width; ++k) scaled_[k] = reach_[k] * turn.ratio;
+      reach_ = scaled_.data();
+    }
+  }
+  TransformedLeaf(const TransformedLeaf&) = delete;
+  TransformedLeaf& operator=(const TransformedLeaf&) = delete;
+
+  /// Lanes that may come within the margin of a box, which holds the reaches of what is inside.
+  [[gnu::always_inline]] simd::Bits near_box(const TreeBox& box, float margin) const noexcept {
+    return turned_.near_box(box.middle, box.half, Nearness{margin, error_, nullptr, reach_}) & real_;
+  }
+  simd::Bits real() const noexcept { return real_; }
+  const float* reach() const noexcept { return reach_; }
+  float error() const noexcept { return error_; }
+  std::uint32_t slot(std::size_t k) const noexcept { return static_cast<std::uint32_t>(leaf_ * simd::width + k); }
+  const typename Leaf<P>::Turned& turned() const noexcept { return turned_; }
+
+ private:
+  std::uint32_t leaf_;
+  simd::Bits real_;
+  float error_;
+  const float* reach_;
+  alignas(64) std::array<float, simd::width> scaled_;  // unless all reaches are 0 or in the same unit
+  typename Leaf<P>::Turned turned_;
+};
+
+template <Primitive P>
+class LeafPair {
+ public:
+  /// x is the box of a leaf of `own`, the tree that `other` was brought to. `margin`: what counts as near beyond
+  /// reaches, unit of own.
+  [[gnu::always_inline]] LeafPair(const TreeParts<P>& own, BoxId x, const TransformedLeaf<P>& other,
+                                  float margin) noexcept
+      : own_(own),
+        other_(other),
+        leaf_(own.store.leaf(x)),
+        ones_(other.near_box(own.store.box(x), margin)),
+        near_{margin, other.error(), own.leaf_reach(leaf_), other.reach()} {}
+
+  /// Lanes of the other leaf that may be near the own leaf's box.
+  simd::Bits ones() const noexcept { return ones_; }
+  std::uint32_t leaf() const noexcept { return leaf_; }
+  std::uint32_t other_slot(std::size_t k) const noexcept { return other_.slot(k); }
+  const typename Leaf<P>::Turned& turned() const noexcept { return other_.turned(); }
+  const float* own() const noexcept { return own_.leaf(leaf_); }
+  simd::Bits real() const noexcept { return own_.store.real[leaf_]; }
+  const Nearness& nearness() const noexcept { return near_; }
+  void set_margin(float margin) noexcept { near_.margin = margin; }
+
+ private:
+  const TreeParts<P>& own_;
+  const TransformedLeaf<P>& other_;
+  std::uint32_t leaf_;
+  simd::Bits ones_;
+  Nearness near_;
+};
+
+}  // namespace hinge::detail

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// TreeOperand: one of the two models of a query through trees.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "hinge/core/id.hpp"
+#include "hinge/detail/bounds/float_box.hpp"
+#include "hinge/detail/engine/simd/tree/relative_transform.hpp"
+#include "hinge/detail/engine/simd/tree/tree_parts.hpp"
+#include "hinge/detail/engine/simd/tree/tree_state.hpp"
+#include "hinge/detail/query/pair_rules.hpp"
+#include "hinge/model/placement.hpp"
+
+namespace hinge::detail {
+
+/// One of two models in a query, as far as it is asked: trees, coordinates and extra clearance of its groups.
+template <Primitive P>
+struct TreeOperand {
+  TreeState<P>& state;
+  Placement<P>& placement;
+  std::span<const double> clearance;
+
+  /// A link's.
+  const TreePart& part(std::size_t p) const noexcept { return state.parts().links.parts[p]; }
+  double clearance_at(const TreePart& part) const noexcept { return clearance_of(clearance, id<GroupId>(part.group)); }
+  double clearance_at(std::size_t p) const noexcept { return clearance_at(part(p)); }
+  double largest_clearance() const noexcept {
+    double most = 0.0;
+    for (const double c : clearance) most = std::max(most, c);
+    return most;
+  }
+  PrimitiveId primitive(std::uint32_t slot) const noexcept { return id<PrimitiveId>(state.parts().store.slots[slot]); }
+  RelativeTransform turn(const TreePart& a, const TreeOperand& other, const TreePart& b) const noexcept {
+    return {state.frame(a.group),       state.parts().scale,       a.extent,
+            other.state.frame(b.group), other.state.parts().scale, b.extent};
+  }
+  /// A length in the trees' unit, with room for the rounding of sums of a few such numbers.
+  float scaled(double length) const noexcept {
+    const double there = length * state.parts().scale;
+    return float_above(there + std::abs(there) * 0x1p-20);
+  }
+};
+
+}  // namespace hinge::detail

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// TreeSide: one model in the tree half of engine/simd, and the queries that walk its trees.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "hinge/core/id.hpp"
+#include "hinge/detail/engine/simd/tree/closest_search.hpp"
+#include "hinge/detail/engine/simd/tree/cross_operands.hpp"
+#include "hinge/detail/engine/simd/tree/learned_order.hpp"
+#include "hinge/detail/engine/simd/tree/near_search.hpp"
+#include "hinge/detail/engine/simd/tree/pair_numbers.hpp"
+#include "hinge/detail/engine/simd/tree/tree_operand.hpp"
+#include "hinge/detail/engine/simd/tree/tree_parts.hpp"
+#include "hinge/detail/engine/simd/tree/tree_state.hpp"
+#include "hinge/detail/engine/simd/tree/witnesses.hpp"
+#include "hinge/model/placement.hpp"
+#include "hinge/policy/collector.hpp"
+#include "hinge/query/query_options.hpp"
+
+namespace hinge::detail {
+
+/// One model and its scratch. Counts are of sixteen lanes each. A query's PairTest is a TreePairTest.
+template <Primitive P>
+class TreeSide {
+ public:
+  explicit TreeSide(std::shared_ptr<const TreeParts<P>> parts)
+      : state_(std::move(parts)), cross_order_(state_.parts().links.size()), asked_(state_.parts().links.size()) {
+    near_.reserve(2 * state_.parts().depth);
+    closest_.reserve(2 * state_.parts().depth);
+    // So that queries of usual models never allocate.
+    const std::size_t n = state_.parts().links.size();
+    closest_.reserve_pairs(std::min<std::size_t>(n * n / 2, 1U << 16U));
+  }
+
+  template <Collector C, class PairTest>
+  void self_query(Placement<P>& placement, const PairTest& pair_test, C& collector, const QueryOptions& options,
+                  QueryCounts& counts) {
+    state_.refresh(placement);
+    const TreeOperand<P> mine{state_, placement, options.clearance};
+    const auto wanted = [&](const TreePart& a, const TreePart& b) {
+      return !options.moved_only || placement.moved_apart(id<GroupId>(a.group), id<GroupId>(b.group));
+    };
+    const double most = mine.largest_clearance();
+    if constexpr (C::ranks) {
+      const PlacedParts& placed = state_.links();
+      const std::size_t n = placed.set().size();
+      closest_.run(
+          mine, mine, near_, witnesses_, pair_test, collector, counts, [&](double bound, std::vector<PartPair>& pairs) {
+            for (std::size_t p = 1; p < n; ++p)
+              placed.append_before(p, mine.scaled(bound + mine.clearance_at(p) + most), pairs);
+            counts.boxes_tested += n * placed.row_count() / 2;
+            std::erase_if(pairs,
+                          [&](const PartPair& pair) { return !wanted(mine.part(pair.first), mine.part(pair.second)); });
+          });
+    } else {
+      PlacedParts& placed = RefusesLinks<C> ? state_.links() : state_.merged();
+      const std::vector<TreePart>& parts = placed.set().parts;
+      const auto look = [&](std::size_t q, std::size_t p) {
+        near_.run(mine, parts[q], mine, parts[p], collector.cutoff(), pair_test, collector, counts);
+        return !collector.done();
+      };
+      counts.boxes_tested += parts.size() * placed.row_count() / 2;
+      const auto margin = [&](std::size_t p) {
+        return mine.scaled(collector.cutoff() + mine.clearance_at(parts[p]) + most);
+      };
+      if (RefusesLinks<C> || !StopsAtFirst<C> || !order_.is_learned())
+        return placed.sweep(
+            margin, [&](std::uint32_t q, std::uint32_t p) { return !wanted(parts[q], parts[p]) || look(q, p); });
+      order_.start();
+      placed.sweep(margin, [&](std::uint32_t q, std::uint32_t p) {
+        if (wanted(parts[q], parts[p])) order_.mark(numbers_.of(q, p));
+        return true;
+      });
+      order_.each([&](std::size_t pair) { return look(numbers_.parts(pair)[0], numbers_.parts(pair)[1]); });
+    }
+  }
+
+  /// Adds the present state to what the order of yes/no queries is learned from; `any` is the pair_test's collector.
+  template <Collector C, class PairTest>
+  void learn(Placement<P>& placement, const PairTest& pair_test, C& any) {
+    const PartSet& set = state_.parts().merged();
+    if (set.size() > most_ordered) return;
+    if (!order_.is_learned()) {
+      numbers_ = PairNumbers(set.tested, set.size());
+      order_ = LearnedOrder(numbers_.size());
+    }
+    state_.refresh(placement);
+    const TreeOperand<P> mine{state_, placement, {}};
+    state_.merged().sweep([](std::size_t) { return 0.0F; },
+                          [&](std::uint32_t q, std::uint32_t p) {
+                            any = C{};
+                            QueryCounts counts;
+                            near_.run(mine, set.parts[q], mine, set.parts[p], 0.0, pair_test, any, counts);
+                            order_.add(numbers_.of(q, p), any.done(), counts.boxes_tested + counts.pairs_tested);
+                            return true;
+                          });
+  }
+  /// The same for queries against other models: in which order the parts of this one are tried.
+  template <Collector C, class PairTest>
+  void learn(Placement<P>& placement, TreeSide& theirs, Placement<P>& their_placement, const PairTest& pair_test,
+             C& any) {
+    const CrossOperands<P> cross(state_, placement, theirs.state_, their_placement, {});
+    near_.reserve(state_.parts().depth + theirs.state_.parts().depth);
+    for (std::size_t q = 0; q < theirs.state_.parts().links.size(); ++q)
+      each_meeting<C>(cross, pair_test, q, 0.0F, [&](std::size_t p, const TreePart& part) {
+        any = C{};
+        QueryCounts counts;
+        near_.run(cross.mine, part, cross.others, cross.others.part(q), 0.0, pair_test, any, counts);
+        cross_order_.add(p, any.done(), counts.boxes_tested + counts.pairs_tested);
+        return true;
+      });
+  }
+
+  /// Are the units of the two alike enough for floats to hold both?
+  bool fits(const TreeSide& theirs) const noexcept {
+    const double ratio = state_.parts().scale / theirs.state_.parts().scale;
+    return ratio >= 0x1p-60 && ratio <= 0x1p60;
+  }
+
+  /// Between two models.
+  template <Collector C, class PairTest>
+  void query(Placement<P>& placement, TreeSide& theirs, Placement<P>& their_placement, const PairTest& pair_test,
+             C& collector, const QueryOptions& options, QueryCounts& counts) {
+    const CrossOperands<P> cross(state_, placement, theirs.state_, their_placement, options);
+    const TreeOperand<P>&mine = cross.mine, &others = cross.others;
+    const std::size_t depth = state_.parts().depth + theirs.state_.parts().depth;
+    near_.reserve(depth);
+    closest_.reserve(depth);
+    const std::size_t n = theirs.state_.parts().links.size();
+    const double most = mine.largest_clearance();
+    if constexpr (C::ranks) {
+      if (witnessed_.lock() != theirs.state_.shared_parts()) cross_witnesses_.clear();
+      witnessed_ = theirs.state_.shared_parts();
+      closest_.run(mine, others, near_, cross_witnesses_, pair_test, collector, counts,
+                   [&](double bound, std::vector<PartPair>& pairs) {
+                     for (std::size_t q = 0; q < n; ++q)
+                       state_.links().append_near(cross.their_box(q),
+                                                  mine.scaled(bound + others.clearance_at(q) + most), q, pairs);
+                     counts.boxes_tested += n * state_.links().row_count();
+                     std::erase_if(pairs, [&](const PartPair& pair) {
+                       return !cross.wanted(pair_test, pair.first, pair.second);
+                     });
+                   });
+    } else {
+      const bool in_order = StopsAtFirst<C> && cross_order_.is_learned();
+      for (std::size_t q = 0; q < n && !collector.done(); ++q) {
+        counts.boxes_tested += state_.links().row_count();
+        const float margin = mine.scaled(collector.cutoff() + others.clearance_at(q) + most);
+        const auto look = [&](const TreePart& part) {
+          near_.run(mine, part, others, others.part(q), collector.cutoff(), pair_test, collector, counts);
+          return !collector.done();
+        };
+        if (!in_order) {
+          each_meeting<C>(cross, pair_test, q, margin, [&](std::size_t, const TreePart& part) { return look(part); });
+          continue;
+        }
+        cross_order_.start();
+        each_meeting<C>(cross, pair_test, q, margin, [&](std::size_t p, const TreePart& part) {
+          cross_order_.mark(p);
+          asked_[p] = &part;
+          return true;
+        });
+        cross_order_.each([&](std::size_t p) { return look(*asked_[p]); });
+      }
+    }
+  }
+
+ private:
+  /// visit(p, part) -> go on? for the parts whose boxes come within `margin` of that of part q of the other model.
+  /// Where there are several of one group, and nothing asks for links one by one, they are visited once, as one: the
+  /// first.
+  template <Collector C, class PairTest, class Visit>
+  void each_meeting(const CrossOperands<P>& cross, const PairTest& pair_test, std::size_t q, float margin,
+                    const Visit& visit) {
+    const std::vector<TreePart>& parts = state_.parts().links.parts;
+    const auto met = state_.links().meeting(cross.their_box(q).grown(margin));
+    const auto wanted = [&](std::size_t p) { return cross.wanted(pair_test, p, q); };
+    for (std::size_t k = 0; k < met.size();) {
+      const std::size_t p = met[k++];
+      const std::uint32_t group = parts[p].group;
+      const TreePart& whole = state_.parts().whole[group];
+      if (!RefusesLinks<C> && whole.root_size > 0.0F && k < met.size() && parts[met[k]].group == group) {
+        std::size_t first = p, last = p + 1;
+        while (first > 0 && parts[first - 1].group == group) --first;
+        while (last < parts.size() && parts[last].group == group) ++last;
+        bool all = true;
+        for (std::size_t other = first; other < last; ++other) all = all && wanted(other);
+        if (all) {
+          while (k < met.size() && parts[met[k]].group == group) ++k;
+          if (!visit(p, whole)) return;
+          continue;
+        }
+      }
+      if (wanted(p) && !visit(p, parts[p])) return;
+    }
+  }
+
+  /// Parts: the order of pairs takes the square of it in memory.
+  static constexpr std::size_t most_ordered = 1024;
+
+  TreeState<P> state_;
+  NearSearch<P> near_;
+  ClosestSearch<P> closest_;
+  PairNumbers numbers_;                 // once an order is learned
+  LearnedOrder order_{0};               // of tested pairs
+  LearnedOrder cross_order_;            // of parts
+  std::vector<const TreePart*> asked_;  // scratch: for a part, itself or all of its group
+  Witnesses<P> witnesses_, cross_witnesses_;
+  std::weak_ptr<const TreeParts<P>> witnessed_;  // whose pairs cross_witnesses_ holds
+};
+
+/// Nothing of the trees is compiled for primitives that are never kept in them.
+template <Primitive P>
+using OptionalTreeSide = std::optional<std::conditional_t<UsesStaticBvh<P>, TreeSide<P>, std::monostate>>;
+
+}  // namespace hinge::detail

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The SIMD engine: sixteen pairs at a time in float; pairs that floats cannot rule out are decided in double.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "hinge/core/id.hpp"
+#include "hinge/detail/engine/simd/broad_phase.hpp"
+#include "hinge/detail/engine/simd/fallback_bvh.hpp"
+#include "hinge/detail/engine/simd/measure.hpp"
+#include "hinge/detail/engine/simd/narrow_phase.hpp"
+#include "hinge/detail/engine/simd/pair_test.hpp"
+#include "hinge/detail/engine/simd/simd_side.hpp"
+#include "hinge/detail/engine/simd/simd_sides.hpp"
+#include "hinge/detail/engine/simd/tree/tree_pair_test.hpp"
+#include "hinge/detail/engine/simd/tree/tree_side.hpp"
+#include "hinge/detail/engine/simd/work_budget.hpp"
+#include "hinge/detail/query/pair_rules.hpp"
+#include "hinge/detail/query/test_pair.hpp"
+#include "hinge/engine/engine.hpp"
+#include "hinge/model/placement.hpp"
+#include "hinge/query/query_options.hpp"
+
+namespace hinge {
+
+/// A rigid group of sixteen primitives or more keeps blocks in its own frame, with a tree above them when it is large;
+/// smaller groups share blocks that are refitted. Entries are placed along the chain and swept against earlier ones,
+/// and candidates are tested one against sixteen. Floats only prove that pairs are apart. Where boxes or floats are too
+/// coarse for that, the query goes on through a BVH in double precision.
+template <Primitive P, PairFilter F, DistanceMatrix D>
+class Simd {
+  using Side = detail::SimdSide<P>;
+
+ public:
+  Simd(std::shared_ptr<const SelectedModel<P>> model, F filter, D matrix)
+      : placement_(model), filter_(std::move(filter)), matrix_(std::move(matrix)), sides_(*model, matrix_) {
+    if constexpr (detail::UsesStaticBvh<P>)
+      trees_.emplace(std::make_shared<const detail::TreeParts<P>>(*model, filter_, matrix_));
+    else
+      present_side(true);
+  }
+
+  Placement<P>& placement() noexcept { return placement_; }
+  const Placement<P>& placement() const noexcept { return placement_; }
+
+  template <Collector C>
+  void self_query(C& collector, const QueryOptions& options) {
+    detail::WorkBudget budget;
+    const detail::SelfRules<P, F, D> rules{placement_, filter_, matrix_, options};
+    if constexpr (detail::UsesStaticBvh<P>)
+      if (by_trees()) {
+        trees_->self_query(placement_, tree_pair_test(collector, rules), collector, options, budget.counts);
+        return budget.report(options.counts);
+      }
+    Side& side = present_side(without_margin(collector, options));
+    side.begin(placement_, options.moved_only, options.clearance);
+    const detail::SelfPairTest test_pair{
+        collector, rules, [&](PrimitiveId first, PrimitiveId second) { return rules.admits(first, second); }};
+    if constexpr (C::ranks) {
+      // The pair that was closest last time bounds the answer from the start; it is no part of the answer by itself.
+      if (witness_)
+        test_pair(witness_->first, witness_->second, side.exact(witness_->first, placement_),
+                  side.exact(witness_->second, placement_));
+    }
+    const detail::BlockLayout& layout = side.layout();
+    budget.blocks_in = layout.block_count();
+    begin();
+    const auto listed_margin = [&] { return thresholds_.margin(); };
+    const detail::Identity<P> as_is;
+    const auto run_listed = [&] { run(side, side, placement_, side.table(), as_is, test_pair, budget); };
+    std::size_t patience = 1;
+    float extent = -1.0F;
+    double cutoff = 0.0;
+    std::size_t u = side.state().first_entry();
+    for (; u < layout.entries.size() && !collector.done() && !budget.is_too_much(); ++u) {
+      side.refresh(u, placement_);
+      if (u < layout.static_entries) continue;
+      // Margins depend on the size of what was placed so far, in powers of two, and on the cutoff.
+      if (side.state().extent() != extent || collector.cutoff() != cutoff) {
+        extent = side.state().extent();
+        cutoff = collector.cutoff();
+        set_thresholds(side, side, side.table(), as_is, cutoff);
+      }
+      if (!broad_phase_.within(side, u, placement_, listed_margin, budget.counts,
+                               relief(run_listed, collector, budget)))
+        break;
+      broad_phase_.resume_point.reach(u + 1);
+      // Soon at first: a hit at the root saves placing the rest. Then in longer runs, which cost less.
+      if (broad_phase_.candidates.size() < patience) continue;
+      patience = std::min(2 * patience, longest_run);
+      run_listed();
+    }
+    if (!collector.done()) run_listed();
+    if (u < layout.entries.size() && !collector.done()) {
+      search_.place(layout, placement_, matrix_, options.clearance);
+      const auto placed = placement_.placed();
+      const detail::SelfPairTest rest{collector, rules, [&](PrimitiveId first, PrimitiveId second) {
+                                        return !broad_phase_.resume_point.passed(layout, first, second) &&
+                                               rules.admits(first, second);
+                                      }};
+      search_.within([&] { return collector.cutoff(); },
+                     [&](PrimitiveId i, PrimitiveId j) {
+                       rest(i, j, placed[index(i)], placed[index(j)]);
+                       return !collector.done();
+                     },
+                     budget.searched);
+    }
+    if constexpr (C::ranks && requires { collector.hit()->first; })
+      if (collector.hit()) witness_.emplace(collector.hit()->first, collector.hit()->second);
+    budget.report(options.counts);
+  }
+
+  /// Learns, from the present state and those of earlier calls, in which order a yes/no query tries pairs of links.
+  /// Answers stay the same; only models that are kept in trees have such an order.
+  void calibrate_pair_order() {
+    if constexpr (detail::UsesStaticBvh<P>) {
+      if (!by_trees()) return;
+      AnyHit any;
+      const QueryOptions options;
+      const detail::SelfRules<P, F, D> rules{placement_, filter_, matrix_, options};
+      trees_->learn(placement_, tree_pair_test(any, rules), any);
+    }
+  }
+  /// The same for queries against other models, of which this one stands for all: the order of this model's links.
+  template <PairFilter G>
+  requires CrossMatrix<D>
+  void calibrate_pair_order(Simd& other, const G& across) {
+    if constexpr (detail::UsesStaticBvh<P>) {
+      if (!by_trees_with(other)) return;
+      AnyHit any;
+      const QueryOptions options;
+      const detail::CrossRules<P, G, D> rules{placement_, other.placement_, across, matrix_, other.matrix_, options};
+      trees_->learn(placement_, *other.trees_, other.placement_, tree_pair_test(any, rules), any);
+    }
+  }
+
+  /// `across` admits (primitive of this, primitive of other).
+  template <Collector C, PairFilter G>
+  requires CrossMatrix<D>
+  void query(Simd& other, const G& across, C& collector, const QueryOptions& options) {
+    detail::WorkBudget budget;
+    const detail::CrossRules<P, G, D> rules{placement_, other.placement_, across, matrix_, other.matrix_, options};
+    if constexpr (detail::UsesStaticBvh<P>)
+      if (by_trees_with(other)) {
+        trees_->query(placement_, *other.trees_, other.placement_, tree_pair_test(collector, rules), collector, options,
+                      budget.counts);
+        return budget.report(options.counts);
+      }
+    const detail::CrossPairTest test_pair{collector, rules};
+    // Compatible tables of types are alike; of other matrices nothing is known but that no threshold is above 0.
+    const bool skip_never_colliding =
+        without_margin(collector, options) &&
+        (TypedThresholdMatrix<D> || (sides_.all_never_collide() && other.sides_.all_never_collide()));
+    Side &mine = present_side(skip_never_colliding), &theirs = other.present_side(skip_never_colliding);
+    mine.begin(placement_, false, options.clearance);
+    theirs.begin(other.placement_, false, options.other_clearance);
+    for (std::size_t u = mine.state().first_entry(); u < mine.layout().entries.size(); ++u) mine.refresh(u, placement_);
+    for (std::size_t u = theirs.state().first_entry(); u < theirs.layout().entries.size(); ++u)
+      theirs.refresh(u, other.placement_);
+    const detail::CrossModelTransform<P> into(mine, theirs);
+    begin();
+    const detail::ThresholdTable table = mine.parts().classes.table(theirs.parts().classes, theirs.layout().scale);
+    set_thresholds(mine, theirs, table, into, collector.cutoff());
+    const std::size_t entries = mine.layout().entries.size();
+    budget.blocks_in = mine.layout().block_count() + theirs.layout().block_count();
+    const auto run_listed = [&] { run(mine, theirs, other.placement_, table, into, test_pair, budget); };
+    std::size_t u = 0;
+    for (; into.holds() && u < entries && !collector.done() && !budget.is_too_much(); ++u) {
+      if (!broad_phase_.across(
+              mine, u, placement_, theirs, other.placement_, into, [&] { return thresholds_.margin(); },
+              options.moved_only, budget.counts, relief(run_listed, collector, budget)))
+        break;
+      broad_phase_.resume_point.reach(u + 1);
+      run_listed();
+    }
+    if (!collector.done()) run_listed();
+    if (u < entries && !collector.done()) {
+      search_.place(mine.layout(), placement_, matrix_, options.clearance);
+      other.search_.place(theirs.layout(), other.placement_, other.matrix_, options.other_clearance);
+      search_.across(
+          other.search_, [&] { return collector.cutoff(); },
+          [&](PrimitiveId i, PrimitiveId j) {
+            if (!broad_phase_.resume_point.passed(mine.layout(), i, theirs.layout(), j))
+              test_pair(i, j, placement_.placed()[index(i)], other.placement_.placed()[index(j)]);
+            return !collector.done();
+          },
+          budget.searched);
+    }
+    budget.report(options.counts);
+  }
+
+ private:
+  void begin() noexcept {
+    broad_phase_.candidates.clear();
+    broad_phase_.resume_point.reach(0);
+    visits_ = 0;
+  }
+
+  template <class Run, Collector C>
+  auto relief(const Run& run_listed, const C& collector, const detail::WorkBudget& budget) {
+    return [&] {
+      if (broad_phase_.candidates.size() >= longest_list) run_listed();
+      return !collector.done() && !budget.is_too_much();
+    };
+  }
+
+  /// Does the query ask for collisions alone, so that primitives whose thresholds are all 0 take no part?
+  template <Collector C>
+  static bool without_margin(const C& collector, const QueryOptions& options) noexcept {
+    return IsPointLike<P> && asks_collisions(collector) && !options.adds_clearance();
+  }
+
+  /// Are the trees up to the present coordinates? They cannot hold groups that deform.
+  bool by_trees() const noexcept { return trees_.has_value() && !placement_.groups_may_deform(); }
+  bool by_trees_with(const Simd& other) const noexcept {
+    return by_trees() && other.by_trees() && trees_->fits(*other.trees_);
+  }
+
+  Side& present_side(bool without_margin) { return sides_.present(placement_, filter_, matrix_, without_margin); }
+
+  /// Thresholds grow, as boxes do, so that floats lose no pair with d - M <= cutoff. Extra clearances come on top, per
+  /// pair.
+  template <class Convert>
+  void set_thresholds(const Side& one, const Side& sixteen, const detail::ThresholdTable& table, const Convert& convert,
+                      double cutoff) noexcept {
+    thresholds_.set(table,
+                    detail::float_above(cutoff * sixteen.layout().scale + convert.band(one, sixteen, table, cutoff)));
+  }
+
+  /// Runs the listed candidates: lanes of `one` against blocks of `sixteen`; what floats cannot rule out goes to
+  /// `test_pair`.
+  template <class Convert, class TestPair>
+  void run(Side& one, Side& sixteen, Placement<P>& placement_of_sixteen, const detail::ThresholdTable& table,
+           const Convert& convert, const TestPair& test_pair, detail::WorkBudget& budget) {
+    auto& collector = test_pair.collector;
+    constexpr bool may_measure = detail::MeasuresDistances<P> && !std::remove_reference_t<decltype(collector)>::ranks;
+    detail::Measure measure;
+    if (may_measure && test_pair.rules.options.precision != Precision::exact)
+      measure = detail::Measure(one, sixteen, table, thresholds_, convert, collector.cutoff());
+    budget.counts.pairs_tested += broad_phase_.candidates.size();
+    narrow_phase<P>(
+        broad_phase_.candidates, one, sixteen, convert, thresholds_,
+        [&](std::uint32_t at_one, std::uint32_t at_sixteen, detail::simd::Bits bits,
+            const detail::simd::Float16& squared) __attribute__((always_inline)) {
+          const std::uint32_t own = detail::slot<P>(at_one), first = detail::slot<P>(at_sixteen);
+          const auto i = id<PrimitiveId>(one.layout().primitive[own]);
+          const std::uint32_t* const others = sixteen.layout().primitive.data() + first;
+          const auto go_on = [&, before = collector.cutoff()] {
+            if (collector.cutoff() != before) set_thresholds(one, sixteen, table, convert, collector.cutoff());
+            return !collector.done();
+          };
+          if constexpr (may_measure)
+            if (measure.holds()) {
+              budget.counts.undecided += measure(i, others, bits, squared, test_pair);
+              return go_on();
+            }
+          // For the first few only what they need is placed: often one of them answers the question.
+          const bool few = visits_ < placed_alone;
+          visits_ += few;
+          constexpr auto n = static_cast<std::uint32_t>(detail::simd::width);
+          const std::uint32_t b = own / n, a = first / n;
+          const detail::simd::Bits alone = detail::simd::Bits{1} << own % n;
+          const P& p = (few ? one.state().exact(b, alone, placement_) : one.state().exact(b, placement_))[own % n];
+          const P* const q = few ? sixteen.state().exact(a, bits, placement_of_sixteen)
+                                 : sixteen.state().exact(a, placement_of_sixteen);
+          for (; bits != 0 && !collector.done(); bits &= bits - 1) {
+            const int k = std::countr_zero(bits);
+            ++(test_pair(i, id<PrimitiveId>(others[k]), p, q[k]) ? budget.hits : budget.misses);
+          }
+          return go_on();
+        });
+    broad_phase_.candidates.clear();
+  }
+
+  static constexpr std::size_t placed_alone = 4;  // candidates with hits whose primitives are placed one by one
+  static constexpr std::size_t longest_run = 16 * detail::simd::width;  // candidates listed before they are run
+  /// CandidateList that a large entry lists at a time: as many as second-level caches hold, whatever the entry's size.
+  static constexpr std::size_t longest_list = 16 * longest_run;
+
+  Placement<P> placement_;
+  F filter_;
+  D matrix_;
+  detail::OptionalTreeSide<P> trees_;
+  detail::SimdSides<P> sides_;
+  detail::BroadPhase<P> broad_phase_;  // scratch
+  std::size_t visits_ = 0;             // scratch: candidates decided so far in a query, up to placed_alone
+  detail::Thresholds16 thresholds_;    // scratch: of the present margin
+  detail::FallbackBvh search_;         // scratch
+  std::optional<std::pair<PrimitiveId, PrimitiveId>> witness_;
+};
+
+}  // namespace hinge

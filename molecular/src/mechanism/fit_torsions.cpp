@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Dihedral angles against the reference's, and the closest rotation.
+#include "hinge/molecular/fit_torsions.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+
+#include "hinge/core/error.hpp"
+
+namespace hinge::molecular {
+
+namespace {
+
+constexpr double whole_turn = 2.0 * std::numbers::pi;
+
+Vec3 centre(std::span<const Vec3> positions) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& position : positions) sum += position;
+  return sum / static_cast<double>(positions.size());
+}
+
+/// The rotation about their centres that brings `moved` closest to `onto`: the quaternion of the largest eigenvalue
+/// (Horn, J. Opt. Soc. Am. A 4:629, 1987).
+Eigen::Matrix3d closest_rotation(std::span<const Vec3> moved, const Vec3& centre_moved, std::span<const Vec3> onto,
+                                 const Vec3& centre_onto) {
+  Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) m(r, c) += (moved[i][r] - centre_moved[r]) * (onto[i][c] - centre_onto[c]);
+  // In long double, which nothing vectorises: g++ 12 takes AVX-512's undefined registers for uninitialized ones.
+  Eigen::Matrix<long double, 4, 4> n;
+  n << m(0, 0) + m(1, 1) + m(2, 2), m(1, 2) - m(2, 1), m(2, 0) - m(0, 2), m(0, 1) - m(1, 0),  //
+      m(1, 2) - m(2, 1), m(0, 0) - m(1, 1) - m(2, 2), m(0, 1) + m(1, 0), m(2, 0) + m(0, 2),   //
+      m(2, 0) - m(0, 2), m(0, 1) + m(1, 0), m(1, 1) - m(0, 0) - m(2, 2), m(1, 2) + m(2, 1),   //
+      m(0, 1) - m(1, 0), m(2, 0) + m(0, 2), m(1, 2) + m(2, 1), m(2, 2) - m(0, 0) - m(1, 1);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<long double, 4, 4>> solver(n);
+  const auto q = solver.eigenvectors().col(3);
+  return Eigen::Quaternion<long double>(q[0], q[1], q[2], q[3]).toRotationMatrix().cast<double>();
+}
+
+}  // namespace
+
+double turn_of(const Molecule& molecule, std::size_t k, std::span<const Vec3> positions) {
+  const Torsion& torsion = molecule.torsions()[k];
+  const auto& a = torsion.atoms;
+  const double angle = dihedral(positions[a[0]], positions[a[1]], positions[a[2]], positions[a[3]]);
+  if (std::isnan(angle))
+    throw LoadError("torsion " + torsion.name + " about " + label(molecule.structure(), a[1]) + " - " +
+                    label(molecule.structure(), a[2]) + " is undefined: three of its atoms lie on a line");
+  const double difference = std::remainder(angle - torsion.reference, whole_turn);
+  return difference == -std::numbers::pi ? std::numbers::pi : difference;
+}
+
+std::vector<double> fit_torsions(const Molecule& molecule, const DofSelection& selection,
+                                 std::span<const Vec3> positions) {
+  std::vector<double> turns;
+  turns.reserve(selection.size());
+  for (const DofId dof : selection.dofs()) turns.push_back(turn_of(molecule, molecule.torsion_of(dof), positions));
+  return turns;
+}
+
+void take_shorter_way(std::span<const double> near, std::span<double> turns) {
+  for (std::size_t k = 0; k < turns.size(); ++k) turns[k] -= whole_turn * std::round((turns[k] - near[k]) / whole_turn);
+}
+
+std::vector<std::array<double, 6>> fit_placements(const Molecule& molecule, std::span<const Vec3> rebuilt,
+                                                  std::span<const Vec3> positions) {
+  const Structure& s = molecule.structure();
+  std::vector<std::vector<bool>> in;
+  for (const PlacedPart& placed : molecule.placed_parts()) in.push_back(atoms_in(s, placed.part));
+  std::vector<Vec3> moved, onto;
+  const auto gather = [&](const auto& wanted) {
+    moved.clear();
+    onto.clear();
+    for (std::size_t i = 0; i < s.atoms.size(); ++i) {
+      if (!wanted(i)) continue;
+      moved.push_back(rebuilt[i]);
+      onto.push_back(positions[i]);
+    }
+    return !moved.empty();
+  };
+  // From the frame of the positions to that of the rest, which stands still.
+  Eigen::Matrix3d back = Eigen::Matrix3d::Identity();
+  Vec3 from = Vec3::Zero(), to = Vec3::Zero();
+  if (gather([&](std::size_t i) {
+        return std::none_of(in.begin(), in.end(), [&](const auto& part) { return part[i]; });
+      })) {
+    from = centre(onto);
+    to = centre(moved);
+    back = closest_rotation(onto, from, moved, to);
+  }
+  std::vector<std::array<double, 6>> all;
+  for (std::size_t k = 0; k < in.size(); ++k) {
+    gather([&](std::size_t i) { return in[k][i]; });
+    for (Vec3& x : onto) x = back * (x - from) + to;
+    const Vec3 here = centre(moved), there = centre(onto), c = molecule.placed_parts()[k].centre;
+    const Eigen::Matrix3d r = closest_rotation(moved, here, onto, there);
+    const Vec3 move = r * (c - here) + there - c;
+    // r = Rx(a) Ry(b) Rz(c): each angle from what the ones before leave, which needs no b off a right angle.
+    const double a = std::atan2(-r(1, 2), r(2, 2)), sin = std::sin(a), cos = std::cos(a);
+    const double b = std::atan2(r(0, 2), cos * r(2, 2) - sin * r(1, 2));
+    const double turn = std::atan2(cos * r(1, 0) + sin * r(2, 0), cos * r(1, 1) + sin * r(2, 1));
+    all.push_back({move[0], move[1], move[2], a, b, turn});
+  }
+  return all;
+}
+
+Superposition superpose(std::span<const Vec3> moved, std::span<const Vec3> onto) {
+  const Vec3 from = centre(moved), to = centre(onto);
+  const Eigen::Matrix3d rotation = closest_rotation(moved, from, onto, to);
+  Superposition found;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const double squared = squared_norm(Vec3(rotation * (moved[i] - from) + to - onto[i]));
+    sum += squared;
+    if (squared > found.farthest * found.farthest) {
+      found.farthest = std::sqrt(squared);
+      found.atom = static_cast<std::uint32_t>(i);
+    }
+  }
+  found.rmsd = std::sqrt(sum / static_cast<double>(moved.size()));
+  return found;
+}
+
+}  // namespace hinge::molecular

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// engine/simd against brute force: random mechanisms with small, large and very large groups.
+#include "hinge/engine/simd.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "engine/side_by_side.hpp"
+
+namespace hinge {
+namespace simd_test {
+
+using test::compare_with_brute;
+using test::ExcludedPairs;
+using test::make_primitive;
+using test::Random;
+using test::UnlistedPairs;
+
+template <class P>
+class WideEquality : public testing::Test {};
+TYPED_TEST_SUITE(WideEquality, test::Primitives);
+
+TYPED_TEST(WideEquality, HoldsOnRandomMechanisms) {
+  using P = TypeParam;
+  // Brute force over curved or flat primitives takes a microsecond a pair: few large cases for them.
+  const std::uint64_t seeds = std::is_same_v<P, Point> ? 300 : 100;
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const std::size_t per_link = seed % (std::is_same_v<P, Point> ? 3 : 25) == 0 ? 60 : 6;
+    const auto model = test::random_model(random, 12, per_link, random.one_in(2), make_primitive<P>);
+    const ExcludedPairs filter(model.size(), random, 5);
+    if (random.one_in(2))
+      compare_with_brute<P, ExcludedPairs, Simd>(random, filter, model);
+    else
+      compare_with_brute<P, UnlistedPairs, Simd>(random, UnlistedPairs{filter}, model);
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+/// Fewer static primitives than a block holds, which nothing comes near until after coordinates came from elsewhere.
+TEST(Simd, KeepsStaticBlocksThroughCoordinatesFromElsewhere) {
+  ModelBuilder<Point> builder;
+  builder.add_link(world, Fixed{}, {Point{{0, 0, 0}}, Point{{0, 7, 0}}});
+  for (int k = 0; k < 8; ++k) {
+    std::vector<Point> points;
+    for (int l = 0; l < 16; ++l) points.push_back({Vec3(100 + 10 * k + 0.3 * l, 7, 0)});
+    builder.add_link(world, Prismatic{{1, 0, 0}, {}, {}}, points);
+  }
+  Hierarchy<Point, AdmitAll, UniformClearance, Simd> wide(builder.finish(), AdmitAll{}, UniformClearance(0.5));
+  std::vector<double> q(8, 0.0);
+  wide.update(q);
+  EXPECT_FALSE(wide.self_collides());
+  std::vector<Point> elsewhere(wide.placed().begin(), wide.placed().end());
+  for (Point& p : elsewhere) p.position *= 3;
+  wide.update_placed(elsewhere);
+  EXPECT_FALSE(wide.self_collides());
+  q[5] = 1;
+  wide.update(q);
+  EXPECT_FALSE(wide.self_collides());
+  q[0] = -100.1;  // one value of eight: what stood still is not looked at again
+  wide.update(q);
+  EXPECT_EQ(wide.self_collisions().size(), 2U);
+}
+
+/// A square of points an entry apart, each on a slider of its own; its diagonals are of no interest.
+Model<Point> square() {
+  ModelBuilder<Point> builder;
+  for (const Vec3& x : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)})
+    builder.add_link(world, Prismatic{{1, 0, 0}, {}, {}}, {Point{x}});
+  return builder.finish();
+}
+
+TEST(WideInFloat, LeavesOpenWhatIsAtItsThresholdAndCountsIt) {
+  const ExcludedPairs one_side({{id<PrimitiveId>(1)}, {id<PrimitiveId>(0)}, {}, {}});
+  // Sides are 1 long: pairs of types 0 and 0 are at their threshold, of 1 and 1 far below it, of 0 and 1 above.
+  const TypedThresholds thresholds({0, 0, 0, 1}, 2, {1.0, 0.5, 0.5, 3.0});
+  Hierarchy wide(square(), one_side, thresholds);
+  const auto ask = [&](Precision precision, double margin) {
+    QueryCounts counts;
+    QueryOptions options;
+    options.precision = precision;
+    options.counts = &counts;
+    return std::pair(wide.self_within(margin, options).size(), counts.undecided);
+  };
+  using Answer = std::pair<std::size_t, std::uint64_t>;
+  EXPECT_EQ(ask(Precision::exact, 0.0), Answer(0, 0));
+  EXPECT_EQ(ask(Precision::never_miss, 0.0), Answer(1, 1));  // 1 and 2; the filter does not admit 0 and 1
+  EXPECT_EQ(ask(Precision::never_cry_wolf, 0.0), Answer(0, 1));
+  EXPECT_EQ(ask(Precision::exact, 0x1p-30), Answer(1, 0));
+  EXPECT_EQ(ask(Precision::never_cry_wolf, 0x1p-30), Answer(0, 1));
+  // Far above what floats resolve, where the sides of types 0 and 1 are at their threshold.
+  EXPECT_EQ(ask(Precision::exact, 0.5), Answer(2, 0));
+  EXPECT_EQ(ask(Precision::never_miss, 0.5), Answer(4, 2));
+  EXPECT_EQ(ask(Precision::never_cry_wolf, 0.5), Answer(2, 2));
+}
+
+TEST(WideInFloat, NeverHitsAtAThresholdOfZero) {
+  Hierarchy wide(square(), AdmitAll{}, TypedThresholds({0, 0, 0, 1}, 2, {0.0, 0.0, 0.0, 1.0}));
+  wide.update_placed(std::vector<Point>(4));
+  QueryCounts counts;
+  QueryOptions options;
+  options.precision = Precision::never_miss;
+  options.counts = &counts;
+  EXPECT_TRUE(wide.self_collisions(options).empty());
+  EXPECT_EQ(counts.undecided, 0U);
+}
+
+}  // namespace simd_test
+}  // namespace hinge
