@@ -74,7 +74,7 @@ Exit run(int argc, char** argv) {
   biocd::add_model_options(*check, o);
   biocd::add_check_options(*check, o);
   check->add_option("TRAJECTORY", o.trajectories,
-                    "conformations instead of the file's own: DCD, XTC, .npy, PDB, mmCIF");
+                    "conformations instead of the file's own: DCD, XTC, .npy, PDB, mmCIF, plain or .gz");
   check->callback([&] { command = biocd::run_check; });
 
   CLI::App* sample = app.add_subcommand("sample", "random conformations of the free torsions, each checked");
@@ -126,7 +126,7 @@ Exit run(int argc, char** argv) {
   path->callback([&] { command = biocd::run_path; });
 
   CLI::App* demo = app.add_subcommand("demo", "the main job on one protein: sample, time, verify, draw");
-  demo->add_option("FILE", o.file, "PDB or mmCIF file")->required();
+  demo->add_option("FILE", o.file, "PDB or mmCIF file, plain or .gz")->required();
   demo->add_option("--out", o.out, "folder for the plot and the viewer scripts")->required();
   add_number(*demo, "-n,--count", o.count, counts, "conformations per row");
   add_number(*demo, "--seed", o.seed, seeds, "seed");

@@ -27,10 +27,10 @@ void add_model_options(CLI::App& command, Options& o) {
   command.add_flag("--keep-hbonds", o.keep_hydrogen_bonds,
                    "hydrogen bonds of the backbone (Kabsch & Sander) are closures");
   command
-      .add_option(
-          "--rigid-from", o.rigid_from,
-          "conformations (DCD, XTC, .npy, PDB, mmCIF): torsions inside groups that these keep rigid stay at their "
-          "reference (repeatable)")
+      .add_option("--rigid-from", o.rigid_from,
+                  "conformations (DCD, XTC, .npy, PDB, mmCIF, plain or .gz): torsions inside groups that these keep "
+                  "rigid stay at their "
+                  "reference (repeatable)")
       ->allow_extra_args(false);
   add_number(command, "--rigid-tolerance", o.rigid_tolerance, lengths_above_0,
              "by how much distances inside a rigid group may vary: standard deviation, angstrom");

@@ -2,7 +2,6 @@
 #include "hinge/molecular/read_structure.hpp"
 
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -19,6 +18,7 @@
 namespace hinge::molecular {
 namespace read_structure_test {
 
+using test::gzipped;
 using test::TemporaryFile;
 
 /// ATOM records of one alanine and what follows; columns as in PDB format 3.3.
@@ -151,7 +151,7 @@ TEST(ReadStructure, TakesNoAtomsFromBehindTheEndOfALine) {
   EXPECT_EQ(read_structure(file.path()).atoms.size(), 5U);
   text = alanine();
   text[text.find("CA")] = '\0';
-  EXPECT_EQ(refusal(text), ":2: a NUL character, expected text");
+  EXPECT_EQ(refusal(text), ":2: a NUL character, expected the text of a PDB or mmCIF file");
 }
 
 TEST(ReadStructure, ReadsABondRecordThatEndsInTheMiddleOfANumber) {
@@ -159,19 +159,6 @@ TEST(ReadStructure, ReadsABondRecordThatEndsInTheMiddleOfANumber) {
   std::string link = "LINK         CA  ALA A   1                 CB  ALA A   1     1555   1555   n";
   for (const char* name : {"LINK  ", "link  ", "SSBOND"})
     EXPECT_EQ(refusal(link.replace(0, 6, name) + "\n" + alanine()), "");
-}
-
-/// `text` gzipped `times` times over, one member behind the other, as gzip allows.
-std::string gzipped(const std::string& text, std::size_t times) {
-  const TemporaryFile file("", ".gz");
-  const gzFile out = gzopen(file.path().c_str(), "wb9");
-  gzwrite(out, text.data(), static_cast<unsigned>(text.size()));
-  gzclose(out);
-  std::ifstream in(file.path(), std::ios::binary);
-  const std::string member{std::istreambuf_iterator<char>(in), {}};
-  std::string all;
-  for (std::size_t k = 0; k < times; ++k) all += member;
-  return all;
 }
 
 TEST(ReadStructure, ReadsGzippedFilesAsTheirText) {

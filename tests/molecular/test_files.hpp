@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 #include <unistd.h>
+#include <zlib.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 
 #include "hinge/molecular/read_structure.hpp"
@@ -34,6 +37,19 @@ class TemporaryFile {
  private:
   std::filesystem::path path_;
 };
+
+/// `text` gzipped `times` times over, one member behind the other, as gzip allows.
+inline std::string gzipped(const std::string& text, std::size_t times = 1) {
+  const TemporaryFile file("", ".gz");
+  const gzFile out = gzopen(file.path().c_str(), "wb9");
+  gzwrite(out, text.data(), static_cast<unsigned>(text.size()));
+  gzclose(out);
+  std::ifstream in(file.path(), std::ios::binary);
+  const std::string member{std::istreambuf_iterator<char>(in), {}};
+  std::string all;
+  for (std::size_t k = 0; k < times; ++k) all += member;
+  return all;
+}
 
 inline molecular::ReadOptions heavy_atoms() {
   molecular::ReadOptions options;

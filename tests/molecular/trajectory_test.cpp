@@ -80,13 +80,15 @@ std::string refusal(const std::string& bytes, std::size_t count) {
 }
 
 void expect_frames(const std::string& bytes, const std::vector<Frame>& expected) {
-  const TemporaryFile file(bytes, ".traj");
   const Structure molecule = atoms(expected[0].size());
-  const Trajectory trajectory(file.path(), molecule);
-  ASSERT_EQ(trajectory.size(), expected.size());
-  EXPECT_EQ(trajectory.atom_count(), expected[0].size());
-  // Backwards: frames are independent of each other.
-  for (std::size_t k = expected.size(); k-- > 0;) EXPECT_TRUE(trajectory.frame(k) == expected[k]) << k;
+  for (const std::string& stored : {bytes, test::gzipped(bytes)}) {
+    const TemporaryFile file(stored, ".traj");
+    const Trajectory trajectory(file.path(), molecule);
+    ASSERT_EQ(trajectory.size(), expected.size());
+    EXPECT_EQ(trajectory.atom_count(), expected[0].size());
+    // Backwards: frames are independent of each other.
+    for (std::size_t k = expected.size(); k-- > 0;) EXPECT_TRUE(trajectory.frame(k) == expected[k]) << k;
+  }
 }
 
 TEST(Dcd, ReadsEveryVariant) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "hinge/core/error.hpp"
+#include "io/read_file.hpp"
 
 namespace hinge::molecular {
 
@@ -26,16 +27,28 @@ BinaryFile::BinaryFile(const std::filesystem::path& path) : name_(path.string())
     throw LoadError(name_ + ": is empty, expected a file of coordinates");
   }
   size_ = static_cast<std::uint64_t>(status.st_size);
+  std::array<char, 2> start{};
+  if (read(0, start) < 2 || start[0] != '\x1f' || start[1] != '\x8b') return;
+  ::close(std::exchange(descriptor_, -1));
+  unpacked_ = read_bytes(path);
+  size_ = unpacked_.size();
 }
 
 BinaryFile::BinaryFile(BinaryFile&& other) noexcept
-    : name_(std::move(other.name_)), size_(other.size_), descriptor_(std::exchange(other.descriptor_, -1)) {}
+    : name_(std::move(other.name_)),
+      size_(other.size_),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      unpacked_(std::move(other.unpacked_)) {}
 
 BinaryFile::~BinaryFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 std::size_t BinaryFile::read(std::uint64_t offset, std::span<char> to) const {
+  if (descriptor_ < 0) {
+    const std::size_t first = static_cast<std::size_t>(std::min(offset, size_));
+    return unpacked_.copy(to.data(), to.size(), first);
+  }
   std::size_t done = 0;
   while (done < to.size()) {
     const ssize_t got = ::pread(descriptor_, to.data() + done, to.size() - done, static_cast<off_t>(offset + done));

@@ -15,17 +15,18 @@
 
 namespace hinge::molecular {
 
-/// Open while the object lives. Reads are stateless, so that threads share one.
+/// Open while the object lives; one that is gzipped is unpacked into memory. Reads are stateless, so that threads share
+/// one.
 class BinaryFile {
  public:
-  /// LoadError: cannot be opened, is a directory, is empty.
+  /// LoadError: cannot be opened, is a directory, is empty, or gzipped and damaged.
   explicit BinaryFile(const std::filesystem::path& path);
   BinaryFile(BinaryFile&& other) noexcept;
   BinaryFile& operator=(BinaryFile&& other) = delete;
   ~BinaryFile();
 
   const std::string& name() const noexcept { return name_; }
-  /// Bytes, when it was opened.
+  /// Bytes, when it was opened; of a gzipped file those that are packed in it.
   std::uint64_t size() const noexcept { return size_; }
 
   /// The bytes from `offset` on; fewer than asked for only where the file ends. LoadError: cannot be read.
@@ -37,7 +38,8 @@ class BinaryFile {
  private:
   std::string name_;
   std::uint64_t size_ = 0;
-  int descriptor_ = -1;
+  int descriptor_ = -1;   ///< of a plain file
+  std::string unpacked_;  ///< of a gzipped one
 };
 
 /// A number from its bytes, in their order or reversed.

@@ -65,7 +65,8 @@ void check_pdb(std::string_view text, const std::string& path, std::size_t numbe
     ++number;
     // The parser would end the line there, and lose the next one.
     if (line.find('\0') != std::string_view::npos)
-      throw LoadError(path + ":" + std::to_string(number) + ": a NUL character, expected text");
+      throw LoadError(path + ":" + std::to_string(number) +
+                      ": a NUL character, expected the text of a PDB or mmCIF file");
     if (is_atom_record(line)) {
       read_pdb_coordinates(line, path, number);
       ++atoms;
@@ -91,7 +92,8 @@ void check_pdb(std::string_view text, const std::string& path, std::size_t numbe
   }
   if (!twice.empty() && model_count <= most_model_numbers) throw LoadError(twice + " is there twice");
   if (atoms == 0)
-    throw LoadError(path + ": no ATOM or HETATM record in " + std::to_string(number - lines_before) + " lines");
+    throw LoadError(path + ": no ATOM or HETATM record in " + std::to_string(number - lines_before) +
+                    " lines, expected a PDB or mmCIF file");
   if (open_model == 0) return;
   const std::string what = ":" + std::to_string(open_model) + ": MODEL has no ENDMDL";
   const bool is_whole = is_closed || (notes != nullptr && model_count == 1 && last == longest);

@@ -73,40 +73,30 @@ class PdbModels::Finder {
 
 void PdbModels::find_models() {
   Finder finder(models_);
-  if (const auto* text = std::get_if<std::string>(&source_)) {
-    for_lines(*text, [&](std::string_view line) { finder.add(line); });
-  } else {
-    const BinaryFile& file = std::get<BinaryFile>(source_);
-    std::string chunk;
-    for (std::uint64_t at = 0; at < file.size();) {
-      const std::size_t kept = chunk.size();  // the start of a line
-      chunk.resize(kept + chunk_bytes);
-      const std::size_t got = file.read(at, std::span(chunk).subspan(kept));
-      if (got == 0) break;
-      chunk.resize(kept + got);
-      at += got;
-      const std::size_t end = at < file.size() ? chunk.rfind('\n') : chunk.size() - 1;
-      if (end == std::string::npos) continue;
-      for_lines(std::string_view(chunk).substr(0, end + 1), [&](std::string_view line) { finder.add(line); });
-      chunk.erase(0, end + 1);
-    }
+  std::string chunk;
+  for (std::uint64_t at = 0; at < file_.size();) {
+    const std::size_t kept = chunk.size();  // the start of a line
+    chunk.resize(kept + chunk_bytes);
+    const std::size_t got = file_.read(at, std::span(chunk).subspan(kept));
+    if (got == 0) break;
+    chunk.resize(kept + got);
+    at += got;
+    const std::size_t end = at < file_.size() ? chunk.rfind('\n') : chunk.size() - 1;
+    if (end == std::string::npos) continue;
+    for_lines(std::string_view(chunk).substr(0, end + 1), [&](std::string_view line) { finder.add(line); });
+    chunk.erase(0, end + 1);
   }
-  if (models_.empty()) throw LoadError(path_ + ": expected DCD, XTC, NumPy, PDB or mmCIF, found no ATOM record");
+  if (models_.empty()) throw LoadError(file_.name() + ": expected DCD, XTC, NumPy, PDB or mmCIF, found no ATOM record");
   if (!finder.named() || models_.size() > most_model_numbers) return;
   std::vector<int> numbers;
   for (const Model& model : models_) numbers.push_back(model.number);
   std::sort(numbers.begin(), numbers.end());
   if (const auto twice = std::adjacent_find(numbers.begin(), numbers.end()); twice != numbers.end())
-    throw LoadError(path_ + ": MODEL " + std::to_string(*twice) + " is there twice");
+    throw LoadError(file_.name() + ": MODEL " + std::to_string(*twice) + " is there twice");
 }
 
-PdbModels::PdbModels(std::string path, std::variant<BinaryFile, std::string> source, const Structure& structure,
-                     const ReadOptions& options, bool may_have_more)
-    : path_(std::move(path)),
-      source_(std::move(source)),
-      structure_(structure),
-      options_(options),
-      may_have_more_(may_have_more) {
+PdbModels::PdbModels(BinaryFile file, const Structure& structure, const ReadOptions& options, bool may_have_more)
+    : file_(std::move(file)), structure_(structure), options_(options), may_have_more_(may_have_more) {
   options_.model.reset();
   find_models();
   const std::string first = text(models_.front());
@@ -115,7 +105,7 @@ PdbModels::PdbModels(std::string path, std::variant<BinaryFile, std::string> sou
   for_lines(first, [&](std::string_view line) {
     if (!is_atom_record(line)) return;
     append_identity(records_, line);
-    all.push_back(read_pdb_coordinates(line, path_, 0));
+    all.push_back(read_pdb_coordinates(line, file_.name(), 0));
   });
   // The parser takes "atom" and "ATOMX" for atoms, too: the short way must find what it found, or there is none.
   for (std::size_t i = 0; i < known.records.size() && !records_.empty(); ++i) {
@@ -125,20 +115,17 @@ PdbModels::PdbModels(std::string path, std::variant<BinaryFile, std::string> sou
 }
 
 std::string PdbModels::text(const Model& model) const {
-  const std::size_t size = static_cast<std::size_t>(model.end - model.begin);
-  if (const auto* whole = std::get_if<std::string>(&source_))
-    return whole->substr(static_cast<std::size_t>(model.begin), size);
-  std::string text(size, '\0');
-  const std::size_t got = std::get<BinaryFile>(source_).read(model.begin, text);
+  std::string text(static_cast<std::size_t>(model.end - model.begin), '\0');
+  const std::size_t got = file_.read(model.begin, text);
   text.resize(got);  // the last line may have no end
   return text;
 }
 
 MatchedAtoms PdbModels::parsed(const std::string& text, const Model& model) const {
   std::vector<std::string> notes;
-  check_pdb(text, path_, model.line, models_.size() == 1 ? &notes : nullptr);
-  return conformation(assemble(parse_with_gemmi(text, path_, false), path_, options_), structure_, may_have_more_,
-                      path_ + ": model " + std::to_string(model.number));
+  check_pdb(text, file_.name(), model.line, models_.size() == 1 ? &notes : nullptr);
+  return conformation(assemble(parse_with_gemmi(text, file_.name(), false), file_.name(), options_), structure_,
+                      may_have_more_, file_.name() + ": model " + std::to_string(model.number));
 }
 
 std::vector<Vec3> PdbModels::frame(std::size_t k) const {
@@ -157,7 +144,7 @@ std::vector<Vec3> PdbModels::frame(std::size_t k) const {
     append_identity(record, line);
     const std::size_t at = all.size() * identity_bytes;
     same = at < records_.size() && records_.compare(at, identity_bytes, record) == 0;
-    all.push_back(read_pdb_coordinates(line, path_, line_number));
+    all.push_back(read_pdb_coordinates(line, file_.name(), line_number));
   });
   // Cut short, or another choice of atoms: the long way knows.
   if (!same || !ended || all.empty() || all.size() * identity_bytes != records_.size())

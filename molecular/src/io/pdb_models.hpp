@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "hinge/core/vec3.hpp"
@@ -22,11 +21,10 @@ namespace hinge::molecular {
 /// records are the first one's but for coordinates take the short way: what is kept of one is kept of all.
 class PdbModels {
  public:
-  /// A plain file, or the text of another. The structure must outlive this. LoadError: no model, MODEL numbers that
+  /// The structure must outlive this. LoadError: no model, MODEL numbers that
   /// repeat, or a first model that is damaged or another molecule.
   /// may_have_more: models may have other atoms beside the structure's, which are left out.
-  PdbModels(std::string path, std::variant<BinaryFile, std::string> source, const Structure& structure,
-            const ReadOptions& options, bool may_have_more);
+  PdbModels(BinaryFile file, const Structure& structure, const ReadOptions& options, bool may_have_more);
 
   std::size_t size() const noexcept { return models_.size(); }
   /// As its MODEL record says, else its position from 1.
@@ -46,8 +44,7 @@ class PdbModels {
   std::string text(const Model& model) const;
   MatchedAtoms parsed(const std::string& text, const Model& model) const;
 
-  std::string path_;
-  std::variant<BinaryFile, std::string> source_;
+  BinaryFile file_;
   const Structure& structure_;
   ReadOptions options_;
   bool may_have_more_;

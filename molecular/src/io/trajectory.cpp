@@ -2,7 +2,6 @@
 // The formats behind one face.
 #include "hinge/molecular/trajectory.hpp"
 
-#include <array>
 #include <concepts>
 #include <utility>
 #include <variant>
@@ -71,19 +70,10 @@ Trajectory::Format Trajectory::Format::open(const std::filesystem::path& path, c
   if (DcdFile::is_one(file)) return {DcdFile(std::move(file))};
   if (XtcFile::is_one(file)) return {XtcFile(std::move(file))};
   if (NpyFile::is_one(file)) return {NpyFile(std::move(file))};
-  std::array<char, 2> start{};
-  const bool is_gzipped = file.read(0, start) == 2 && start[0] == '\x1f' && start[1] == '\x8b';
-  std::string text;
-  if (is_gzipped) {
-    text = read_bytes(path);
-  } else {
-    text.resize(std::size_t{1} << 16);
-    text.resize(file.read(0, text));
-  }
+  std::string text(std::size_t{1} << 16, '\0');
+  text.resize(file.read(0, text));
   if (looks_like_cif(text)) return {models(path, molecule, options, may_have_more)};
-  std::variant<BinaryFile, std::string> source(std::move(file));
-  if (is_gzipped) source.emplace<std::string>(std::move(text));
-  return {PdbModels(path.string(), std::move(source), molecule, options, may_have_more)};
+  return {PdbModels(std::move(file), molecule, options, may_have_more)};
 }
 
 Trajectory::Trajectory(Trajectory&& other) noexcept = default;

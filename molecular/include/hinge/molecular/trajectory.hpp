@@ -14,10 +14,10 @@
 
 namespace hinge::molecular {
 
-/// DCD, XTC, NumPy (frames x atoms x 3, angstrom), PDB or mmCIF, told by content. Frames of the first three have as
-/// many atoms as the first model of the molecule's file has atom records, in the same order, or as the molecule itself;
-/// models name their atoms. Of mmCIF and gzipped files the whole text is in memory, else a frame at a time and where
-/// frames begin. Frames may be read by many threads at once.
+/// DCD, XTC, NumPy (frames x atoms x 3, angstrom), PDB or mmCIF, gzipped or not, told by content. Frames of the first
+/// three have as many atoms as the first model of the molecule's file has atom records, in the same order, or as the
+/// molecule itself; models name their atoms. Of mmCIF and gzipped files the whole text is in memory, else a frame at a
+/// time and where frames begin. Frames may be read by many threads at once.
 class Trajectory {
  public:
   /// The molecule must outlive it. LoadError: cannot be read, or frames of another molecule. DCD and NumPy
