@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hierarchy: the public face. Which primitives of an articulated model come too close at a configuration?
+// Hierarchy: finds the primitives of an articulated model that come too close at a configuration.
 #pragma once
 
 #include <algorithm>
@@ -31,20 +31,21 @@
 
 namespace hinge {
 
-/// A pair (i, j) collides when the filter admits it, its distance can change under the selected DOF, and
-/// d(i, j) < M(i, j), or, for closed solids, d(i, j) = 0 (BioCD eq. (1)). Lengths in the model's unit, angles in rad.
-/// One per thread: copies share the constant model and nothing else.
+/// Collision queries of one model. A pair (i, j) collides when the filter admits it, its distance can change under the
+/// selected DOF, and d(i, j) < M(i, j) (BioCD eq. (1)). Touching closed solids (d = 0) also collide. Lengths in the
+/// model's unit, angles in rad. Not thread-safe: use one copy per thread. Copies share only the constant model.
 template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf = Simd>
 requires Engine<EngineOf<P, F, D>, P, F, D>
 class Hierarchy {
  public:
-  /// Every DOF free. ModelError: a filter or matrix made for another number of primitives, or for other links; listed
-  /// exclusions of a primitive with itself, with one that does not exist, or out of order. Without NDEBUG also a filter
-  /// that breaks the laws of laws::check_refinements.
+  /// Frees every DOF. ModelError: a filter or matrix made for another number of primitives or for other links; an
+  /// exclusion list that is unsorted, contains its own primitive or an unknown primitive. Without NDEBUG also a filter
+  /// that fails laws::check_refinements.
   Hierarchy(Model<P> model, F filter, D matrix)
       : Hierarchy(model, DofSelection::all(model.tree()), std::move(filter), std::move(matrix)) {}
 
-  /// Only the selected DOF free, all others at their reference. ModelError: also a selection made for another tree.
+  /// Frees the selected DOF and keeps the others at their reference value 0. ModelError: also a selection for another
+  /// tree.
   Hierarchy(Model<P> model, DofSelection selection, F filter, D matrix)
       : filter_(std::move(filter)),
         matrix_(std::move(matrix)),
@@ -53,30 +54,31 @@ class Hierarchy {
             filter_, matrix_),
         largest_threshold_(matrix_, engine_.placement().model().size()) {}
 
-  // --- state. Each throws ConfigurationError on bad input, naming the element, and keeps the previous state. ---
+  // --- State. Invalid input throws ConfigurationError, names the faulty element and keeps the previous state. ---
 
-  /// q: one value per selected DOF, in the selection's order; rad or model length unit. Starts at all 0, the reference.
+  /// q: one value per selected DOF, in the selection's order; rad or model length unit. The initial state is all 0.
   void update(std::span<const double> q) { placement().update(q); }
-  /// World poses of the rigid groups, computed elsewhere; group 0 is the world.
+  /// poses: one world pose per rigid group, computed by the caller. Group 0 is the world and must be the identity.
   void update_poses(std::span<const Pose> poses) { placement().update_poses(poses); }
-  /// World coordinates of every primitive, computed elsewhere: every admitted pair is checked, constant ones included.
+  /// placed: world coordinates of every primitive, computed by the caller. Queries then test every admitted pair,
+  /// including pairs of constant distance.
   void update_placed(std::span<const P> placed) { placement().update_placed(placed); }
 
-  /// Learns from the current state: engines that can order their work try what collides most often first in yes/no
-  /// queries. To be called at some hundred states like those to come; answers stay the same. Costs about one query for
-  /// all pairs of links.
+  /// Learns from the current state: engines that can order their work then start yes/no queries with the pairs that
+  /// collide most often. Call it at some hundred typical states. Answers do not change. Costs about one query over all
+  /// pairs of links.
   void calibrate_pair_order() {
     if constexpr (requires { engine_.calibrate_pair_order(); }) engine_.calibrate_pair_order();
   }
-  /// The same for yes/no queries of this model against others: which of its links are tried first. `other`, at its
-  /// current state, stands for those to come. ModelError as by queries.
+  /// The same for yes/no queries against other models: it orders the links of this model. `other` at its current state
+  /// is a typical opponent. ModelError: the two distance matrices are incompatible.
   template <PairFilter G = AdmitAll>
   void calibrate_pair_order(Hierarchy& other, const G& across = {}) {
     static_assert(CrossEngine<E, P, F, D, G>, "this engine or distance matrix cannot answer between two models");
     if (!matrix_.compatible(other.matrix_)) throw ModelError("the two models use different distance matrices");
     if constexpr (requires { engine_.calibrate_pair_order(other.engine_, across); }) {
       if (this == &other) {
-        Hierarchy twin(other);  // engines keep scratch on either side
+        Hierarchy twin(other);  // engines use scratch memory on both sides
         engine_.calibrate_pair_order(twin.engine_, across);
       } else {
         engine_.calibrate_pair_order(other.engine_, across);
@@ -84,23 +86,26 @@ class Hierarchy {
     }
   }
 
-  // --- queries at the current state ---
+  // --- Queries at the current state. Invalid options throw ConfigurationError, see self_query. ---
 
+  /// Returns true when at least one pair collides.
   bool self_collides(const QueryOptions& options = {}) { return self(AnyHit{}, options).done(); }
-  /// All colliding pairs, sorted by (first, second).
+  /// Returns all colliding pairs, sorted by (first, second).
   std::vector<Hit> self_collisions(const QueryOptions& options = {}) { return self_within(0.0, options); }
-  /// All pairs with d - M < margin (finite, >= 0; else ConfigurationError), sorted by (first, second).
+  /// Returns all pairs with d - M < margin, sorted by (first, second). ConfigurationError: margin is not finite or
+  /// negative.
   std::vector<Hit> self_within(double margin, const QueryOptions& options = {}) {
     return self(HitsWithin{checked(margin)}, options).take();
   }
-  /// The pair with the smallest d - M, most interpenetrating when colliding; none when no pair is tested.
+  /// Returns the pair with the smallest d - M (the deepest collision, if any). Returns nullopt when no pair is
+  /// admitted.
   std::optional<Hit> self_closest(const QueryOptions& options = {}) {
     const double most = largest(options.clearance);
     return self(Closest{-(largest_threshold_.within() + (most + most))}, options).hit();
   }
 
-  /// Any collector of your own, handed over in the order the engine finds the pairs. ConfigurationError: extra
-  /// clearances that are no lengths or not one per group, or other_clearance, which needs another model.
+  /// Passes the pairs to a custom collector, in the order of the engine. ConfigurationError: clearances that are not
+  /// finite lengths >= 0, not one per rigid group, or an other_clearance (valid only between two models).
   template <Collector C>
   void self_query(C& collector, const QueryOptions& options = {}) {
     if (!options.other_clearance.empty())
@@ -111,21 +116,26 @@ class Hierarchy {
     engine_.self_query(collector, options);
   }
 
-  // --- the same against another model; `across` admits (primitive of this, primitive of other) ---
-  // ModelError: the two distance matrices do not belong together.
+  // --- The same queries against another model. `across` admits pairs (primitive of this, primitive of other). ---
+  // ModelError: the two distance matrices are incompatible.
 
+  /// Returns true when at least one pair of primitives of the two models collides.
   template <PairFilter G = AdmitAll>
   bool collides(Hierarchy& other, const G& across = {}, const QueryOptions& options = {}) {
     return mutual(AnyHit{}, other, across, options).done();
   }
+  /// Returns all colliding pairs, sorted by (first, second).
   template <PairFilter G = AdmitAll>
   std::vector<Hit> collisions(Hierarchy& other, const G& across = {}, const QueryOptions& options = {}) {
     return within(other, 0.0, across, options);
   }
+  /// Returns all pairs with d - M < margin, sorted by (first, second). ConfigurationError: margin not finite or
+  /// negative.
   template <PairFilter G = AdmitAll>
   std::vector<Hit> within(Hierarchy& other, double margin, const G& across = {}, const QueryOptions& options = {}) {
     return mutual(HitsWithin{checked(margin)}, other, across, options).take();
   }
+  /// Returns the pair with the smallest d - M, or nullopt when no pair is admitted.
   template <PairFilter G = AdmitAll>
   std::optional<Hit> closest(Hierarchy& other, const G& across = {}, const QueryOptions& options = {}) {
     const double most = largest(options.clearance) + largest(options.other_clearance);
@@ -133,7 +143,7 @@ class Hierarchy {
         .hit();
   }
 
-  /// Any collector of your own.
+  /// Passes the pairs to a custom collector, in the order of the engine.
   template <Collector C, PairFilter G = AdmitAll>
   void query(Hierarchy& other, C& collector, const G& across = {}, const QueryOptions& options = {}) {
     static_assert(CrossEngine<E, P, F, D, G>, "this engine or distance matrix cannot answer between two models");
@@ -142,32 +152,35 @@ class Hierarchy {
     check_clearance(options.other_clearance, other.model().groups()->size());
     check_laws(across, model().model().links(), other.model().model().links());
     if (this == &other) {
-      Hierarchy twin(other);  // engines keep scratch on either side
+      Hierarchy twin(other);  // engines use scratch memory on both sides
       return engine_.query(twin.engine_, across, collector, options);
     }
     engine_.query(other.engine_, across, collector, options);
   }
 
-  // --- what the selection fixed ---
+  // --- Constant data, and coordinates at the current state ---
 
+  /// The model under its DOF selection. The reference is valid while a copy of this object lives.
   const SelectedModel<P>& model() const noexcept { return engine_.placement().model(); }
+  /// Returns the number of selected DOF: the length of q in update().
   std::size_t dof_count() const noexcept { return model().selection().size(); }
-  /// World coordinates at the current state, the ones verdicts are about.
+  /// Returns the world coordinates of all primitives; queries use the same numbers. The next update changes the span's
+  /// contents.
   std::span<const P> placed() {
     for (std::size_t g = 0; g < model().groups()->size(); ++g) placement().place(id<GroupId>(g));
     return placement().placed();
   }
-  /// The same of one primitive.
+  /// Returns the world coordinates of primitive i, without placing the others.
   P placed(PrimitiveId i) noexcept {
     return placement().groups_may_deform() ? placement().placed()[index(i)] : placement().alone(i);
   }
-  /// World frames of the rigid groups at the current configuration or poses, by group.
+  /// Returns the world frame of each rigid group at the last configuration or poses, valid until the next update.
   std::span<const Frame> frames() noexcept {
     return placement().frames_through(id<GroupId>(model().groups()->size() - 1));
   }
   const F& filter() const noexcept { return filter_; }
   const D& matrix() const noexcept { return matrix_; }
-  /// World pose of a link at the current configuration or poses. ModelError: no such link.
+  /// Returns the world pose of a link at the last configuration or poses. ModelError: no such link.
   Pose link_pose(LinkId link) {
     if (index(link) >= model().model().tree().link_count())
       throw ModelError("link " + std::to_string(index(link)) + ": the model has " +
@@ -175,8 +188,8 @@ class Hierarchy {
     const RigidGroups& groups = *model().groups();
     return placement().pose(groups.group_of(link)) * groups.link_in_group(link);
   }
-  /// Pairs too close in the reference whose distance cannot change: no query at a configuration reports them. Sorted;
-  /// costs one query over all pairs of the model.
+  /// Returns the pairs that collide at the reference and whose distance cannot change, sorted. Queries at a
+  /// configuration do not report them. Costs one query over all pairs of the model.
   std::vector<Hit> constant_contacts() const;
 
  private:
@@ -199,7 +212,7 @@ class Hierarchy {
     check_laws(filter, model.links());
     return model;
   }
-  /// In debug builds: do the refinements of a filter agree with what it admits?
+  /// In debug builds: throws ModelError when the refinements of a filter contradict its admits.
   template <class G, class... Links>
   static void check_laws([[maybe_unused]] const G& filter, [[maybe_unused]] const Links&... links) {
 #ifndef NDEBUG
@@ -256,7 +269,7 @@ class Hierarchy {
   F filter_;
   D matrix_;
   E engine_;
-  detail::LargestThreshold<D> largest_threshold_;  // after the engine: by then the matrix was checked against the model
+  detail::LargestThreshold<D> largest_threshold_;  // after engine_: its initialiser validates the matrix
 };
 
 template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every public header of the core but batch/ensemble.hpp, which needs TBB.
+// Includes every public header of the core except batch/ensemble.hpp, which needs TBB.
 #pragma once
 
 #include "hinge/batch/sphere_batch.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The version, read by the build too: change it here only.
+// The library version. The build reads it from this file, so change it only here.
 #pragma once
 
 namespace hinge {

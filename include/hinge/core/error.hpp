@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The exceptions Hinge throws. Each message names the element at fault, its value and what was expected.
+// The exceptions that Hinge throws. Each message names the faulty element, its value and the expected value.
 #pragma once
 
 #include <stdexcept>
 
 namespace hinge {
 
-/// Base of everything Hinge throws on purpose.
+/// Base class of every exception that Hinge itself throws.
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A file could not be read: the message names file, line and entity.
+/// A file could not be read. The message names the file, the line and the entity.
 struct LoadError : Error {
   using Error::Error;
 };
 
-/// A model, filter, matrix or selection is not acceptable.
+/// A model, a pair filter, a distance matrix or a DOF selection is invalid.
 struct ModelError : Error {
   using Error::Error;
 };
 
-/// A configuration, pose or coordinate given to update() is not acceptable; the previous state is kept.
+/// A configuration, a pose or a coordinate passed to an update or a query is invalid. The object keeps its previous
+/// state.
 struct ConfigurationError : Error {
   using Error::Error;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Strong index types, so that no link is ever taken for a primitive.
+// Strong index types: the compiler rejects a link index where a primitive index is expected.
 #pragma once
 
 #include <cstddef>
@@ -8,24 +8,26 @@
 
 namespace hinge {
 
-enum class PrimitiveId : std::uint32_t {};  ///< position in Model::primitives()
-enum class LinkId : std::uint32_t {};       ///< position in the kinematic tree; 0 is the world
-enum class DofId : std::uint32_t {};        ///< position in the full configuration of a kinematic tree
-enum class GroupId : std::uint32_t {};      ///< rigid group under one DOF selection; 0 holds the world
+enum class PrimitiveId : std::uint32_t {};  ///< index into Model::primitives()
+enum class LinkId : std::uint32_t {};       ///< index of a link in the kinematic tree; link 0 is the world
+enum class DofId : std::uint32_t {};        ///< index into the full configuration of a kinematic tree
+enum class GroupId : std::uint32_t {};  ///< index of a rigid group under one DOF selection; group 0 contains the world
 
+/// The root link of every kinematic tree.
 inline constexpr LinkId world{0};
 
+/// One of the four index types above.
 template <class T>
 concept Id = std::is_enum_v<T> &&(std::is_same_v<T, PrimitiveId> || std::is_same_v<T, LinkId> ||
                                   std::is_same_v<T, DofId> || std::is_same_v<T, GroupId>);
 
-/// The position an id stands for.
+/// Converts an id to a zero-based index.
 template <Id T>
 constexpr std::size_t index(T id) noexcept {
   return static_cast<std::size_t>(id);
 }
 
-/// The id of a position.
+/// Converts a zero-based index to an id. The index must fit in 32 bits.
 template <Id T>
 constexpr T id(std::size_t position) noexcept {
   return static_cast<T>(position);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers as text, for messages and files.
+// number_text: a number as text, for messages and files.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace hinge {
 
-/// In the shortest form that reads back the same, whatever the locale: at most 24 characters, where std::to_string
-/// takes 309 digits for 1e308.
+/// Returns the shortest decimal text that reads back as the same number, independent of the locale. At most 24
+/// characters for a double (std::to_string writes 309 digits for 1e308).
 template <class Number>
 std::string number_text(Number number) {
   std::array<char, 32> text{};

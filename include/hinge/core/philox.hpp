@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A counter-based random stream: sample number `index` of a seed is the same in any thread, shard or run.
+// A counter-based random stream: sample `index` of a seed is the same in every thread, shard and run.
 #pragma once
 
 #include <array>
@@ -12,7 +12,8 @@
 
 namespace hinge {
 
-/// Philox4x32-10 (Salmon, Moraes, Dror, Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC 2011).
+/// The Philox4x32-10 generator (Salmon, Moraes, Dror, Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC 2011).
+/// Returns four random 32-bit words for one counter value.
 inline std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
                                            std::array<std::uint32_t, 2> key) noexcept {
   for (int round = 0; round < 10; ++round) {
@@ -25,16 +26,18 @@ inline std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
   return counter;
 }
 
-/// The random numbers of one sample: a pure function of (seed, index), drawn in order; of several independent streams,
-/// so that how many one part of a sample draws is no matter to the others. Built of + - * / and sqrt alone,
-/// so that the numbers are the same bits on every CPU.
+/// Random numbers of one sample. The sequence depends on (seed, index, stream) alone. Different streams of one sample
+/// are independent, so one consumer's number of draws does not shift another's sequence. The code uses only + - * / and
+/// sqrt, so the bits are the same on every CPU. Not thread-safe: use one object per thread.
 class SampleStream {
  public:
+  /// seed: the run. index: the sample. stream: an independent sequence within the sample.
   SampleStream(std::uint64_t seed, std::uint64_t index, std::uint32_t stream = 0) noexcept
       : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)},
         index_{static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32)},
         stream_(stream) {}
 
+  /// Returns the next 64 random bits.
   std::uint64_t bits() noexcept {
     if (used_ == 2) {
       const auto words = philox({block_++, stream_, index_[0], index_[1]}, key_);
@@ -44,10 +47,11 @@ class SampleStream {
     return ready_[used_++];
   }
 
-  /// Uniform in [0, 1), 53 bits.
+  /// Returns the next uniform value in [0, 1), with 53 random bits.
   double uniform() noexcept { return static_cast<double>(bits() >> 11) * 0x1p-53; }
 
-  /// Standard normal (Box & Muller 1958); tails end at 8.5.
+  /// Returns the next standard normal value (Box & Muller 1958). Its absolute value is below 8.6, because 1 - uniform()
+  /// is at least 2^-53.
   double normal() noexcept {
     constexpr double two_pi = 6.283185307179586;
     const double radius = std::sqrt(-2.0 * log_of(1.0 - uniform()));
@@ -55,8 +59,8 @@ class SampleStream {
   }
 
  private:
-  /// Natural logarithm for normal x > 0: x = 2^e m with m in [0.7, 1.42), log m = 2 artanh((m - 1) / (m + 1)) as a
-  /// series whose first omitted term is below 1e-19.
+  /// Natural logarithm of a normal x > 0. With x = 2^e m and m in [0.7, 1.42), log m = 2 artanh((m - 1) / (m + 1)). The
+  /// first omitted term of the series is below 1e-19.
   static double log_of(double x) noexcept {
     auto bits = std::bit_cast<std::uint64_t>(x);
     auto exponent = static_cast<int>(bits >> 52) - 1023;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pose: a rigid placement x -> R x + t, composed and applied in a fixed order of operations.
+// Pose: a rigid transform x -> R x + t, composed and applied in a fixed order of operations.
 #pragma once
 
 #include <cmath>
@@ -9,36 +9,38 @@
 
 namespace hinge {
 
-/// A rotation followed by a translation (model length unit). The default is the identity.
+/// A rotation followed by a translation (model length unit). The default is the identity. The pose of frame B in frame
+/// A maps coordinates in B to coordinates in A.
 struct Pose {
   Mat3 rotation = Mat3::Identity();
   Vec3 translation = Vec3::Zero();
 
-  /// The point x, given in the moved frame, in the frame the pose is expressed in.
+  /// Maps point x from the inner frame to the outer frame: R x + t.
   friend Vec3 operator*(const Pose& a, const Vec3& x) noexcept { return product(a.rotation, x) + a.translation; }
 
-  /// First b, then a.
+  /// Composition: applies b first, then a.
   friend Pose operator*(const Pose& a, const Pose& b) noexcept {
     return {product(a.rotation, b.rotation), product(a.rotation, b.translation) + a.translation};
   }
 
-  /// The inverse; exact only as far as the rotation is orthonormal.
+  /// Returns the inverse transform. It uses R^T, so it is exact only as far as the rotation is orthonormal.
   Pose inverse() const noexcept {
     const Mat3 back = rotation.transpose();
     return {back, -product(back, translation)};
   }
 
+  /// Returns true when every entry is equal. There is no tolerance.
   friend bool operator==(const Pose& a, const Pose& b) noexcept {
     return a.rotation == b.rotation && a.translation == b.translation;
   }
 };
 
-/// Largest departure of R^T R from the identity that still counts as a rigid placement. A pose within it is used as
-/// given; a wider bound would let scaled or sheared placements pass, whose boxes no longer hold what they bound.
+/// Largest deviation of an entry of R^T R from the identity in an accepted pose. Accepted poses are used unchanged. A
+/// larger tolerance would accept scaled or sheared transforms, and boxes would no longer contain their contents.
 inline constexpr double rigid_tolerance = 1e-9;
 
-/// Is the translation made of lengths (is_length), and the rotation of finite entries, orthonormal (within
-/// rigid_tolerance) and right-handed?
+/// Returns true when every translation component is a length (is_length), and the rotation is finite, orthonormal
+/// within rigid_tolerance, and right-handed.
 inline bool is_rigid(const Pose& x) noexcept {
   const Vec3 a = x.rotation.col(0), b = x.rotation.col(1), c = x.rotation.col(2);
   const auto is_near = [](double value, double wanted) { return std::abs(value - wanted) <= rigid_tolerance; };

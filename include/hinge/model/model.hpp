@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Model: a kinematic tree with primitives on its links, checked once by its builder and constant afterwards.
+// Model: a kinematic tree with primitives on its links, and ModelBuilder, which validates it. A model never changes.
 #pragma once
 
 #include <cstddef>
@@ -21,17 +21,20 @@ namespace hinge {
 template <Primitive P>
 class ModelBuilder;
 
-/// Cheap to copy: copies share one constant description, also between threads.
+/// A constant model. Copies are cheap and share one description, also across threads. Spans and references are valid
+/// while one copy lives.
 template <Primitive P>
 class Model {
  public:
+  /// Returns the kinematic tree.
   const KinematicTree& tree() const noexcept { return data_->tree; }
-  /// In the frame of their link, numbered in the order they were added.
+  /// Returns the primitives in the frames of their links, size() values, in the order in which they were added.
   std::span<const P> primitives() const noexcept { return data_->primitives; }
+  /// Returns the number of primitives.
   std::size_t size() const noexcept { return data_->primitives.size(); }
-  /// The link of every primitive.
+  /// Returns the link of every primitive, size() values.
   std::span<const LinkId> links() const noexcept { return data_->links; }
-  /// A label per primitive: primitives that belong closely together and stay together in one leaf (BioCD's basic
+  /// Returns one label per primitive. Engines keep primitives with equal labels together in one leaf (BioCD's basic
   /// groups).
   std::span<const std::uint32_t> basic_groups() const noexcept { return data_->basic_groups; }
 
@@ -47,11 +50,12 @@ class Model {
   std::shared_ptr<const Data> data_;
 };
 
-/// Collects links and primitives, refusing what no query could answer for. What is refused leaves it as it was.
+/// Collects links and primitives and validates each one. Rejected input does not change the builder. Not thread-safe.
 template <Primitive P>
 class ModelBuilder {
  public:
-  /// Adds a link and its primitives (link frame). ModelError: see KinematicTree::add_link and add_primitive.
+  /// Adds a link and its primitives (in the link frame) and returns its id. ModelError: as by KinematicTree::add_link
+  /// and add_primitive.
   LinkId add_link(LinkId parent, Joint joint, const std::vector<P>& primitives = {}) {
     joint = data_.tree.checked(parent, std::move(joint));
     const LinkId link = id<LinkId>(data_.tree.link_count());
@@ -61,7 +65,8 @@ class ModelBuilder {
     return link;
   }
 
-  /// Adds a primitive to a link (the world included). ModelError: unknown link; a primitive that is not sound.
+  /// Adds a primitive in the frame of a link (link 0 is the world) and returns its id. ModelError: unknown link, or a
+  /// primitive that fails is_sound.
   PrimitiveId add_primitive(LinkId link, const P& primitive) {
     if (index(link) >= data_.tree.link_count())
       throw ModelError("primitive " + std::to_string(data_.primitives.size()) + ": link " +
@@ -70,14 +75,16 @@ class ModelBuilder {
     return insert(link, primitive);
   }
 
+  /// Adds a closure. ModelError: as by KinematicTree::add_closure.
   void add_closure(Closure closure) { data_.tree.add_closure(std::move(closure)); }
 
-  /// One label per primitive, any numbers. Without it every primitive is a basic group of its own.
+  /// labels: one arbitrary number per primitive. Without labels every primitive is its own basic group.
   void set_basic_groups(std::vector<std::uint32_t> labels) { data_.basic_groups = std::move(labels); }
 
+  /// Returns the tree as built so far.
   const KinematicTree& tree() const noexcept { return data_.tree; }
 
-  /// ModelError: basic groups given, but not one label per primitive.
+  /// Returns the model and empties the builder. ModelError: labels were given, but not one per primitive.
   Model<P> finish() {
     if (data_.basic_groups.empty()) {
       data_.basic_groups.resize(data_.primitives.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Placement: the world coordinates of a selected model's primitives, made group by group when an engine asks.
+// Placement: world coordinates of the primitives of a selected model, computed group by group on demand.
 #pragma once
 
 #include <algorithm>
@@ -19,11 +19,12 @@
 
 namespace hinge {
 
-/// The state every engine starts from. Coordinates are defined here once: pose * primitive for a configuration or
-/// poses, as given otherwise. One per thread.
+/// The state of an engine. It is the single definition of world coordinates: pose * primitive for a configuration or
+/// poses, or the given coordinates. Not thread-safe: use one object per thread, also for the non-const queries below.
 template <Primitive P>
 class Placement {
  public:
+  /// Starts at the reference configuration: all DOF values 0.
   explicit Placement(std::shared_ptr<const SelectedModel<P>> model)
       : model_(std::move(model)),
         poses_(model_->groups(), model_->selection().size()),
@@ -31,44 +32,46 @@ class Placement {
         moved_at_(model_->groups()->size(), 0),
         placed_at_(model_->groups()->size(), 0) {}
 
-  /// See PoseSource::set_configuration.
+  /// q: one value per selected DOF, rad or model length unit. ConfigurationError: see PoseSource::set_configuration.
   void update(std::span<const double> q) {
     if (source_ == Source::coordinates) poses_.forget();
     poses_.set_configuration(q);
     begin(Source::configuration);
   }
 
-  /// See PoseSource::set_poses.
+  /// poses: one world pose per rigid group. ConfigurationError: see PoseSource::set_poses.
   void update_poses(std::span<const Pose> poses) {
     if (source_ == Source::coordinates) poses_.forget();
     poses_.set_poses(poses);
     begin(Source::poses);
   }
 
-  /// World coordinates of every primitive, computed elsewhere. ConfigurationError: wrong number, or a primitive that
-  /// is not sound; the previous state is kept.
+  /// placed: world coordinates of every primitive, computed by the caller. ConfigurationError: wrong length, or a
+  /// primitive that fails is_sound. The previous state is then kept.
   void update_placed(std::span<const P> placed);
 
+  /// Returns the selected model, valid while this object lives.
   const SelectedModel<P>& model() const noexcept { return *model_; }
 
-  /// World coordinates of all primitives; those of groups not yet asked for by place() are stale.
+  /// Returns the world coordinates of all primitives. A group's values are stale until place(group) is called after an
+  /// update.
   std::span<const P> placed() const noexcept { return placed_; }
 
-  /// Brings the primitives of a group up to date.
+  /// Updates the world coordinates of a group's primitives in placed().
   void place(GroupId group) noexcept {
     const std::uint64_t now = version(group);
     if (placed_at_[index(group)] == now) return;
     placed_at_[index(group)] = now;
     if (source_ == Source::coordinates) return;
     const Pose pose = poses_.pose(group);
-    // The identity is skipped so that coordinates keep their bits, negative zeros included.
+    // Skip the identity: multiplication would change the sign of negative zeros.
     const bool still = group == GroupId{0};
     const auto local = model_->primitives();
     for (const PrimitiveId i : model_->primitives_of(group))
       placed_[index(i)] = still ? local[index(i)] : local[index(i)].placed(pose);
   }
 
-  /// World coordinates of some primitives of a group, written to `to`; not from coordinates computed elsewhere.
+  /// Writes the world coordinates of the listed primitives of a group to `to`. Not valid after update_placed.
   void place(GroupId group, std::span<const std::uint32_t> primitives, P* to) noexcept {
     const auto local = model_->primitives();
     if (group == GroupId{0}) {
@@ -78,55 +81,61 @@ class Placement {
     const Pose pose = poses_.frame(group).pose();
     for (const std::uint32_t i : primitives) *to++ = local[i].placed(pose);
   }
-  /// The same of one primitive.
+  /// Returns the world coordinates of one primitive. Not valid after update_placed.
   P alone(PrimitiveId i) noexcept {
     const P& local = model_->primitives()[index(i)];
     const GroupId group = model_->group_of(i);
     return group == GroupId{0} ? local : local.placed(poses_.frame(group).pose());
   }
 
-  /// The number of the last update. Starts at 1.
+  /// Returns the number of the last update. The initial state has number 1.
   std::uint64_t update_number() const noexcept { return update_; }
-  /// The last update that may have changed the coordinates of the group: what was built from them before it is stale.
+  /// Returns the number of the last update that may have moved the group. Data derived from earlier coordinates is
+  /// stale.
   std::uint64_t version(GroupId group) noexcept {
     settle();
     return group == GroupId{0} ? world_moved_at_ : std::max(all_moved_at_, moved_at_[index(group)]);
   }
-  /// Did so little move in the last update that engines should look for what stood still?
+  /// Returns true when the last update changed so few DOF that engines should look for groups at rest.
   bool few_moved() const noexcept { return source_ == Source::configuration && poses_.few_changed(); }
 
-  /// Is the pair left out for the present coordinates? With a configuration, constant pairs are; with poses from
-  /// elsewhere only pairs inside one group; coordinates from elsewhere bring their own geometry, so there every pair
-  /// counts.
+  /// Returns true when queries must skip the pair in the current state. With a configuration, these are the pairs of
+  /// constant distance. With given poses, only the pairs inside one group. With given coordinates, none: their geometry
+  /// may differ.
   bool constant(PrimitiveId i, PrimitiveId j) const noexcept {
     if (source_ == Source::configuration) return model_->constant(i, j);
     return source_ == Source::poses && model_->group_of(i) == model_->group_of(j);
   }
 
-  /// Do the coordinates come from a configuration, so that pairs across an axis are constant as well?
+  /// Returns true when the coordinates come from a configuration. Pairs with a primitive on the joint axis are then
+  /// constant too.
   bool from_configuration() const noexcept { return source_ == Source::configuration; }
-  /// Must pairs inside one rigid group be tested?
+  /// Returns true when pairs inside one rigid group must be tested.
   bool groups_may_deform() const noexcept { return source_ == Source::coordinates; }
 
-  /// Could the distance of these two groups have changed in the last update?
+  /// Returns true when the distance of the two groups may have changed in the last update.
   bool moved_apart(GroupId g, GroupId h) noexcept {
     return source_ == Source::coordinates || poses_.component(g) != poses_.component(h);
   }
-  /// Groups of equal component kept their relative placement in the last update; only when groups do not deform.
+  /// Returns the component of a group. Groups with equal component kept their relative pose in the last update. Only
+  /// valid while groups_may_deform() is false.
   std::size_t component(GroupId g) noexcept { return poses_.component(g); }
-  /// Could the world coordinates of the group have changed in the last update?
+  /// Returns true when the world coordinates of the group may have changed in the last update.
   bool moved(GroupId g) noexcept { return source_ == Source::coordinates || version(g) == update_; }
 
-  /// The pose of a group; only when the coordinates come from a configuration or poses.
+  /// Returns the world pose of a group. Not valid after update_placed.
   Pose pose(GroupId group) noexcept { return poses_.pose(group); }
+  /// Returns the world frame of a group, valid until the next update. Not valid after update_placed.
   const Frame& frame(GroupId group) noexcept { return poses_.frame(group); }
+  /// Returns the world frames of groups 0 to `last` or more, valid until the next update. Not valid after
+  /// update_placed.
   std::span<const Frame> frames_through(GroupId last) noexcept { return poses_.frames_through(last); }
 
  private:
   enum class Source : unsigned char { configuration, poses, coordinates };
 
   void begin(Source source) noexcept {
-    if (!settled_) all_moved_at_ = update_;  // nobody asked what the update before this one moved
+    if (!settled_) all_moved_at_ = update_;  // settle() was never called for the previous update
     ++update_;
     settled_ = false;
     if (source_ == Source::coordinates || source == Source::coordinates) {
@@ -137,7 +146,7 @@ class Placement {
     if (few_moved()) settle();
   }
 
-  /// Finds out which groups the last update moved.
+  /// Finds the groups that moved in the last update.
   void settle() noexcept {
     if (settled_) return;
     settled_ = true;
@@ -151,9 +160,9 @@ class Placement {
   std::uint64_t update_ = 1;
   std::uint64_t all_moved_at_ = 1;
   std::uint64_t world_moved_at_ = 1;
-  bool settled_ = true;                   // moved_at_ knows about the last update
-  std::vector<std::uint64_t> moved_at_;   // per group: an update
-  std::vector<std::uint64_t> placed_at_;  // per group: the version placed_ holds
+  bool settled_ = true;                   // moved_at_ includes the last update
+  std::vector<std::uint64_t> moved_at_;   // per group: number of the update that last moved it
+  std::vector<std::uint64_t> placed_at_;  // per group: version() of its values in placed_
   Source source_ = Source::configuration;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SelectedModel: a model seen through one DOF selection: rigid groups, and the pairs whose distance cannot change.
+// SelectedModel: a model under one DOF selection, with its rigid groups and its pairs of constant distance.
 #pragma once
 
 #include <algorithm>
@@ -22,44 +22,56 @@
 
 namespace hinge {
 
-/// Computed once when the DOF are selected. Memory: O(primitives + groups).
+/// Constant data, computed once per selection; memory O(primitives + groups). Safe to share between threads. Returned
+/// spans and references are valid while the object lives.
 template <Primitive P>
 class SelectedModel {
  public:
+  /// ModelError: a selection for another tree.
   SelectedModel(Model<P> model, DofSelection selection);
 
+  /// Returns the model.
   const Model<P>& model() const noexcept { return model_; }
+  /// Returns the DOF selection.
   const DofSelection& selection() const noexcept { return selection_; }
+  /// Returns the rigid groups.
   const std::shared_ptr<const RigidGroups>& groups() const noexcept { return groups_; }
+  /// Returns the number of primitives.
   std::size_t size() const noexcept { return primitives_.size(); }
 
-  /// In the frame of their rigid group.
+  /// Returns the primitives in the frames of their rigid groups, size() values.
   std::span<const P> primitives() const noexcept { return primitives_; }
+  /// Returns the rigid group of primitive i.
   GroupId group_of(PrimitiveId i) const noexcept { return group_of_[index(i)]; }
+  /// Returns the primitives of a group in increasing order.
   std::span<const PrimitiveId> primitives_of(GroupId group) const noexcept {
     return std::span(by_group_).subspan(group_start_[index(group)],
                                         group_start_[index(group) + 1] - group_start_[index(group)]);
   }
-  /// Groups other than its own in whose frame the primitive does not move either: it lies on the axis between. Empty
-  /// for primitives on the axes of more than most_listed groups; constant() knows about them as well.
+  /// Returns further groups in whose frames primitive i does not move, because it lies on the joint axes between them
+  /// and its own group. The list is empty when there are more than most_listed groups; constant() still handles this
+  /// case.
   std::span<const GroupId> also_fixed_in(PrimitiveId i) const noexcept {
     return std::span(also_fixed_in_).subspan(also_start_[index(i)], also_start_[index(i) + 1] - also_start_[index(i)]);
   }
 
-  /// Can the distance of i and j never change under this selection? So it is when both are fixed in one group's frame.
+  /// Returns true when the distance of i and j cannot change under this selection: both are fixed in the frame of one
+  /// group.
   [[gnu::always_inline]] bool constant(PrimitiveId i, PrimitiveId j) const noexcept {
-    // Nearly every pair that is asked for has no group in common.
+    // Most pairs have no common group, and the bit sets show it.
     return (fixed_in_bits_[index(i)] & fixed_in_bits_[index(j)]) != 0 && share_a_group(i, j);
   }
 
-  /// On a line of joints every primitive is fixed in every group: lists of them would fill the memory. Longer ones are
-  /// walked when asked for; proteins and robots have at most four.
+  /// Limit on the length of a primitive's list of groups. On a chain of joints with one common axis every primitive is
+  /// fixed in every group, so full lists would exhaust memory. Longer lists are replaced by a walk on demand. Proteins
+  /// and robots need at most four entries.
   static constexpr std::size_t most_listed = 64;
 
  private:
   void find_axis_primitives();
   detail::AxisGrid grid_of(GroupId group, std::span<const GroupId> children) const;
-  /// Takes a primitive of a group's frame to the frame of its parent, or child, if it lies on the axis between.
+  /// Transforms a primitive from the frame of a group to the frame of its parent (or child) when it lies on the joint
+  /// axis between them; otherwise returns false.
   bool cross_to_parent(P& primitive, GroupId group) const noexcept;
   bool cross_to_child(P& primitive, GroupId child) const noexcept;
   bool meet_on_the_way(PrimitiveId i, PrimitiveId j) const noexcept;
@@ -83,8 +95,8 @@ class SelectedModel {
   std::vector<std::size_t> group_start_;
   std::vector<GroupId> also_fixed_in_;
   std::vector<std::size_t> also_start_;
-  std::vector<PrimitiveId> unlisted_;         // sorted: those in more groups than are listed
-  std::vector<std::uint64_t> fixed_in_bits_;  // per primitive: the groups it is fixed in, modulo 64
+  std::vector<PrimitiveId> unlisted_;         // sorted: primitives with more than most_listed groups
+  std::vector<std::uint64_t> fixed_in_bits_;  // per primitive: bit (g modulo 64) for each group g that it is fixed in
 };
 
 template <Primitive P>
@@ -99,7 +111,7 @@ SelectedModel<P>::SelectedModel(Model<P> model, DofSelection selection)
   for (std::size_t i = 0; i < n; ++i) {
     const LinkId link = model_.links()[i];
     const Pose& offset = groups_->link_in_group(link);
-    // The identity is skipped so that coordinates keep their bits, negative zeros included.
+    // Skip the identity: multiplication would change the sign of negative zeros.
     primitives_.push_back(offset == Pose{} ? model_.primitives()[i] : model_.primitives()[i].placed(offset));
     group_of_.push_back(groups_->group_of(link));
     ++group_start_[index(group_of_.back()) + 1];
@@ -140,7 +152,8 @@ bool SelectedModel<P>::cross_to_child(P& primitive, GroupId child) const noexcep
   return false;
 }
 
-/// Around the group's own primitives and those of its children, which may lie on the axes between.
+/// Builds a grid of the children's joint axes. Its box contains the primitives of the group and of its children, since
+/// both may lie on these axes.
 template <Primitive P>
 detail::AxisGrid SelectedModel<P>::grid_of(GroupId group, std::span<const GroupId> children) const {
   Aabb box;
@@ -158,7 +171,7 @@ template <Primitive P>
 void SelectedModel<P>::find_axis_primitives() {
   also_start_.assign(size() + 1, 0);
   if constexpr (HasAxisInvariance<P>) {
-    std::vector<std::vector<GroupId>> children(groups_->size());  // that turn
+    std::vector<std::vector<GroupId>> children(groups_->size());  // revolute children only
     for (std::size_t g = 1; g < groups_->size(); ++g)
       if (const RigidGroup& group = (*groups_)[id<GroupId>(g)]; group.joint.kind == JointKind::revolute)
         children[index(group.parent)].push_back(id<GroupId>(g));
@@ -171,7 +184,7 @@ void SelectedModel<P>::find_axis_primitives() {
     };
     std::vector<Stop> stops;
     for (std::size_t i = 0; i < size(); ++i) {
-      // Walk from the primitive's own group across every axis it lies on.
+      // Breadth-first walk from the primitive's own group across every axis that the primitive lies on.
       stops.assign(1, {group_of_[i], primitives_[i]});
       const auto unseen = [&](GroupId g) {
         return std::none_of(stops.begin(), stops.end(), [g](const Stop& other) { return other.group == g; });
@@ -202,17 +215,18 @@ void SelectedModel<P>::find_axis_primitives() {
 
 template <Primitive P>
 bool SelectedModel<P>::meet_on_the_way(PrimitiveId i, PrimitiveId j) const noexcept {
-  // The groups a primitive is fixed in hang together, and groups form a tree: two primitives that share a group share
-  // one on the way between their own. Both go up to where their ways join; one that got there goes on to the other.
+  // The groups in which a primitive is fixed form a connected subtree. Two primitives with a common group therefore
+  // share one on the path between their own groups. Both walk up to the lowest common ancestor. A primitive that is
+  // still fixed there continues down towards the other.
   struct Walk {
-    GroupId at, reached;  // `reached` is the last group the primitive is fixed in
+    GroupId at, reached;  // `reached`: last group on the path in which the primitive is fixed
     P primitive;
     bool stuck = false;
     std::vector<GroupId> way{};
   };
   Walk a{group_of(i), group_of(i), primitives_[index(i)]}, b{group_of(j), group_of(j), primitives_[index(j)]};
   while (a.at != b.at) {
-    Walk& later = a.at < b.at ? b : a;  // parents come first
+    Walk& later = a.at < b.at ? b : a;  // parents have smaller indices
     later.way.push_back(later.at);
     later.stuck = later.stuck || !cross_to_parent(later.primitive, later.at);
     later.at = (*groups_)[later.at].parent;

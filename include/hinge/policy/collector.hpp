@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hit, and Collector: what a query mode does with the pairs an engine finds.
+// Hit, and Collector: a query mode receives the pairs that an engine finds.
 #pragma once
 
 #include <concepts>
@@ -8,23 +8,25 @@
 
 namespace hinge {
 
-/// A pair that comes too close (or, in the modes that ask for it, close). In self queries first < second; between two
-/// models `first` belongs to the model asked and `second` to the other one. Lengths in the model's unit.
+/// A reported pair: a collision, or a near pair in the query modes that return near pairs. In self queries first <
+/// second. Between two models `first` belongs to the queried model and `second` to the other model. Lengths in the
+/// model's unit.
 struct Hit {
-  PrimitiveId first{};
-  PrimitiveId second{};
-  double distance = 0.0;
-  double threshold = 0.0;  ///< M of BioCD eq. (1), plus the extra clearances of the two groups where a query gave any
+  PrimitiveId first{};     ///< first primitive
+  PrimitiveId second{};    ///< second primitive
+  double distance = 0.0;   ///< d of BioCD eq. (1); 0 when solids touch or overlap
+  double threshold = 0.0;  ///< M of BioCD eq. (1), plus the query's extra clearances of the two groups
 
-  /// Surface distance: negative when the pair collides.
+  /// Returns distance - threshold, in the model's length unit. It is negative when the pair collides.
   double gap() const noexcept { return distance - threshold; }
 
   friend bool operator==(const Hit&, const Hit&) = default;
 };
 
-/// cutoff(): pairs with d - M beyond it are no longer wanted; never grows. done(): nothing more is wanted. `ranks`
-/// tells how the leaf kernel hands pairs over: false, only those that closer_than(p, q, M + cutoff) accepts; true,
-/// every pair that boxes could not rule out, and the collector itself compares d - M.
+/// cutoff(): the collector accepts only pairs with d - M up to this value (model length unit). It must never grow.
+/// done(): true when the collector needs no more pairs. `ranks` selects the pairs that the leaf kernel passes to add().
+/// false: only pairs accepted by closer_than(p, q, M + cutoff). true: every pair that the boxes do not rule out; the
+/// collector then compares d - M itself.
 template <class C>
 concept Collector = requires(C& collector, const C& constant, const Hit& hit) {
   collector.add(hit);
@@ -35,33 +37,34 @@ concept Collector = requires(C& collector, const C& constant, const Hit& hit) {
   { C::ranks } -> std::convertible_to<bool>;
 };
 
-/// Are collisions asked for, with no margin?
+/// Returns true when the query reports collisions only: no ranking and zero margin.
 template <Collector C>
 bool asks_collisions(const C& collector) noexcept {
   return !C::ranks && collector.cutoff() == 0.0;
 }
 
-/// Optional refinement: done at the first hit, which may be any.
+/// Optional refinement: the collector is done after its first hit. Any hit is a valid answer.
 template <class C>
 concept StopsAtFirst = Collector<C> && requires {
   requires C::stops_at_first;
 };
 
-/// Optional refinement of collectors that rank: only the pair with the smallest d - M is of interest, so that an upper
-/// bound of one pair rules out others before any is handed over.
+/// Optional refinement of collectors that rank: only the pair with the smallest d - M matters. An upper bound from one
+/// pair may then rule out other pairs before they reach add().
 template <class C>
 concept KeepsSmallest = Collector<C> && C::ranks && requires {
   requires C::keeps_smallest;
 };
 
-/// Optional refinement: is told by how much a distance that was only measured may be off (QueryOptions::precision).
+/// Optional refinement: add_measured also receives the error bound of a float distance (QueryOptions::precision), in
+/// the model's length unit.
 template <class C>
 concept TakesErrors = Collector<C> && requires(C& collector, const Hit& hit, double error) {
   collector.add_measured(hit, error);
 };
 
-/// Optional refinement: knows pairs of links of which it wants no more. What it refuses it keeps refusing in the same
-/// query.
+/// Optional refinement: wants(a, b) returns false for pairs of links that need no more hits. Within one query a
+/// rejected pair of links must stay rejected.
 template <class C>
 concept RefusesLinks = Collector<C> && requires(const C& collector, LinkId a, LinkId b) {
   { collector.wants(a, b) }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// DifferentLinks: the pair filter of solid bodies, where a link is never tested with itself.
+// DifferentLinks: the pair filter of solid links. It never tests a link with itself.
 #pragma once
 
 #include <algorithm>
@@ -15,26 +15,31 @@
 
 namespace hinge {
 
-/// Admits pairs whose primitives belong to different links, except pairs of links switched off by the caller.
+/// Admits pairs of primitives on different links, except the ignored pairs of links. Copies share constant data, so
+/// they are cheap and safe to use in several threads.
 class DifferentLinks {
  public:
-  /// link_of[i] is the link of primitive i (Model::links()); ignored holds link pairs that are not tested, such as
-  /// parent and child whose meshes meet in the joint. ModelError: a pair of a link with itself; a link beyond
-  /// most_links, whose pairs would fill the memory.
+  /// link_of: one link per primitive (Model::links()). ignored: pairs of links that are not tested, such as a parent
+  /// and a child whose meshes overlap at the joint. ModelError: an ignored pair names the same link twice, or a link
+  /// index is >= most_links, where the table would exhaust memory.
   explicit DifferentLinks(std::vector<LinkId> link_of, std::vector<std::pair<LinkId, LinkId>> ignored = {});
 
+  /// Returns true when the links of i and j form an admitted pair.
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept {
     return admits(data_->link_of[hinge::index(i)], data_->link_of[hinge::index(j)]);
   }
-  /// Links that have primitives.
+  /// Returns true when the pair of links is tested. Both links must have an index at most that of the last link with
+  /// primitives.
   bool admits(LinkId a, LinkId b) const noexcept {
     return data_->admitted[hinge::index(a) * data_->links + hinge::index(b)];
   }
+  /// Returns the number of primitives.
   std::size_t size() const noexcept { return data_->link_of.size(); }
-  /// The link of every primitive.
+  /// Returns the link of every primitive, size() values, valid while the filter or a copy lives.
   std::span<const LinkId> links() const noexcept { return data_->link_of; }
 
-  static constexpr std::size_t most_links = std::size_t{1} << 17;  ///< their pairs fill 2 GiB, a bit each
+  static constexpr std::size_t most_links = std::size_t{1}
+                                            << 17;  ///< the table of pairs takes 2 GiB at this limit, one bit per pair
 
  private:
   struct Data {
@@ -42,7 +47,7 @@ class DifferentLinks {
     std::size_t links = 0;
     std::vector<bool> admitted;  // links x links, row-major
   };
-  std::shared_ptr<const Data> data_;  // shared by the copies that engines and threads hold
+  std::shared_ptr<const Data> data_;  // copies in engines and threads share it
 };
 
 inline DifferentLinks::DifferentLinks(std::vector<LinkId> link_of, std::vector<std::pair<LinkId, LinkId>> ignored) {
@@ -57,7 +62,8 @@ inline DifferentLinks::DifferentLinks(std::vector<LinkId> link_of, std::vector<s
     if (a == b)
       throw ModelError("ignored pair: link " + std::to_string(hinge::index(a)) +
                        " with itself, expected two different links");
-    if (hinge::index(a) >= data.links || hinge::index(b) >= data.links) continue;  // a link without primitives
+    if (hinge::index(a) >= data.links || hinge::index(b) >= data.links)
+      continue;  // no primitive on this link or a later link
     data.admitted[hinge::index(a) * data.links + hinge::index(b)] = false;
     data.admitted[hinge::index(b) * data.links + hinge::index(a)] = false;
   }

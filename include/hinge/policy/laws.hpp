@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the concepts demand of policies beyond syntax, as checks for policies of your own. Each check returns the laws
-// that were broken, one sentence each; an empty list means that the samples keep them all.
+// Run-time checks for custom policies: the requirements of the concepts beyond syntax. Each check returns the broken
+// laws, one sentence each. An empty list means that the samples satisfy all laws.
 #pragma once
 
 #include <algorithm>
@@ -25,15 +25,16 @@
 
 namespace hinge::laws {
 
+/// Broken laws, one English sentence each, at most 20.
 using Violations = std::vector<std::string>;
 
-/// Lengths compare to within this share of the largest coordinate: room for a few dozen roundings; a wrong formula is
-/// off by much more.
+/// Relative tolerance for lengths, as a fraction of the largest coordinate. It allows a few dozen roundings. A wrong
+/// formula deviates by much more.
 inline constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 
 namespace detail {
 
-/// More sentences than this are not told.
+/// Limit on the number of reported violations.
 inline constexpr std::size_t most_told = 20;
 
 inline void require(bool kept, Violations& broken, const auto& sentence) {
@@ -79,9 +80,10 @@ void check_pair(const F& filter, PrimitiveId i, PrimitiveId j, std::span<const L
 
 }  // namespace detail
 
-/// Distances of all pairs of samples are symmetric, >= 0, 0 to itself, not below the gap of the bounds, and the same
-/// under a common pose; closer_than follows the distance and grows with its threshold; closest points realise the
-/// distance. samples: a few dozen as they occur, the odd ones included (a point's size, flat, touching).
+/// Checks the laws of Primitive. The distance of each pair of samples is symmetric, >= 0, 0 from a sample to itself, at
+/// least the gap of the bounds, and constant under a common pose. closer_than follows the distance and is monotone in
+/// its threshold. Closest points are at that distance. samples: a few dozen typical values, including special cases
+/// (zero size, flat, touching).
 template <Primitive P>
 Violations check_primitive(std::span<const P> samples, std::span<const Pose> poses) {
   Violations broken;
@@ -127,9 +129,10 @@ Violations check_primitive(std::span<const P> samples, std::span<const Pose> pos
   return broken;
 }
 
-/// Of `primitives` primitives: admits is symmetric and repeatable; excluded(i) is sorted and free of doubles and of i
-/// itself, and names only primitives that admits refuses; links are refused only where admits refuses all their pairs.
-/// links: of every primitive (Model::links()); none are needed where the filter does not go by links.
+/// Checks the laws of PairFilter for `primitives` primitives. admits is symmetric and repeatable. excluded(i) is
+/// sorted, has no duplicates, does not contain i, and lists only primitives that admits rejects. A pair of links is
+/// rejected only when admits rejects all its pairs. links: the link of every primitive (Model::links()); may be empty
+/// when the filter does not use links.
 template <PairFilter F>
 Violations check_pair_filter(const F& filter, std::size_t primitives, std::span<const LinkId> links = {}) {
   Violations broken;
@@ -150,8 +153,9 @@ Violations check_pair_filter(const F& filter, std::size_t primitives, std::span<
   return broken;
 }
 
-/// The laws of pairs as above, for a model of any size: all pairs of a small one, and of a large one what is listed and
-/// a sample of pairs, the same in every run. Hierarchy asks this when it is compiled without NDEBUG.
+/// Checks the laws of pairs for a model of any size: all pairs of a small model; for a large model the listed pairs and
+/// a sample, the same in every run. Hierarchy calls it when compiled without NDEBUG. links: the link of every
+/// primitive.
 template <PairFilter F>
 Violations check_refinements(const F& filter, std::span<const LinkId> links) {
   constexpr std::size_t most_pairs = 4096, most_listed = 65536;
@@ -179,8 +183,8 @@ Violations check_refinements(const F& filter, std::span<const LinkId> links) {
   return broken;
 }
 
-/// The same of a filter between two models, whose primitives hang on `links` and `other_links`: it need not be
-/// symmetric, and lists no exclusions.
+/// The same for a filter between two models. links, other_links: the links of their primitives. The filter may be
+/// asymmetric and lists no exclusions.
 template <PairFilter G>
 Violations check_refinements(const G& across, std::span<const LinkId> links, std::span<const LinkId> other_links) {
   Violations broken;
@@ -200,7 +204,8 @@ Violations check_refinements(const G& across, std::span<const LinkId> links, std
   return broken;
 }
 
-/// Of `primitives` primitives: thresholds are symmetric, finite and >= 0, and reach(i) + reach(j) >= threshold(i, j).
+/// Checks the laws of DistanceMatrix for `primitives` primitives: thresholds are symmetric, finite and >= 0, and
+/// reach(i) + reach(j) >= threshold(i, j).
 template <DistanceMatrix D>
 Violations check_distance_matrix(const D& matrix, std::size_t primitives) {
   Violations broken;
@@ -218,7 +223,8 @@ Violations check_distance_matrix(const D& matrix, std::size_t primitives) {
   return broken;
 }
 
-/// The cutoff never grows, and a collector that is done stays done, whatever hits come.
+/// Checks the laws of Collector: the cutoff never grows, and a collector that is done stays done, for any sequence of
+/// hits.
 template <Collector C>
 Violations check_collector(C collector, std::span<const Hit> hits) {
   Violations broken;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Primitive: what a thing must offer to be tested, and closer_than, the one place where a hit is decided.
+// Primitive: the requirements on a shape, and closer_than, the single place where collisions are decided.
 #pragma once
 
 #include <cmath>
@@ -15,9 +15,9 @@
 
 namespace hinge {
 
-/// A plain value in its link's frame. Laws (tests/laws/primitive_laws.hpp): squared_distance is symmetric and >= 0;
-/// bounds contain the primitive, so squared_distance >= squared gap of the bounds; distances do not change under one
-/// common pose.
+/// A value type in the frame of its link. placed(pose) returns it transformed by the pose; bounds() returns a box in
+/// the same frame. Laws (hinge/policy/laws.hpp): squared_distance is symmetric and >= 0. The bounds contain the
+/// primitive, so squared_distance >= squared gap of the bounds. Distances do not change under a common pose.
 template <class P>
 concept Primitive = std::copyable<P> && requires(const P& p, const P& q, const Pose& pose) {
   { p.placed(pose) }
@@ -28,15 +28,15 @@ concept Primitive = std::copyable<P> && requires(const P& p, const P& q, const P
   noexcept->std::same_as<double>;
 };
 
-/// Optional refinement: can name the two nearest points (on p, then on q).
+/// Optional refinement: closest_points(p, q) returns the two nearest points, first on p, then on q.
 template <class P>
 concept HasClosestPoints = Primitive<P> && requires(const P& p, const P& q) {
   { closest_points(p, q) }
   noexcept->std::same_as<std::pair<Vec3, Vec3>>;
 };
 
-/// Optional refinement: lies within hull_radius() of the convex hull of a few points, hull(), so that what is known of
-/// the motion of points is known of it.
+/// Optional refinement: the primitive lies within hull_radius() of the convex hull of a few points, hull(). Motion
+/// bounds of these points then hold for the whole primitive.
 template <class P>
 concept HasHull = Primitive<P> && requires(const P& p) {
   { p.hull()[0] } -> std::convertible_to<Vec3>;
@@ -45,33 +45,33 @@ concept HasHull = Primitive<P> && requires(const P& p) {
   noexcept->std::same_as<double>;
 };
 
-/// Is the primitive one point with a radius, an atom or a ball?
+/// True when the hull is a single point: an atom or a ball.
 template <HasHull P>
 inline constexpr bool has_one_point = std::tuple_size_v<decltype(std::declval<P>().hull())> == 1;
 
-/// A primitive whose motion can be bounded, so that CertifiedPath can prove paths free: one point, or closest points
-/// that give the direction in which to measure.
+/// A primitive with bounded motion, as CertifiedPath requires: its hull is a single point, or it has closest points,
+/// which give a direction to measure in.
 template <class P>
 concept Certifiable = HasHull<P> &&(HasClosestPoints<P> || has_one_point<P>);
 
-/// Optional refinement: can tell that turning about the line (point, unit axis) leaves it where it is, so that its
-/// distance to what lies across that joint is constant. `axis_point` in the primitive's frame.
+/// Optional refinement: returns true when a rotation about the line (axis_point, unit axis) maps the primitive onto
+/// itself. Its distance to anything across that joint is then constant. Point and axis in the primitive's frame.
 template <class P>
 concept HasAxisInvariance = Primitive<P> && requires(const P& p, const Vec3& axis_point, const Vec3& axis) {
   { p.fixed_on_axis(axis_point, axis) }
   noexcept->std::same_as<bool>;
 };
 
-/// Optional refinement: can tell what its bounds may hide: a coordinate that is no number beside others that are, a
-/// negative radius. True of a value that distances can be asked of.
+/// Optional refinement: detects errors that the bounds may hide, for example a NaN in one of several vertices or a
+/// negative radius. Returns true for a value with well-defined distances.
 template <class P>
 concept ChecksItself = Primitive<P> && requires(const P& p) {
   { p.is_valid() }
   noexcept->std::same_as<bool>;
 };
 
-/// Can distances of p be asked for: is it valid, and are its bounds lengths, and not empty? Asked about every primitive
-/// that is placed elsewhere.
+/// Returns true when distances of p are well defined: p is valid, and its bounds are lengths and not empty. Model
+/// builders and update_placed check every primitive with it.
 template <Primitive P>
 bool is_sound(const P& p) noexcept {
   const Aabb box = p.bounds();
@@ -81,7 +81,7 @@ bool is_sound(const P& p) noexcept {
   return true;
 }
 
-/// What is wrong with a p that is not sound, to be put behind its name.
+/// Returns the reason why p is not sound, for an error message after the name of p.
 template <Primitive P>
 const char* flaw_of(const P& p) noexcept {
   if constexpr (ChecksItself<P>)
@@ -91,23 +91,24 @@ const char* flaw_of(const P& p) noexcept {
   return "its bounds are empty";
 }
 
-/// Optional refinement: nothing comes closer than 0 to it, not even what lies in the same place (BioCD's atoms:
-/// strictly d < M). Where its thresholds are all 0 it never collides, and engines may pass it over.
+/// Optional refinement: the primitive is a point (BioCD's atoms). A pair collides only when strictly d < M, also when
+/// both coincide. A primitive whose thresholds are all 0 never collides, and engines may skip it.
 template <class P>
 concept IsPointLike = Primitive<P> && requires {
   requires P::is_point_like;
 };
 
-/// Do p and q come closer than m (>= 0)? The rule for closed solids: d < m, or they touch (d = 0) whatever m is. A
-/// primitive with a rule of its own (Point: strictly d < m) declares a hidden friend of this name, which wins.
+/// Returns true when p and q are closer than m (>= 0, model length unit). This is the rule for closed solids: d < m, or
+/// d = 0 for any m. A primitive with another rule (Point: strictly d < m) declares a hidden friend of this name, which
+/// overload resolution prefers.
 template <Primitive P>
 bool closer_than(const P& p, const P& q, double m) noexcept {
   const double squared = squared_distance(p, q);
   return squared < m * m || squared == 0.0;
 }
 
-/// d(p, q) in the model's length unit. A primitive whose squared distance may leave the range of doubles declares a
-/// hidden friend of this name, which wins.
+/// Returns d(p, q) in the model's length unit. A primitive whose squared distance may overflow or underflow declares a
+/// hidden friend of this name, which overload resolution prefers.
 template <Primitive P>
 double distance(const P& p, const P& q) noexcept {
   return std::sqrt(squared_distance(p, q));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Capsule: all points within a radius of a segment, closed.
+// Capsule: a closed solid of all points within a radius of a segment.
 #pragma once
 
 #include <algorithm>
@@ -21,23 +21,31 @@
 
 namespace hinge {
 
+/// A capsule with axis from a to b. Coordinates in the frame of its link or in the world, model length unit.
 struct Capsule {
-  Vec3 a = Vec3::Zero();
-  Vec3 b = Vec3::Zero();
-  double radius = 0.0;  ///< >= 0
+  Vec3 a = Vec3::Zero();  ///< one end of the axis
+  Vec3 b = Vec3::Zero();  ///< other end of the axis
+  double radius = 0.0;    ///< >= 0, model length unit
 
+  /// Returns the capsule transformed by the pose. The radius does not change.
   Capsule placed(const Pose& pose) const noexcept { return {pose * a, pose * b, radius}; }
+  /// Returns true when all values are finite and the radius is >= 0.
   bool is_valid() const noexcept { return is_finite(a) && is_finite(b) && is_finite(radius) && radius >= 0.0; }
+  /// Returns a box that contains the capsule, rounded outward.
   Aabb bounds() const noexcept { return Sphere{a, radius}.bounds().extend(Sphere{b, radius}.bounds()); }
+  /// Returns the two ends of the axis.
   std::array<Vec3, 2> hull() const noexcept { return {a, b}; }
+  /// Returns the radius.
   double hull_radius() const noexcept { return radius; }
+  /// Returns true when both ends lie on the line through axis_point along the unit vector axis, up to rounding.
   bool fixed_on_axis(const Vec3& axis_point, const Vec3& axis) const noexcept {
     return Point{a}.fixed_on_axis(axis_point, axis) && Point{b}.fixed_on_axis(axis_point, axis);
   }
 
-  /// 0 exactly when the closed capsules share a point. The distance, its root, is right to 28 half ulps of the largest
-  /// coordinate difference, 17 of the segments' distance and 2 of itself; beyond 2^512 and below 2^-537 its square
-  /// leaves the range of doubles and is infinite or the smallest positive number, and below 2^-511 it has lost digits.
+  /// Returns the squared surface distance, 0 exactly when the closed capsules share a point. With u = 2^-53, the error
+  /// of its root is at most 28 u of the largest coordinate difference, plus 17 u of the axis distance, plus 2 u of the
+  /// root. Distances above 2^512 give infinity, below 2^-537 the smallest positive double; below 2^-511 digits are
+  /// lost.
   friend double squared_distance(const Capsule& p, const Capsule& q) noexcept {
     constexpr double sum_below = 1.0 - 4 * detail::exact::half_ulp, sum_above = 1.0 + 4 * detail::exact::half_ulp;
     const double touch = p.radius + q.radius;
@@ -53,10 +61,10 @@ struct Capsule {
     return detail::exact::nearest_of_segments(p.a, p.b, q.a, q.b, {p.radius, q.radius, 0.0}).squared_gap;
   }
 
-  /// The segments are closer than both radii and m together, or the closed capsules touch: the answer for the real
-  /// numbers that coordinates, radii and m are. m >= 0.
+  /// Returns true when the axis distance is below the sum of both radii and m >= 0, or the closed capsules touch. The
+  /// answer is exact for the stored coordinates, radii and m.
   friend bool closer_than(const Capsule& p, const Capsule& q, double m) noexcept {
-    // Room for the two roundings of the sum, and for one of the comparison.
+    // Margin for the two roundings of the sum and one rounding in the comparison.
     constexpr double sum_below = 1.0 - 4 * detail::exact::half_ulp, sum_above = 1.0 + 4 * detail::exact::half_ulp;
     const double near = p.radius + q.radius + m;
     if (apart(p, q, near * sum_above)) return false;
@@ -69,8 +77,8 @@ struct Capsule {
     return detail::exact::segments_closer_than(p.a, p.b, q.a, q.b, {p.radius, q.radius, m});
   }
 
-  /// On the surfaces along the line of the segments' nearest points, up to rounding of the coordinates; where the
-  /// capsules overlap, the same point twice.
+  /// Returns points on the two surfaces, on the line through the nearest points of the axes, up to rounding of the
+  /// coordinates. Overlapping capsules give the same point twice.
   friend std::pair<Vec3, Vec3> closest_points(const Capsule& p, const Capsule& q) noexcept {
     const detail::SegmentPair pair(p.a, p.b, q.a, q.b);
     if (pair.in_window()) {
@@ -84,7 +92,8 @@ struct Capsule {
   }
 
  private:
-  /// Are the boxes of the segments more than m apart along an axis? Exact: what rounds above m is above.
+  /// Returns true when the boxes of the axes are more than m apart along one coordinate axis. Exact: rounding is
+  /// monotone, so a rounded difference above m proves an exact difference above m.
   static bool apart(const Capsule& p, const Capsule& q, double m) noexcept {
     bool any = false;
     for (int k = 0; k < 3; ++k)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Point: a primitive without size, such as an atom. Never solid: a pair collides when strictly d < m.
+// Point: a primitive without size, for example an atom. A pair of points collides when strictly d < m.
 #pragma once
 
 #include <algorithm>
@@ -16,18 +16,23 @@
 
 namespace hinge {
 
+/// One point. Coordinates in the frame of its link or in the world, model length unit.
 struct Point {
-  static constexpr bool is_point_like = true;
+  static constexpr bool is_point_like = true;  ///< coincident points collide only when m > 0
   Vec3 position = Vec3::Zero();
 
+  /// Returns the point transformed by the pose.
   Point placed(const Pose& pose) const noexcept { return {pose * position}; }
+  /// Returns the box that contains exactly this point.
   Aabb bounds() const noexcept { return Aabb(position); }
+  /// Returns the point itself.
   std::array<Vec3, 1> hull() const noexcept { return {position}; }
+  /// Returns 0.
   double hull_radius() const noexcept { return 0.0; }
 
-  /// 0 exactly when the points coincide. The distance, its root, is right to 4 half ulps; beyond 2^512 and below 2^-537
-  /// its square leaves the range of doubles and is infinite or the smallest positive number, and below 2^-511 it has
-  /// lost digits.
+  /// Returns the squared distance, 0 exactly when the points coincide. The relative error of its root is at most 4 u (u
+  /// = 2^-53). Distances above 2^512 give infinity, below 2^-537 the smallest positive double; below 2^-511 digits are
+  /// lost.
   friend double squared_distance(const Point& p, const Point& q) noexcept {
     const double squared = squared_norm(Vec3(p.position - q.position));
     if (squared >= detail::exact::lost_squares) [[likely]]
@@ -35,7 +40,8 @@ struct Point {
     return detail::exact::squared_gap_of_balls(p.position, q.position, {});
   }
 
-  /// Right to 4 half ulps, whatever the size; 0 exactly when the points coincide.
+  /// Returns the distance, with a relative error of at most 4 u (u = 2^-53) for every magnitude; 0 exactly when the
+  /// points coincide.
   friend double distance(const Point& p, const Point& q) noexcept {
     const Vec3 d = p.position - q.position;
     const double squared = squared_norm(d);
@@ -48,12 +54,12 @@ struct Point {
     return std::ldexp(std::sqrt(squared_norm(scaled)), exponent);
   }
 
-  /// Strictly d < m, the answer for the real numbers that coordinates and m are; never when m = 0, also for coincident
-  /// points.
+  /// Returns true when strictly d < m. The answer is exact for the stored coordinates and m. It is false for m = 0,
+  /// also for coincident points.
   friend bool closer_than(const Point& p, const Point& q, double m) noexcept {
     if (!(m > 0.0)) return false;
-    // Half ulps: 5 for the sum of squares, its differences included, 1 for m * m, 1 for the product with the band. What
-    // is infinite is below nothing.
+    // Roundings in units of 2^-53: 5 for the sum of squares including the differences, 1 for m * m, 1 for the product
+    // with the band. The comparisons are false when the left side is infinite.
     constexpr double band = 1.0 + 8 * detail::exact::half_ulp;
     const double square = m * m, squared = squared_norm(Vec3(p.position - q.position));
     if (square * band + detail::exact::lost_squares < squared) return false;
@@ -61,14 +67,16 @@ struct Point {
     return detail::exact::points_closer_than(p.position, q.position, m);
   }
 
+  /// Returns the two positions.
   friend std::pair<Vec3, Vec3> closest_points(const Point& p, const Point& q) noexcept {
     return {p.position, q.position};
   }
 
-  /// On the line through axis_point along the unit vector axis, up to rounding: an axis is a normalised difference of
-  /// two stored points, so its end misses the line by a few 2^-53 of the coordinates involved.
+  /// Returns true when the point lies on the line through axis_point along the unit vector axis, up to rounding. A
+  /// stored axis is a normalised difference of two points, so its far end misses the line by a few 2^-53 of the
+  /// coordinates involved.
   bool fixed_on_axis(const Vec3& axis_point, const Vec3& axis) const noexcept {
-    // By a power of two first, which rounds nothing: squares of tiny and huge lengths leave the range of doubles.
+    // Scale by a power of two first, which is exact: squares of tiny and huge lengths would underflow or overflow.
     int exponent = 0;
     double largest = 0.0;
     for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(position[k]), std::abs(axis_point[k])});

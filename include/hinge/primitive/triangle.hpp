@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangle: a closed triangle in space; a degenerate one is the segment or point its vertices span.
+// Triangle: a closed triangle in space. A degenerate triangle is the segment or point that its corners span.
 #pragma once
 
 #include <algorithm>
@@ -22,21 +22,26 @@
 
 namespace hinge {
 
+/// A triangle with three corners, in the frame of its link or in the world, model length unit.
 struct Triangle {
   Vec3 a = Vec3::Zero();
   Vec3 b = Vec3::Zero();
   Vec3 c = Vec3::Zero();
 
+  /// Returns the triangle transformed by the pose.
   Triangle placed(const Pose& pose) const noexcept { return {pose * a, pose * b, pose * c}; }
+  /// Returns the smallest box that contains the triangle.
   Aabb bounds() const noexcept { return Aabb(a).extend(b).extend(c); }
+  /// Returns the three corners.
   std::array<Vec3, 3> hull() const noexcept { return {a, b, c}; }
+  /// Returns 0.
   double hull_radius() const noexcept { return 0.0; }
-  /// Bounds hide a NaN in b or c.
+  /// Returns true when all corners are finite. The check is needed because bounds() hides a NaN in b or c.
   bool is_valid() const noexcept { return is_finite(a) && is_finite(b) && is_finite(c); }
 
-  /// 0 exactly when the triangles share a point. The distance, its root, is right to 28 half ulps of the largest
-  /// coordinate difference plus 16 of itself; beyond 2^512 and below 2^-537 its square leaves the range of doubles and
-  /// is infinite or the smallest positive number.
+  /// Returns the squared distance, 0 exactly when the triangles share a point. With u = 2^-53, the error of its root is
+  /// at most 28 u of the largest coordinate difference plus 16 u of the root. Distances above 2^512 give infinity,
+  /// below 2^-537 the smallest positive double.
   friend double squared_distance(const Triangle& p, const Triangle& q) noexcept {
     constexpr double smallest = 0x1p-1074;
     const detail::Corners x = p.hull(), y = q.hull();
@@ -50,7 +55,8 @@ struct Triangle {
     return detail::nearest_in_integers(x, y).squared;
   }
 
-  /// As squared_distance says, but right whatever the size. Positive where they are apart.
+  /// Returns the distance with the accuracy of squared_distance, for every magnitude. It is positive for disjoint
+  /// triangles.
   friend double distance(const Triangle& p, const Triangle& q) noexcept {
     const double squared = squared_distance(p, q);
     if ((squared >= detail::exact::lost_squares && squared <= detail::exact::largest_square) || squared == 0.0)
@@ -58,7 +64,8 @@ struct Triangle {
     return std::max(detail::nearest_in_integers(p.hull(), q.hull()).distance, 0x1p-1074);
   }
 
-  /// d < m, or they share a point: the answer for the real numbers that the coordinates and m are. m >= 0.
+  /// Returns true when d < m, or the triangles share a point. m >= 0. The answer is exact for the stored coordinates
+  /// and m.
   friend bool closer_than(const Triangle& p, const Triangle& q, double m) noexcept {
     const Boxes boxes(p, q);
     if (boxes.apart(std::max(m, 0.0))) return false;
@@ -76,12 +83,13 @@ struct Triangle {
     return detail::closer_in_integers(x, y, {0.0, 0.0, m});
   }
 
-  /// Of triangles grown by radii: d is below the sum of both and the clearance, or, without a clearance, not above it.
-  /// The answer for the real numbers that coordinates, radii and clearance are. Finite radii, clearance >= 0.
+  /// The same for triangles inflated by radii: true when d is below the sum of both radii and the clearance or, with
+  /// clearance 0, at most the sum of the radii. The answer is exact for the stored values. Radii finite, clearance >=
+  /// 0.
   friend bool closer_than(const Triangle& p, const Triangle& q, const RadiusSum& reach) noexcept {
     if (reach.first == 0.0 && reach.second == 0.0) return closer_than(p, q, reach.clearance);
-    // Room for the two roundings of the sum, and for one of the comparison; what is above `far` is above the sum also
-    // where products are denormal.
+    // Margin for the two roundings of the sum and one rounding in the comparison. The constant in `far` keeps it above
+    // the exact sum when the products are denormal.
     constexpr double sum_below = 1.0 - 4 * detail::exact::half_ulp, sum_above = 1.0 + 4 * detail::exact::half_ulp;
     const double near = reach, far = near * sum_above + 0x1p-1000;
     if (Boxes(p, q).apart(far)) return false;
@@ -97,8 +105,8 @@ struct Triangle {
     return detail::closer_in_integers(x, y, reach);
   }
 
-  /// As far apart as the distance says, up to an ulp or two of the coordinates; of triangles that meet, one point
-  /// twice.
+  /// Returns two nearest points. Their distance matches distance() up to one or two ulps of the coordinates. Triangles
+  /// that share a point give the same point twice.
   friend std::pair<Vec3, Vec3> closest_points(const Triangle& p, const Triangle& q) noexcept {
     const detail::Corners x = p.hull(), y = q.hull();
     const detail::TrianglePair pair(x, y);
@@ -115,13 +123,14 @@ struct Triangle {
   struct Boxes {
     Boxes(const Triangle& s, const Triangle& t) noexcept : p(s.bounds()), q(t.bounds()) {}
 
-    /// More than m apart along an axis? Exact: rounding keeps the order, so what rounds above m is above.
+    /// Returns true when the boxes are more than m apart along an axis. Exact: rounding is monotone, so a rounded
+    /// difference above m proves an exact difference above m.
     bool apart(double m) const noexcept {
       bool any = false;
       for (int k = 0; k < 3; ++k) any |= p.lower[k] - q.upper[k] > m || q.lower[k] - p.upper[k] > m;
       return any;
     }
-    /// The longest side of the box around both.
+    /// Returns the longest side of the box around both triangles.
     double extent() const noexcept {
       double longest = 0.0;
       for (int k = 0; k < 3; ++k)

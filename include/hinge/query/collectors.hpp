@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The four query modes as collectors: any, all, within a margin, closest.
+// The query modes as collectors: any hit, all hits within a margin, the closest pair.
 #pragma once
 
 #include <algorithm>
@@ -14,30 +14,38 @@
 
 namespace hinge {
 
-/// Yes or no; stops at the first hit, which may be any of them.
+/// Collector of yes/no queries: it stops at the first hit, which is an arbitrary colliding pair.
 class AnyHit {
  public:
   static constexpr bool ranks = false;
   static constexpr bool stops_at_first = true;
+  /// Stores the hit.
   void add(const Hit& hit) noexcept { hit_ = hit; }
+  /// Returns 0: only collisions count.
   double cutoff() const noexcept { return 0.0; }
+  /// Returns true when there is a hit.
   bool done() const noexcept { return hit_.has_value(); }
+  /// Returns the hit, or nullopt when nothing collides.
   const std::optional<Hit>& hit() const noexcept { return hit_; }
 
  private:
   std::optional<Hit> hit_;
 };
 
-/// Every pair with d - M below a margin >= 0; margin 0 gives the colliding pairs.
+/// Collects every pair with d - M < margin. With margin 0 these are the colliding pairs.
 class HitsWithin {
  public:
   static constexpr bool ranks = false;
+  /// margin: >= 0, model length unit.
   explicit HitsWithin(double margin = 0.0) noexcept : margin_(margin) {}
+  /// Appends the hit.
   void add(const Hit& hit) { hits_.push_back(hit); }
+  /// Returns the margin.
   double cutoff() const noexcept { return margin_; }
+  /// Returns false: all hits are needed.
   bool done() const noexcept { return false; }
 
-  /// The pairs, sorted by (first, second).
+  /// Returns the hits, sorted by (first, second), and empties the collector.
   std::vector<Hit> take() {
     detail::sort_hits(hits_);
     return std::exchange(hits_, {});
@@ -48,23 +56,28 @@ class HitsWithin {
   std::vector<Hit> hits_;
 };
 
-/// The pair with the smallest d - M: the closest one, the most interpenetrating one when any collides. Among the exact
-/// ties that an engine meets, the smallest (first, second).
+/// Keeps the pair with the smallest d - M: the closest pair, or the deepest collision. Among exact ties that the engine
+/// reports, it keeps the smallest (first, second).
 class Closest {
  public:
   static constexpr bool ranks = true;
   static constexpr bool keeps_smallest = true;
+  /// No known lower bound: the search ends when no pair is left.
   Closest() = default;
-  /// least: no pair has a smaller d - M; the first that is not above it ends the search.
+  /// least: lower bound of d - M over all pairs (model length unit). A pair at or below it ends the search.
   explicit Closest(double least) noexcept : least_(least) {}
+  /// Keeps the hit when it precedes the current best.
   void add(const Hit& hit) noexcept {
     const auto key = [](const Hit& h) { return std::tuple(h.gap(), h.first, h.second); };
     if (hit_ && !(key(hit) < key(*hit_))) return;
     hit_ = hit;
     done_ = hit.gap() <= least_;
   }
+  /// Returns the smallest d - M so far, or infinity.
   double cutoff() const noexcept { return hit_ ? hit_->gap() : std::numeric_limits<double>::infinity(); }
+  /// Returns true when the best pair has reached the lower bound.
   bool done() const noexcept { return done_; }
+  /// Returns the best pair, or nullopt when no pair was tested.
   const std::optional<Hit>& hit() const noexcept { return hit_; }
 
  private:

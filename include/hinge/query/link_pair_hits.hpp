@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// LinkPairHits: which pairs of links collide, each with one pair of primitives that shows it.
+// LinkPairHits: the colliding pairs of links, each with one colliding pair of primitives.
 #pragma once
 
 #include <algorithm>
@@ -15,37 +15,42 @@
 
 namespace hinge {
 
-/// One Hit per pair of links with d - M < margin; which of the pair's hits it is may be any of them. Can be asked again
-/// after clear(), without allocating.
+/// Keeps one Hit per pair of links with d - M < margin. The hit is an arbitrary one of that pair of links. Reusable
+/// after clear() without new allocations.
 class LinkPairHits {
  public:
   static constexpr bool ranks = false;
-  /// links: Model::links() of the model asked; of both models in queries between two. They must outlive this.
+  /// links: Model::links() of the queried model; must outlive this object. margin: >= 0, model length unit.
   explicit LinkPairHits(std::span<const LinkId> links, double margin = 0.0) : LinkPairHits(links, links, margin) {
     between_ = false;
   }
+  /// For queries between two models. other_links: Model::links() of the other model; must outlive this object.
   LinkPairHits(std::span<const LinkId> links, std::span<const LinkId> other_links, double margin = 0.0)
       : links_(links), other_links_(other_links), columns_(count(other_links)), margin_(margin) {
     seen_.resize(count(links) * columns_, 0);
   }
 
+  /// Removes all hits and keeps the memory.
   void clear() noexcept {
     for (const Hit& hit : hits_) mark(hit, 0);
     hits_.clear();
   }
 
-  /// Pairs of these two links need no more be offered.
+  /// Returns false when the pair of links already has a hit.
   bool wants(LinkId a, LinkId b) const noexcept { return seen_[place(a, b)] == 0; }
 
+  /// Stores the hit when it is the first of its pair of links.
   void add(const Hit& hit) {
     if (!wants(links_[index(hit.first)], other_links_[index(hit.second)])) return;
     mark(hit, 1);
     hits_.push_back(hit);
   }
+  /// Returns the margin.
   double cutoff() const noexcept { return margin_; }
+  /// Returns false: all pairs of links are needed.
   bool done() const noexcept { return false; }
 
-  /// Sorted by the links of (first, second).
+  /// Returns the hits sorted by pair of links. The span is valid until the next add() or clear().
   std::span<const Hit> hits() noexcept {
     std::sort(hits_.begin(), hits_.end(), [&](const Hit& x, const Hit& y) { return key(x) < key(y); });
     return hits_;
@@ -58,7 +63,7 @@ class LinkPairHits {
     return n;
   }
   std::size_t place(LinkId a, LinkId b) const noexcept {
-    // Within one model a pair has no order.
+    // Pairs within one model are unordered.
     if (!between_ && b < a) std::swap(a, b);
     return index(a) * columns_ + index(b);
   }
@@ -73,7 +78,7 @@ class LinkPairHits {
   std::size_t columns_ = 0;
   double margin_ = 0.0;
   bool between_ = true;
-  std::vector<std::uint8_t> seen_;  // by pair of links
+  std::vector<std::uint8_t> seen_;  // per pair of links: 1 if it has a hit
   std::vector<Hit> hits_;
 };
 

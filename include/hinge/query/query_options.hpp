@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// QueryCounts, Precision and QueryOptions: what a query reports about its work, and what it can be asked beyond its
-// mode.
+// QueryCounts, Precision and QueryOptions: the work counters of queries and their optional settings.
 #pragma once
 
 #include <cstdint>
@@ -8,32 +7,36 @@
 
 namespace hinge {
 
-/// Work done by queries; added to, never reset, by the queries it is handed to.
+/// Work counters. Each query adds to them and never resets them.
 struct QueryCounts {
-  std::uint64_t boxes_tested = 0;  ///< pairs of boxes compared
-  std::uint64_t nodes_split = 0;   ///< hierarchy nodes built during the queries
-  std::uint64_t pairs_tested = 0;  ///< pairs of primitives whose distance was looked at
-  std::uint64_t undecided = 0;     ///< admitted pairs that floats left open and the query's Precision decided
+  std::uint64_t boxes_tested = 0;  ///< tests of one box against another
+  std::uint64_t nodes_split = 0;   ///< hierarchy nodes built during queries
+  std::uint64_t pairs_tested = 0;  ///< pairs of primitives with a computed distance or distance bound
+  std::uint64_t undecided = 0;     ///< admitted pairs too close to the limit for floats; Precision decided them
 };
 
-/// How a verdict is reached. Exact: that of the real numbers that coordinates and thresholds are. The fast ones decide
-/// by floats alone wherever those measure a distance: in engine/simd, of points, in queries that do not rank. A pair
-/// whose d - M they cannot tell from the limit is undecided: it counts as a hit in order never to miss one, or as none
-/// in order never to cry wolf. docs/explanation/numerics.md has the width of that band. Hits carry float distances,
-/// which are off by less than it. All other queries are answered exactly, and leave nothing undecided.
+/// How a query decides a pair. exact: correct for the real numbers that the stored coordinates and thresholds
+/// represent. The other two use float distances where they are available: for points, in engine/simd, in queries that
+/// do not rank. A pair is undecided when floats cannot separate its d - M from the limit. never_miss counts it as a
+/// hit, never_cry_wolf does not. docs/explanation/numerics.md gives the width of this band; the error of the reported
+/// float distances is below it. All other queries are exact and leave no pair undecided.
 enum class Precision : std::uint8_t { exact, never_miss, never_cry_wolf };
 
+/// Optional settings of a query.
 struct QueryOptions {
-  /// Only pairs whose distance may have changed in the last update.
+  /// Reports only pairs whose distance may have changed in the last update.
   bool moved_only = false;
-  /// Extra clearance per rigid group (model length unit, finite, >= 0), added to the threshold of every pair for both
-  /// of its groups. Empty: none.
+  /// Extra clearance per rigid group (model length unit, finite, >= 0). A pair's threshold grows by the clearances of
+  /// both its groups. An empty span means none. The caller keeps the memory alive during the query.
   std::span<const double> clearance{};
-  /// The same for the groups of the other model, in queries between two.
+  /// The same for the groups of the other model, in queries between two models.
   std::span<const double> other_clearance{};
+  /// Counters to add to, or null. Not owned.
   QueryCounts* counts = nullptr;
+  /// See Precision.
   Precision precision = Precision::exact;
 
+  /// Returns true when either clearance list is given.
   bool adds_clearance() const noexcept { return !clearance.empty() || !other_clearance.empty(); }
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// LargestThreshold: how large the thresholds of a model's primitives get, so that no d - M falls below minus that.
+// LargestThreshold: an upper bound of the thresholds of a model, so no d - M is below its negative.
 #pragma once
 
 #include <algorithm>
@@ -12,11 +12,12 @@
 
 namespace hinge::detail {
 
-/// Upper bounds, in the model's length unit; by types the largest threshold itself, of types that occur.
+/// Upper bounds in the model's length unit. With a typed matrix they are the exact largest thresholds of the types that
+/// occur.
 template <DistanceMatrix D>
 class LargestThreshold {
  public:
-  /// n: how many primitives the matrix is for.
+  /// n: number of primitives of the matrix.
   LargestThreshold(const D& matrix, std::size_t n) {
     if constexpr (TypedThresholdMatrix<D>) {
       occurs_.resize(matrix.type_count());
@@ -30,8 +31,9 @@ class LargestThreshold {
     }
   }
 
+  /// Bound for pairs within this model.
   double within() const noexcept { return between(*this); }
-  /// Between this model and another with a compatible matrix.
+  /// Bound for pairs between this model and another model with a compatible matrix.
   double between(const LargestThreshold& other) const noexcept {
     if constexpr (!TypedThresholdMatrix<D>) return reach_ + other.reach_;
     double largest = 0.0;
@@ -41,8 +43,8 @@ class LargestThreshold {
   }
 
  private:
-  std::vector<std::uint8_t> occurs_;  // per type: has a primitive
-  std::vector<double> to_type_;       // per type: the largest threshold of this model's primitives with it
+  std::vector<std::uint8_t> occurs_;  // per type: 1 if a primitive has it
+  std::vector<double> to_type_;       // per type: the largest threshold between it and a type of this model
   double reach_ = 0.0;
 };
 
