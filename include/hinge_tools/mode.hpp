@@ -2,7 +2,6 @@
 // Mode: which question is asked of every configuration, as tools and their users name it.
 #pragma once
 
-#include <array>
 #include <charconv>
 #include <cstdint>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
+#include "hinge/core/number_text.hpp"
 
 namespace hinge {
 
@@ -47,9 +47,7 @@ inline std::string Mode::text() const {
     case Kind::closest: return "closest";
     case Kind::within: break;
   }
-  std::array<char, 32> buffer;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), margin).ptr;
-  return std::string("within:").append(buffer.data(), end);
+  return "within:" + number_text(margin);
 }
 
 }  // namespace hinge

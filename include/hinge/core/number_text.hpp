@@ -16,4 +16,11 @@ std::string number_text(Number number) {
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
 }
 
+/// With so many digits behind the point, at most 15.
+inline std::string fixed_text(double number, int digits) {
+  std::array<char, 328> text{};  // the largest double has 309 in front of it
+  return {text.data(),
+          std::to_chars(text.data(), text.data() + text.size(), number, std::chars_format::fixed, digits).ptr};
+}
+
 }  // namespace hinge

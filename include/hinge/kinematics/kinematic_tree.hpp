@@ -15,6 +15,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/kinematics/joint.hpp"
 
@@ -127,7 +128,7 @@ inline void KinematicTree::add_closure(Closure closure) {
       throw ModelError(who + ": a point is not finite, or beyond 2^1000");
   for (std::size_t k = 0; closure.lengths && k < 3; ++k)
     if (const double length = (*closure.lengths)[k]; !(length > 0.0) || !is_length(length))
-      throw ModelError(who + ": kept length " + std::to_string(k) + " is " + std::to_string(length) +
+      throw ModelError(who + ": kept length " + number_text(k) + " is " + number_text(length) +
                        ", expected a finite length above 0");
   closures_.push_back(std::move(closure));
 }

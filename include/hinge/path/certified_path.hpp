@@ -14,6 +14,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/detail/bounds/round.hpp"
 #include "hinge/detail/path/displacements.hpp"
 #include "hinge/detail/path/group_rates.hpp"
@@ -89,7 +90,7 @@ template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class,
 PathAnswer CertifiedPath<P, F, D, EngineOf>::check(std::span<const double> from, std::span<const double> to,
                                                    double smallest_step) {
   if (!(smallest_step > 0.0))
-    throw ConfigurationError("smallest step " + std::to_string(smallest_step) + ": expected a share above 0");
+    throw ConfigurationError("smallest step " + number_text(smallest_step) + ": expected a share above 0");
   path_ = StraightPath(from, to, hierarchy_.dof_count());
   smallest_step_ = smallest_step;
   answer_ = {};

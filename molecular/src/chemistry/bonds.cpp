@@ -3,10 +3,8 @@
 #include "hinge/molecular/bonds.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <optional>
 #include <string_view>
 #include <tuple>
@@ -16,6 +14,7 @@
 #include "chemistry/bond_list.hpp"
 #include "chemistry/cell_grid.hpp"
 #include "chemistry/residue_bonds.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/molecular/residue_table.hpp"
 
 namespace hinge::molecular {
@@ -107,9 +106,7 @@ class Perception {
                                                (metal && !link.conect && d <= recorded_coordination_max);
       if (!holds) {
         if (++ignored == 1) {
-          std::array<char, 32> length{};
-          std::snprintf(length.data(), length.size(), "%.2f", d);
-          first_ignored = label(s_, link.first) + " - " + label(s_, link.second) + " is " + length.data();
+          first_ignored = label(s_, link.first) + " - " + label(s_, link.second) + " is " + fixed_text(d, 2);
         }
         continue;
       }
@@ -178,9 +175,8 @@ class Perception {
     return {std::min(i, j), std::max(i, j), origin, std::abs(bonds_.distance(i, j) - radii)};
   }
   std::string named(const Candidate& bond) const {
-    std::array<char, 32> length{};
-    std::snprintf(length.data(), length.size(), "%.3f", bonds_.distance(bond.first, bond.second));
-    return label(s_, bond.first) + " - " + label(s_, bond.second) + ", " + length.data() + " angstrom";
+    return label(s_, bond.first) + " - " + label(s_, bond.second) + ", " +
+           fixed_text(bonds_.distance(bond.first, bond.second), 3) + " angstrom";
   }
 
   std::vector<Candidate> disulphides() const {

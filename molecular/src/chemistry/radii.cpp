@@ -11,6 +11,7 @@
 #include "chemistry/atom_traits.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/molecular/hydrogen_bonds.hpp"
 
 namespace hinge::molecular {
@@ -183,10 +184,9 @@ Thresholds make_thresholds(const Structure& structure, const ThresholdOptions& o
   }
   const RadiiSet& set = radii_set(options.radii.value_or("bondi"));
   const double rho = options.rho.value_or(0.8), allowance = options.hydrogen_bond_allowance.value_or(0.4);
-  if (!is_finite(rho) || rho <= 0.0)
-    throw ModelError("rho " + std::to_string(rho) + ": expected a finite number above 0");
+  if (!is_finite(rho) || rho <= 0.0) throw ModelError("rho " + number_text(rho) + ": expected a finite number above 0");
   if (!is_finite(allowance) || allowance < 0.0)
-    throw ModelError("hydrogen-bond allowance " + std::to_string(allowance) +
+    throw ModelError("hydrogen-bond allowance " + number_text(allowance) +
                      ": expected a finite length >= 0 (angstrom)");
   const std::vector<AtomClass> classes = set.name == "probe" ? probe_classes(structure) : classify_atoms(structure);
   const bool hydrogens = has_hydrogens(structure);

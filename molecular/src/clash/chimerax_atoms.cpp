@@ -3,13 +3,14 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <sstream>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "chemistry/atom_traits.hpp"
 #include "chemistry/valence.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/molecular/hydrogen_bonds.hpp"
 
 namespace hinge::molecular {
@@ -90,9 +91,7 @@ std::vector<AtomTraits> chimerax_atoms(const Structure& structure) {
     for (const std::uint32_t j : near[i]) bears = bears || is_hydrogen(j);
     AtomTraits atom;
     atom.radius = radius.value_or(united_radius(element, all[i], bears, bonded[i].size()));
-    std::ostringstream name;
-    name << element << '.' << atom.radius;
-    atom.name = name.str();
+    atom.name = std::string(element) + '.' + number_text(atom.radius);
     atom.donor = roles[i].donor;
     atom.acceptor = roles[i].acceptor;
     atoms.push_back(std::move(atom));

@@ -13,6 +13,7 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
+#include "hinge/core/number_text.hpp"
 
 namespace hinge::molecular {
 
@@ -116,7 +117,7 @@ EnsembleGroups find_ensemble_groups(const EnsembleSpread& spread, double toleran
     throw ModelError("rigid groups of an ensemble: " + std::to_string(spread.conformations()) +
                      " conformations, expected at least two, or nothing moves");
   if (!(tolerance > 0.0) || !is_length(tolerance))
-    throw ModelError("rigid groups of an ensemble: tolerance " + std::to_string(tolerance) +
+    throw ModelError("rigid groups of an ensemble: tolerance " + number_text(tolerance) +
                      ", expected a length above 0 in angstrom");
   const TorsionBodies& bodies = spread.bodies();
   RigidSets sets(spread, tolerance);

@@ -8,6 +8,7 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
+#include "hinge/core/number_text.hpp"
 #include "io/binary_file.hpp"
 #include "io/dcd_file.hpp"
 #include "io/npy_file.hpp"
@@ -120,7 +121,7 @@ void Trajectory::check_unit() {
   const double mean = sum / static_cast<double>(molecule_->bonds.size());
   // Bonds of organic molecules measure 1 to 2 angstrom, a tenth of that in nanometres.
   if (!molecule_->bonds.empty() && mean < 0.3)
-    notes_.push_back(path_ + ": bonds are " + std::to_string(mean) +
+    notes_.push_back(path_ + ": bonds are " + number_text(mean) +
                      " long in its first frame, like nanometres; it is read as angstrom");
 }
 
@@ -165,7 +166,7 @@ std::vector<Vec3> Trajectory::frame(std::size_t k) const {
     Eigen::Index axis = 0;
     while (is_length(positions[i][axis])) ++axis;
     throw LoadError(path_ + ": frame " + std::to_string(k) + ": " + atom + "): " + "xyz"[axis] + " is " +
-                    std::to_string(positions[i][axis]) + ", expected a number");
+                    number_text(positions[i][axis]) + ", expected a number");
   }
   return positions;
 }

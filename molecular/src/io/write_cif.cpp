@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// mmCIF: loops of the PDBx dictionary, and one of our own for bonds.
-#include <array>
-#include <charconv>
+// mmCIF: loops of the PDBx dictionary, and one of our own for bonds. Numbers become text before they go to the stream,
+// whose locale may group their digits.
 #include <map>
 #include <ostream>
 #include <set>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "chemistry/recorded_bonds.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/molecular/write_structure.hpp"
 
 namespace hinge::molecular {
@@ -24,11 +24,6 @@ std::string value(const std::string& text) {
   constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+-*/:";
   if (text.find_first_not_of(plain) == std::string::npos) return text;
   return text.find('"') == std::string::npos ? '"' + text + '"' : '\'' + text + '\'';
-}
-
-std::string number(double x) {
-  std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), x).ptr};
 }
 
 const std::string& chain_name_of(const Structure& s, const Residue& residue) { return s.chains[residue.chain].name; }
@@ -125,8 +120,8 @@ void write_connections(std::ostream& out, const Structure& s, const std::vector<
     const char* type = bond.origin == BondOrigin::disulphide   ? "disulf"
                        : bond.order == BondOrder::coordination ? "metalc"
                                                                : "covale";
-    out << type << count << ' ' << type << ' ' << residue_values(s, labels, a.residue) << ' ' << value(a.name) << ' '
-        << residue_values(s, labels, b.residue) << ' ' << value(b.name) << " 1_555 1_555\n";
+    out << type << std::to_string(count) << ' ' << type << ' ' << residue_values(s, labels, a.residue) << ' '
+        << value(a.name) << ' ' << residue_values(s, labels, b.residue) << ' ' << value(b.name) << " 1_555 1_555\n";
   }
   if (count > 0) out << "#\n";
 }
@@ -149,11 +144,12 @@ void write_components(std::ostream& out, const Structure& s, const RecordedBonds
 }
 
 void write_recorded(std::ostream& out, const RecordedBonds& recorded) {
-  out << "_hinge_bonds.version 1\n_hinge_bonds.atoms " << recorded.atoms << "\n#\n";
+  out << "_hinge_bonds.version 1\n_hinge_bonds.atoms " << std::to_string(recorded.atoms) << "\n#\n";
   if (recorded.bonds.empty()) return;
   out << "loop_\n_hinge_bond.atom_1\n_hinge_bond.atom_2\n_hinge_bond.order\n";
   for (const RecordedBond& bond : recorded.bonds)
-    out << bond.first + 1 << ' ' << bond.second + 1 << ' ' << (bond.bonded ? order_word(bond.order) : "none") << "\n";
+    out << std::to_string(bond.first + 1) << ' ' << std::to_string(bond.second + 1) << ' '
+        << (bond.bonded ? order_word(bond.order) : "none") << "\n";
   out << "#\n";
 }
 
@@ -193,7 +189,7 @@ void write_cif_model(std::ostream& out, const Structure& s, std::span<const Vec3
       const Vec3& x = positions[i];
       text += (is_hetero_record(residue) ? "HETATM " : "ATOM ") + std::to_string(first_id + i) + ' ' +
               value(s.atoms[i].element) + ' ' + value(s.atoms[i].name) + behind_name;
-      text += number(x[0]) + ' ' + number(x[1]) + ' ' + number(x[2]) + behind;
+      text += number_text(x[0]) + ' ' + number_text(x[1]) + ' ' + number_text(x[2]) + behind;
     }
   }
   out << text;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PDB format 3.3 columns. Numbers are written by to_chars, which knows no locale.
+// PDB format 3.3 columns. Numbers become text before they go to the stream, whose locale may group their digits.
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <ostream>
 #include <string>
@@ -11,6 +9,7 @@
 
 #include "chemistry/recorded_bonds.hpp"
 #include "hinge/core/error.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/molecular/write_structure.hpp"
 #include "io/hybrid36.hpp"
 
@@ -28,12 +27,7 @@ std::string left(std::string text, std::size_t width) {
   return text;
 }
 
-std::string fixed(double value, int digits, std::size_t width) {
-  std::array<char, 32> text{};
-  const char* const last =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, digits).ptr;
-  return right({text.data(), static_cast<std::size_t>(last - text.data())}, width);
-}
+std::string fixed(double value, int digits, std::size_t width) { return right(fixed_text(value, digits), width); }
 
 /// A name of fewer than four characters starts in column 14 when its element symbol has one letter.
 std::string atom_field(const Atom& atom) {
@@ -144,7 +138,8 @@ void write_pdb_head(std::ostream& out, const Structure& structure) {
   const RecordedBonds recorded = record_bonds(structure);
   const auto pairs =
       std::count_if(recorded.bonds.begin(), recorded.bonds.end(), [](const RecordedBond& bond) { return bond.bonded; });
-  out << "REMARK 999 BONDS RECORDED BY HINGE 1: " << recorded.atoms << " ATOMS, " << pairs << " CONECT PAIRS\n";
+  out << "REMARK 999 BONDS RECORDED BY HINGE 1: " << std::to_string(recorded.atoms) << " ATOMS, "
+      << std::to_string(pairs) << " CONECT PAIRS\n";
   write_pairs(out, "SINGLE", recorded.bonds, true);
   write_pairs(out, "BREAK", recorded.bonds, false);
   write_elements(out, structure);
@@ -170,7 +165,7 @@ void write_pdb_model(std::ostream& out, const Structure& structure, std::span<co
         for (int k = 0; k < 3; ++k) {
           const double x = positions[i][k];
           if (!(x > -999.9995 && x < 9999.9995))
-            throw ModelError(label(structure, i) + ": coordinate " + std::to_string(x) +
+            throw ModelError(label(structure, i) + ": coordinate " + number_text(x) +
                              " does not fit the PDB columns; a .cif file holds it");
           text += fixed(x, 3, 8);
         }

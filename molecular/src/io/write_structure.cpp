@@ -43,7 +43,8 @@ void write_pymol_script(std::ostream& out, const Structure& structure, std::span
   out << "load " << pdb_file << ", conformation\nhide everything\nshow cartoon\nutil.cbc\n";
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const std::string a = pymol_spec(structure, pairs[k].first), b = pymol_spec(structure, pairs[k].second);
-    out << "show spheres, " << a << " or " << b << "\ndistance clash" << k + 1 << ", " << a << ", " << b << "\n";
+    out << "show spheres, " << a << " or " << b << "\ndistance clash" << std::to_string(k + 1) << ", " << a << ", " << b
+        << "\n";
   }
   out << "set sphere_scale, 0.25\ncolor red, clash*\nzoom\n";
 }

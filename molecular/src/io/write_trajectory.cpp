@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/molecular/write_structure.hpp"
 
 namespace hinge::molecular {
@@ -104,7 +105,7 @@ void TrajectoryWriter::add(std::span<const Vec3> positions, int number) {
   std::string bytes;
   const auto put_single = [&](std::string& to, double x) {
     const auto value = static_cast<float>(x);
-    if (!std::isfinite(value)) throw ModelError("a coordinate of " + std::to_string(x) + " does not fit 32 bits");
+    if (!std::isfinite(value)) throw ModelError("a coordinate of " + number_text(x) + " does not fit 32 bits");
     put(to, value);
   };
   if (format_ == TrajectoryFormat::npy) {

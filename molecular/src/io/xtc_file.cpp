@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "hinge/core/error.hpp"
+#include "hinge/core/number_text.hpp"
 #include "io/xtc_coordinates.hpp"
 
 namespace hinge::molecular {
@@ -109,7 +110,7 @@ std::vector<Vec3> XtcFile::frame(std::size_t k) const {
   block.small = integer(at + 28);
   const std::string where = file_.name() + ": " + what;
   if (!(block.per_nanometre > 0.0) || !std::isfinite(block.per_nanometre))
-    throw LoadError(where + ": precision " + std::to_string(block.per_nanometre) + ", expected above 0");
+    throw LoadError(where + ": precision " + number_text(block.per_nanometre) + ", expected above 0");
   data.resize(data.size() + xtc_padding);
   return unpack_xtc(block, data, static_cast<std::size_t>(h.atoms), where);
 }

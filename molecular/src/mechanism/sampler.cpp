@@ -9,6 +9,7 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/detail/core/sincos.hpp"
 
 namespace hinge::molecular {
@@ -90,8 +91,8 @@ std::vector<double> sample_configuration(const Sampling& sampling, std::uint64_t
   for (std::size_t k = 0; k < placed.size(); ++k) {
     const PlacementRange& range = ranges[k];
     if (!is_length(range.distance) || range.distance < 0.0 || !(range.turn >= 0.0 && range.turn <= std::numbers::pi))
-      throw ModelError("placing '" + placed[k].part.name + "' within " + std::to_string(range.distance) +
-                       " angstrom and " + std::to_string(range.turn) +
+      throw ModelError("placing '" + placed[k].part.name + "' within " + number_text(range.distance) +
+                       " angstrom and " + number_text(range.turn) +
                        " rad: expected a finite distance >= 0 and a turn from 0 to pi");
     SampleStream own(sampling.seed, index, static_cast<std::uint32_t>(k + 1));
     const std::array<double, 6> q = sample_placement(own, range);

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <numeric>
 #include <tuple>
 
+#include "hinge/core/number_text.hpp"
 #include "hinge/detail/exact/orient.hpp"
 
 namespace hinge::robotics {
@@ -35,11 +35,7 @@ std::vector<std::uint32_t> vertex_numbers(std::span<const Triangle> mesh) {
 
 std::string coordinates_text(const Vec3& v) {
   std::string text = "(";
-  for (int k = 0; k < 3; ++k) {
-    std::array<char, 32> buffer;
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), v[k]).ptr;
-    text += (k == 0 ? "" : ", ") + std::string(buffer.data(), end);
-  }
+  for (int k = 0; k < 3; ++k) text += (k == 0 ? "" : ", ") + number_text(v[k]);
   return text + ")";
 }
 
