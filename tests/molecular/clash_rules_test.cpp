@@ -170,6 +170,34 @@ std::uint32_t find(const Structure& s, const std::string& wanted) {
   return 0;
 }
 
+TEST(AtomClasses, AreTheSameWhereAMetalIsBound) {
+  // Glutamate's carboxylate and a carbonyl on one sodium.
+  const std::string text = atom(1, " CA", "ALA", 'A', -0.76, 1.32, "C") + atom(2, " C", "ALA", 'A', 0, 0, "C") +
+                           atom(3, " O", "ALA", 'A', 1.23, 0, "O") + atom(4, " CG", "GLU", 'B', 7.0, 3.5, "C") +
+                           atom(5, " CD", "GLU", 'B', 6.0, 2.4, "C") + atom(6, " OE1", "GLU", 'B', 4.8, 2.1, "O") +
+                           atom(7, " OE2", "GLU", 'B', 6.6, 1.3, "O");
+  const std::string sodium =
+      "HETATM    8 NA    NA C   1       2.430   2.078   0.000  1.00  0.00          NA\n"
+      "CONECT    8    3    6\n";
+  const auto types = [](const std::string& records, const char* rules) {
+    const test::TemporaryFile file(records + "END\n");
+    ReadOptions options;
+    options.hetero = true;
+    const Structure s = read_structure(file.path(), options);
+    const Thresholds t = make_thresholds(s, by(rules).thresholds);
+    std::string names;
+    for (std::uint32_t i = 0; i < 7; ++i) names += t.type_names[t.matrix.type(id<PrimitiveId>(i))] + ' ';
+    return std::pair(names, s.bonds.size());
+  };
+  for (const char* rules : {"molprobity", "severe", "biocd"}) {
+    const auto [alone, bonds] = types(text, rules);
+    const auto [bound, more] = types(text + sodium, rules);
+    EXPECT_EQ(more, bonds + 2) << "the sodium is bonded to both";
+    EXPECT_EQ(bound, alone) << rules;
+  }
+  EXPECT_NE(types(text + sodium, "molprobity").first.find("C.carbonyl"), std::string::npos);
+}
+
 TEST(HydrogenBondRoles, AreKnownWithoutHydrogens) {
   const Structure& s = ubiquitin();
   const auto roles = hydrogen_bond_roles(s);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Atom classes from elements and bonds alone, so that any molecule gets them.
+// Atom classes from elements and bonds alone, so that any molecule gets them. A carbonyl or a carboxylate that a metal
+// is bound to is what it is without.
 #include <algorithm>
 #include <cstdint>
 #include <string_view>
 #include <vector>
 
+#include "chemistry/valence.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/radii.hpp"
 #include "hinge/molecular/structure.hpp"
@@ -79,7 +81,7 @@ AtomClass classify_hydrogen(const Structure& s, const Neighbours& near, std::uin
 }  // namespace
 
 std::vector<AtomClass> classify_atoms(const Structure& structure) {
-  const Neighbours near = bonded_neighbours(structure);
+  const Neighbours near = covalent_neighbours(structure), bonded = bonded_neighbours(structure);
   const bool hydrogens = has_hydrogens(structure);
   std::vector<AtomClass> classes;
   classes.reserve(structure.atoms.size());
@@ -87,7 +89,7 @@ std::vector<AtomClass> classify_atoms(const Structure& structure) {
     const std::string_view element = structure.atoms[i].element;
     AtomClass c = AtomClass::other;
     if (element == "C") c = classify_carbon(structure, near, i);
-    if (element == "N") c = classify_nitrogen(structure, near, i, hydrogens);
+    if (element == "N") c = classify_nitrogen(structure, bonded, i, hydrogens);  // a metal takes the lone pair
     if (element == "O") c = classify_oxygen(structure, near, i);
     if (element == "S") c = AtomClass::sulphur;
     if (element == "P") c = AtomClass::phosphorus;

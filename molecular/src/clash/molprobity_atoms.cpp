@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "chemistry/atom_traits.hpp"
+#include "chemistry/valence.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 
 namespace hinge::molecular {
@@ -16,7 +17,7 @@ namespace {
 /// Of the atom, in the residue it belongs to: its own charge or that of the group it is part of.
 class Charges {
  public:
-  explicit Charges(const Structure& structure) : s_(structure), near_(bonded_neighbours(structure)) {}
+  explicit Charges(const Structure& structure) : s_(structure), near_(covalent_neighbours(structure)) {}
 
   /// A hydrogen has the charge of what bears it.
   int of(std::uint32_t i) const {
