@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ensemble: many configurations on many threads, results in index order, memory bounded.
+// Ensemble: runs many configurations on many threads, with results in index order and bounded memory.
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
@@ -23,18 +23,18 @@
 
 namespace hinge {
 
-/// Threads with a worker each: a copy of a Hierarchy, or of anything that holds one. Constant parts are shared by
-/// copies, so a worker costs the scratch of one engine. Link to hinge::ensemble.
+/// Owns one worker per thread: a copy of a Hierarchy, or of any object that holds one. Copies share constant data, so a
+/// worker costs the scratch memory of one engine. Requires linking to hinge::ensemble.
 template <std::copyable Worker>
 class Ensemble {
  public:
-  /// threads: at least 1, else ModelError.
+  /// Copies `prototype` once per thread. Throws ModelError if threads is 0.
   Ensemble(const Worker& prototype, unsigned threads) : arena_(checked(threads)), workers_(prototype) {}
 
-  /// Calls work(worker, k) -> result once for every k < count, on any thread, and take(k, result) on one thread at a
-  /// time in the order of k: what take sees does not depend on the number of threads. At most a few chunks of results
-  /// per thread exist at a time, `longest` results each at most: fewer where they are large, or take long. The first
-  /// exception of either ends the run and is thrown here.
+  /// Calls work(worker, k) -> result once for every k < count, on any thread. Calls take(k, result) in the order of k,
+  /// by one thread at a time: its calls do not depend on the number of threads. At most 4 chunks of results per thread
+  /// exist at a time, of at most `longest` results each; choose fewer if a result is large or slow. The first exception
+  /// of work or take ends the run and is rethrown.
   template <class Work, class Take>
   void run(std::size_t count, const Work& work, const Take& take, std::size_t longest = 256) {
     using Result = std::remove_cvref_t<std::invoke_result_t<const Work&, Worker&, std::size_t>>;
@@ -43,10 +43,10 @@ class Ensemble {
       std::vector<Result> results;
     };
     const auto threads = static_cast<std::size_t>(arena_.max_concurrency());
-    // Long enough that handing over costs nothing beside queries of a microsecond, short enough to share the work.
+    // Long chunks make the hand-over cheap compared to queries of a microsecond; short ones balance the load.
     const std::size_t length = std::clamp<std::size_t>(count / (8 * threads), 1, longest);
-    // One chunk for each that is under way: they end in order. (What a pipeline owns itself it loses when an exception
-    // ends it.)
+    // One chunk per token of the pipeline; chunks end in order. They are owned here because a pipeline loses its own
+    // objects when an exception ends it.
     std::vector<Chunk> chunks(4 * threads);
     std::size_t next = 0;
     const auto hand_out = [&](tbb::flow_control& flow) -> std::size_t {
@@ -69,7 +69,7 @@ class Ensemble {
       for (std::size_t k = 0; k < chunk->results.size(); ++k) take(chunk->first + k, std::move(chunk->results[k]));
       chunk->results.clear();
     };
-    // More threads than cores have to be allowed, or TBB warns on standard error and takes fewer.
+    // Allow more threads than cores; otherwise TBB warns on standard error and uses fewer.
     constexpr auto most = tbb::global_control::max_allowed_parallelism;
     std::optional<tbb::global_control> allowed;
     if (threads > tbb::global_control::active_value(most)) allowed.emplace(most, threads);
@@ -91,8 +91,9 @@ class Ensemble {
   tbb::enumerable_thread_specific<Worker> workers_;
 };
 
-/// Yes or no for every configuration. configurations: one after the other, hierarchy.dof_count() values each (rad or
-/// model length unit). ConfigurationError: their number is no multiple of that, or one is refused by update().
+/// Returns one verdict per configuration: 1 if it collides, otherwise 0. configurations: one after the other,
+/// hierarchy.dof_count() values each (rad or model length unit). Throws ConfigurationError if their number is not a
+/// multiple of dof_count(), or if update() throws.
 template <class H>
 std::vector<std::uint8_t> self_collides(const H& hierarchy, std::span<const double> configurations, unsigned threads) {
   const std::size_t dof = hierarchy.dof_count();

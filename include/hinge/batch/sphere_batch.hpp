@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SphereBatch: models of spheres asked about sixteen configurations at once, one in each SIMD lane.
+// SphereBatch: tests models of spheres at sixteen configurations at once, one per SIMD lane.
 #pragma once
 
 #include <algorithm>
@@ -27,27 +27,29 @@
 
 namespace hinge {
 
-/// Does any admitted pair of spheres touch or overlap? Verdicts are those of a Hierarchy with a clearance of 0, to the
-/// last bit: floats decide what lies outside a proven band, the double rule the rest
-/// (docs/explanation/sphere_batch.md). Obstacles are spheres on the world's link, or on links fixed to it: one link for
-/// each keeps them apart. One per thread; no query allocates.
+/// Tests whether an admitted pair of spheres touches or overlaps. Verdicts equal those of a Hierarchy with clearance 0,
+/// bit for bit: floats decide outside a proven error band, doubles inside it (docs/explanation/sphere_batch.md).
+/// Obstacles are spheres on the world link or on links fixed to it; obstacles on separate links are culled separately.
+/// One per thread; queries do not allocate.
 class SphereBatch {
  public:
   static constexpr std::size_t size = detail::simd::width;  ///< configurations in a full block
 
-  /// Every DOF free. The filter is asked here and never again. ModelError: made for another number of primitives.
+  /// Frees every DOF. The filter is evaluated only here. Throws ModelError if the filter was made for another number of
+  /// primitives.
   template <PairFilter F>
   SphereBatch(const Model<Sphere>& model, const F& filter)
       : SphereBatch(model, DofSelection::all(model.tree()), filter) {}
-  /// Only the selected DOF free, all others at their reference.
+  /// Frees only the selected DOF; all others stay at their reference.
   template <PairFilter F>
   SphereBatch(const Model<Sphere>& model, const DofSelection& selection, const F& filter)
       : SphereBatch(std::make_shared<const SelectedModel<Sphere>>(checked(model, filter), selection), filter) {}
 
-  // --- a block is 1 to 16 configurations, one after the other, dof_count() values each (rad or model length unit).
-  // ConfigurationError: as check_block ---
+  // --- A block holds 1 to 16 configurations, one after the other, dof_count() values each (rad or model length unit).
+  // Both queries throw ConfigurationError if the number of values is wrong, or a value is not finite or too long a
+  // slide. ---
 
-  /// Does any configuration of the block collide? Stops at the first hit.
+  /// Returns true if any configuration of the block collides. Stops at the first hit.
   bool any(std::span<const double> block) {
     const detail::PresentBlock present(block_, block);
     const detail::simd::Bits lanes = place(block);
@@ -56,7 +58,7 @@ class SphereBatch {
     return false;
   }
 
-  /// Bit k: configuration k collides.
+  /// Returns a mask: bit k is set if configuration k collides.
   std::uint32_t each(std::span<const double> block) {
     const detail::PresentBlock present(block_, block);
     const detail::simd::Bits lanes = place(block);
@@ -68,14 +70,15 @@ class SphereBatch {
     return hit;
   }
 
-  /// From now on pairs of links are asked in the order of how many of these configurations they collide in. Changes
-  /// the time queries take, never an answer. Any number of configurations; ConfigurationError as above.
+  /// Sorts the pairs of links by the number of these configurations in which they collide; queries test them in this
+  /// order. Answers do not change. Any number of configurations. Throws ConfigurationError as the queries do.
   void learn(std::span<const double> configurations);
 
+  /// Number of values per configuration.
   std::size_t dof_count() const noexcept { return exact_.model().selection().size(); }
-  /// Pairs of spheres that are tested.
+  /// Number of sphere pairs that are tested.
   std::size_t pair_count() const noexcept { return bodies_.sphere_pair_count(); }
-  /// How often the double rule was asked, by all queries so far.
+  /// Number of pairs decided in double, over all queries so far.
   std::uint64_t decided_count() const noexcept { return decided_; }
 
  private:
@@ -116,7 +119,7 @@ class SphereBatch {
     const detail::LaneVector d = a - b;
     return d.x * d.x + d.y * d.y + d.z * d.z;
   }
-  /// Lanes that floats cannot rule out, NaN among them.
+  /// Lanes that floats cannot rule out. NaN counts as near.
   [[gnu::always_inline]] static detail::simd::Bits not_beyond(float near_squared,
                                                               const detail::simd::Float16& squared) noexcept {
     return ~detail::simd::Bits(less(detail::simd::Float16(near_squared), squared));
@@ -125,15 +128,15 @@ class SphereBatch {
   detail::SphereBodies bodies_;
   Placement<Sphere> exact_;
   std::span<const double> block_{};  // while a query runs
-  std::size_t exact_lane_ = size;    // lane that exact_ is at; size: none of this block
+  std::size_t exact_lane_ = size;    // lane that exact_ is placed at; `size`: no lane of this block
   std::uint64_t decided_ = 0;
-  std::vector<std::uint8_t> is_placed_;                // by body
-  std::vector<detail::LaneVector> enclosing_centres_;  // by body
-  std::vector<detail::LaneVector> centres_;            // by ball, of bodies that are placed
+  std::vector<std::uint8_t> is_placed_;                // per body
+  std::vector<detail::LaneVector> enclosing_centres_;  // per body
+  std::vector<detail::LaneVector> centres_;            // per ball, of placed bodies
   std::vector<Survivor> near_a_, near_b_;              // scratch
 };
 
-/// Returns the lanes that hold a configuration.
+/// Places the enclosing balls of all bodies. Returns the lanes that hold a configuration.
 inline detail::simd::Bits SphereBatch::place(std::span<const double> block) {
   const std::size_t count = detail::check_block(block, dof_count(), *exact_.model().groups());
   exact_lane_ = size;
@@ -156,7 +159,8 @@ inline void SphereBatch::place_balls(std::size_t body) noexcept {
   for (std::size_t k = b.first; k < b.first + b.count; ++k) centres_[k] = bodies_.balls()[k].placed_by(frame);
 }
 
-/// The balls near the ball around another body, and the lanes in which they are; `lanes` is cut down to any of these.
+/// Finds the balls near the ball around the other body, and the lanes in which they are near. `lanes` is reduced to the
+/// union of these lanes.
 inline std::size_t SphereBatch::find_near(const detail::SphereBody& body, std::size_t other, detail::simd::Bits& lanes,
                                           Survivor* to) const noexcept {
   const detail::LaneVector centre = enclosing_centres_[other];
@@ -174,7 +178,7 @@ inline std::size_t SphereBatch::find_near(const detail::SphereBody& body, std::s
   return count;
 }
 
-/// Lanes in which the two bodies touch; with first_only at least one of them.
+/// Returns the lanes in which the two bodies touch; with first_only, at least one of these lanes.
 template <bool first_only>
 detail::simd::Bits SphereBatch::hits(const detail::BodyPair& pair, detail::simd::Bits lanes) {
   lanes &= not_beyond(pair.near_squared, squared_distance(enclosing_centres_[pair.a], enclosing_centres_[pair.b]));
@@ -208,7 +212,7 @@ detail::simd::Bits SphereBatch::hits(const detail::BodyPair& pair, detail::simd:
   return hit;
 }
 
-/// The lanes in which the double rule says that the spheres touch.
+/// Returns the lanes in which the two spheres touch, decided in double.
 inline detail::simd::Bits SphereBatch::test_pair(detail::simd::Bits lanes, PrimitiveId i, PrimitiveId j) {
   detail::simd::Bits hit = 0;
   for (; lanes != 0; lanes &= lanes - 1) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// StateBatch: up to sixteen neighbouring configurations answered from one list of pairs.
+// StateBatch: answers up to sixteen neighbouring configurations from one list of pairs.
 #pragma once
 
 #include <algorithm>
@@ -26,26 +26,26 @@ namespace hinge {
 /// How the configurations of a batch were answered.
 struct BatchCounts {
   std::uint64_t in_lanes = 0;  ///< configurations tested against a list
-  std::uint64_t alone = 0;     ///< configurations asked one by one, for they are too far from each other
+  std::uint64_t alone = 0;     ///< configurations tested one by one, because they are too far apart
   std::uint64_t lists = 0;     ///< lists made
-  std::uint64_t listed = 0;    ///< pairs in them
-  std::uint64_t decided = 0;   ///< pairs of a configuration that floats could not decide
+  std::uint64_t listed = 0;    ///< pairs in all lists
+  std::uint64_t decided = 0;   ///< pairs decided in double in one configuration, because floats could not decide
 };
 
-/// Configurations along a path, or samples about one state, stay close to each other. At one of them the engine lists
-/// the pairs that are nearer than their threshold plus the way that both can have gone in any of the others; all other
-/// pairs are free there by the triangle inequality. The list is tested with a configuration in each SIMD lane, and kept
-/// while nothing leaves the ways it was made for. Verdicts and pairs are those of a Hierarchy asked one by one, to the
-/// last bit. Configurations too far from each other are answered one by one. One per thread.
+/// For states along a path or samples around one state. At one of the states, the engine lists the pairs that are
+/// nearer than their threshold plus the displacement of both groups in any other state. All other pairs are free there
+/// (triangle inequality). Each SIMD lane tests the list for one configuration. The list is reused until a displacement
+/// exceeds its allowance. Verdicts and pairs equal those of a Hierarchy, bit for bit. Configurations too far apart are
+/// tested one by one. One per thread.
 template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf = Simd>
 class StateBatch {
  public:
   static constexpr std::size_t size = detail::FrameLanes::size;  ///< configurations in a full block
 
-  /// Every DOF free. Errors as Hierarchy.
+  /// Frees every DOF. Throws as Hierarchy does.
   StateBatch(const Model<P>& model, F filter, D matrix)
       : StateBatch(model, DofSelection::all(model.tree()), std::move(filter), std::move(matrix)) {}
-  /// Only the selected DOF free, all others at their reference.
+  /// Frees only the selected DOF; all others stay at their reference.
   StateBatch(const Model<P>& model, DofSelection selection, F filter, D matrix)
       : single_(model, std::move(selection), std::move(filter), std::move(matrix)),
         frames_(*single_.model().groups()),
@@ -55,10 +55,11 @@ class StateBatch {
         usual_(allowed_),
         largest_threshold_(detail::LargestThreshold<D>(single_.matrix(), model.size()).within()) {}
 
-  // --- a block is 1 to 16 configurations, one after the other, dof_count() values each (rad or model length unit).
-  // ConfigurationError: as check_block ---
+  // --- A block holds 1 to 16 configurations, one after the other, dof_count() values each (rad or model length unit).
+  // Both queries throw ConfigurationError if the number of values is wrong, or a value is not finite or too long a
+  // slide. ---
 
-  /// Bit k: configuration k collides.
+  /// Returns a mask: bit k is set if configuration k collides.
   std::uint32_t collides(std::span<const double> block) {
     detail::simd::Bits hit = 0;
     for_lanes(
@@ -76,8 +77,8 @@ class StateBatch {
     return hit;
   }
 
-  /// take(k, hit) for every colliding pair of configuration k; those of one configuration come sorted by (first,
-  /// second), those of several mixed.
+  /// Calls take(k, hit) for every colliding pair of configuration k. The pairs of one configuration come sorted by
+  /// (first, second); those of several configurations are interleaved.
   template <class Take>
   void collisions(std::span<const double> block, const Take& take) {
     for_lanes(
@@ -100,18 +101,20 @@ class StateBatch {
         });
   }
 
+  /// Number of values per configuration.
   std::size_t dof_count() const noexcept { return single_.dof_count(); }
+  /// How all configurations so far were answered. Valid for the life of the batch.
   const BatchCounts& counts() const noexcept { return counts_; }
 
  private:
   using List =
       detail::NearList<P, decltype(detail::threshold_of(std::declval<const D&>(), PrimitiveId{}, PrimitiveId{}))>;
-  static constexpr std::size_t least_shared = 4;   // configurations that a list is made for
+  static constexpr std::size_t least_shared = 4;   // minimum number of configurations that share a list
   static constexpr std::size_t longest_rest = 64;  // blocks
-  /// What it takes to find, sort and store a pair, in lanes tested.
+  /// Cost of finding, sorting and storing a pair, in lane tests.
   static constexpr std::size_t tests_per_listed = 64;
 
-  /// Collects pairs up to a number.
+  /// Collects pairs up to a maximum number.
   struct Found {
     static constexpr bool ranks = false;
     std::size_t most;
@@ -139,11 +142,11 @@ class StateBatch {
     return closer_than(placed(pair.first, lane), placed(pair.second, lane), pair.threshold);
   }
 
-  /// More pairs than this cost about as much as asking one by one.
+  /// A list with more pairs costs about as much as testing the configurations one by one.
   std::size_t longest_list() const noexcept { return 16 * std::max<std::size_t>(single_.model().size(), 64); }
-  /// What a list must allow a group.
+  /// The displacement that a list must allow for a group, model length unit.
   double needed(std::size_t g) const noexcept {
-    // Thresholds and clearances are added up in double by the engine.
+    // The engine adds thresholds and clearances in double: allow for two roundings.
     return travel_.bound(id<GroupId>(g)) * (1.0 + 0x1p-20) + 0x1p-51 * largest_threshold_;
   }
   bool covers() const noexcept {
@@ -158,15 +161,15 @@ class StateBatch {
   List near_;
   std::span<const double> block_{};  // while a query runs
   bool has_list_ = false;
-  std::vector<double> allowed_;  // per group: the way the list was made for
-  std::vector<double> usual_;    // per group: the way of late
+  std::vector<double> allowed_;  // per group: the displacement that the list allows
+  std::vector<double> usual_;    // per group: recent displacement
   double largest_threshold_;
   detail::ListAllowance allowance_;
-  std::uint64_t tests_ = 0;                                 // made for the list
+  std::uint64_t tests_ = 0;                                 // tests spent on making the list
   std::vector<std::pair<PrimitiveId, PrimitiveId>> found_;  // scratch
   std::size_t span_ = size;                                 // lanes that share a list
-  std::size_t blocks_alone_ = 0;                            // to come
-  std::size_t rest_ = 1;                                    // blocks that go alone when lists fail again
+  std::size_t blocks_alone_ = 0;                            // blocks still to be answered one by one
+  std::size_t rest_ = 1;                                    // next value of blocks_alone_ if lists fail again
   BatchCounts counts_;
 };
 
@@ -219,13 +222,14 @@ void StateBatch<P, F, D, EngineOf>::for_lanes(std::span<const double> block, con
   }
 }
 
-/// The pairs near at the present state of single_, with the ways allowed that `factor` says. Are they few enough?
+/// Lists the pairs near the present state of single_, allowing `factor` times the displacements. Returns true if they
+/// are few enough.
 template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
 bool StateBatch<P, F, D, EngineOf>::find_pairs(double factor) {
   for (std::size_t g = 0; g < allowed_.size(); ++g) {
     const double need = needed(g);
     if (!is_length(factor * need)) return false;
-    // Ways are remembered for a while: by chance a group may have gone little this time.
+    // Recent displacements are kept for a while: a group may have moved little this time by chance.
     usual_[g] = factor > 1.0 ? std::max(need, 0.75 * usual_[g]) : need;
     allowed_[g] = factor * usual_[g];
   }
@@ -240,7 +244,7 @@ bool StateBatch<P, F, D, EngineOf>::find_pairs(double factor) {
   return !found.done();
 }
 
-/// For lanes first ... end - 1.
+/// Makes a list for lanes first ... end - 1. Returns false if it would be too long.
 template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
 bool StateBatch<P, F, D, EngineOf>::make_list(std::size_t first, std::size_t end) {
   if (has_list_) allowance_.settle();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// engine/brute: every admitted pair, one by one. The reference all other engines are held against.
+// engine/brute: tests every admitted pair one by one. Every other engine is tested against it.
 #pragma once
 
 #include <cstddef>
@@ -15,15 +15,19 @@
 
 namespace hinge {
 
+/// The reference engine: O(n^2) pairs in a query of one model, O(n m) in a query of two. One per thread.
 template <Primitive P, PairFilter F, DistanceMatrix D>
 class Brute {
  public:
+  /// `filter` and `matrix` are made for the primitives of `model`; both are copied.
   Brute(std::shared_ptr<const SelectedModel<P>> model, F filter, D matrix)
       : placement_(std::move(model)), filter_(std::move(filter)), matrix_(std::move(matrix)) {}
 
+  /// The world coordinates that queries use. Valid for the life of the engine.
   Placement<P>& placement() noexcept { return placement_; }
   const Placement<P>& placement() const noexcept { return placement_; }
 
+  /// Hands the pairs i < j with d - M <= collector.cutoff() to `collector`, until it is done.
   template <Collector C>
   void self_query(C& collector, const QueryOptions& options) {
     place_all();
@@ -34,7 +38,7 @@ class Brute {
         if (!test(collector, rules, placement_.placed()[i], placement_.placed()[j], i, j)) return;
   }
 
-  /// `across` admits (primitive of this, primitive of other).
+  /// The same for pairs between this model and `other`. `across` admits (primitive of this, primitive of other).
   template <Collector C, PairFilter G>
   requires CrossMatrix<D>
   void query(Brute& other, const G& across, C& collector, const QueryOptions& options) {
@@ -52,7 +56,7 @@ class Brute {
     for (std::size_t g = 0; g < placement_.model().groups()->size(); ++g) placement_.place(id<GroupId>(g));
   }
 
-  /// False when the collector wants no more.
+  /// Returns false when the collector is done.
   template <Collector C, class Rules>
   static bool test(C& collector, const Rules& rules, const P& p, const P& q, std::size_t i, std::size_t j) {
     const auto a = id<PrimitiveId>(i), b = id<PrimitiveId>(j);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Engine: what a collision engine offers to Hierarchy. Prepared once from a model and its DOF selection, then updated
-// and queried many times; holds all scratch, so one engine belongs to one thread.
+// Engine: the interface that Hierarchy needs from a collision engine. An engine is made once for a model with its DOF
+// selection, then updated and queried many times. It holds all scratch memory, so one engine belongs to one thread.
 #pragma once
 
 #include <concepts>
@@ -16,8 +16,8 @@
 
 namespace hinge {
 
-/// E answers for primitive P under filter F and matrix D. Every engine gives the same answers as engine/brute in every
-/// mode; placement() is the one place through which configurations, poses or coordinates come in.
+/// E answers queries about primitives P under filter F and matrix D. In every mode, every engine gives the same answers
+/// as engine/brute. Configurations, poses and coordinates reach the engine through placement() only.
 template <class E, class P, class F, class D>
 concept Engine = std::copyable<E> && Primitive<P> && PairFilter<F> && DistanceMatrix<D> &&
     std::constructible_from<E, std::shared_ptr<const SelectedModel<P>>, F, D> &&
@@ -32,7 +32,8 @@ concept Engine = std::copyable<E> && Primitive<P> && PairFilter<F> && DistanceMa
   engine.self_query(closest, options);
 };
 
-/// Can also answer between two models of the same kind; the filter G admits (primitive of this, primitive of other).
+/// An engine that also answers queries between two models of the same kind. The filter G admits (primitive of this,
+/// primitive of other).
 template <class E, class P, class F, class D, class G>
 concept CrossEngine = Engine<E, P, F, D> && CrossMatrix<D> && PairFilter<G> &&
     requires(E& engine, E& other, Closest& closest, const G& across, const QueryOptions& options) {

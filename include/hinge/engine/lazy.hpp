@@ -23,12 +23,13 @@
 
 namespace hinge {
 
-/// After an update only bodies that moved get new boxes, and of those only leaves and root; nodes between are split
-/// when a query reaches them, and kept while the body stands still. The upper tree over the roots is built anew in each
-/// query.
+/// A body is the owner of one low-level tree: a rigid group, or a basic group that spans several rigid groups. After an
+/// update, only moved bodies get new boxes, for their leaves and root. A query splits the nodes in between on demand;
+/// they are kept until the body moves. Each query rebuilds the upper tree over the roots. One engine per thread.
 template <Primitive P, PairFilter F, DistanceMatrix D>
 class Lazy {
  public:
+  /// `filter` and `matrix` are made for the primitives of `model`; both are copied.
   Lazy(std::shared_ptr<const SelectedModel<P>> model, F filter, D matrix)
       : layout_(std::make_shared<const detail::LazyLayout>(*model, filter)),
         placement_(std::move(model)),
@@ -44,9 +45,11 @@ class Lazy {
     }
   }
 
+  /// The world coordinates that queries use. Valid for the life of the engine.
   Placement<P>& placement() noexcept { return placement_; }
   const Placement<P>& placement() const noexcept { return placement_; }
 
+  /// Hands the pairs i < j with d - M <= collector.cutoff() to `collector`, until it is done.
   template <Collector C>
   void self_query(C& collector, const QueryOptions& options) {
     if (trees_.empty()) return;
@@ -56,7 +59,7 @@ class Lazy {
     add(options.counts, counts);
   }
 
-  /// `across` admits (primitive of this, primitive of other).
+  /// The same for pairs between this model and `other`. `across` admits (primitive of this, primitive of other).
   template <Collector C, PairFilter G>
   requires CrossMatrix<D>
   void query(Lazy& other, const G& across, C& collector, const QueryOptions& options) {
@@ -68,7 +71,8 @@ class Lazy {
     other.make_upper(options.other_clearance);
     const detail::CrossRules<P, G, D> rules{placement_, other.placement_, across, matrix_, other.matrix_, options};
     const auto cutoff = [&] { return collector.cutoff(); };
-    // Compatible tables of types are alike; of other matrices nothing is known but that no threshold is above 0.
+    // Compatible typed matrices have the same table, so a zero row holds for both models. Of any other matrix only one
+    // fact is known: all thresholds within a model are 0. It must hold for both models.
     const bool skip_never_colliding =
         without_margin(collector, options) && other.without_margin(collector, options) &&
         (TypedThresholdMatrix<D> || (never_collides_.front() != 0 && other.never_collides_.front() != 0));
@@ -98,7 +102,7 @@ class Lazy {
     add(options.counts, counts);
   }
 
-  /// For tests: is every tree built so far consistent with its boxes?
+  /// For tests: returns true when every tree built so far agrees with its boxes.
   bool check_well_formed() {
     refresh();
     for (std::size_t b = 0; b < trees_.size(); ++b)
@@ -116,10 +120,10 @@ class Lazy {
     total->pairs_tested += counts.pairs_tested;
   }
 
-  /// Leaf boxes and roots of bodies that moved since they were last built.
+  /// Renews the leaf boxes and the root of every body that moved since its tree was built.
   void refresh() {
     for (std::size_t b = 0; b < trees_.size(); ++b) {
-      std::uint64_t version = 0;  // versions only grow, so the sum tells when any changed
+      std::uint64_t version = 0;  // Versions only grow, so the sum changes when any of them does.
       for (const GroupId g : layout_->groups(b)) version += placement_.version(g);
       if (version == built_[b]) continue;
       built_[b] = version;
@@ -128,7 +132,7 @@ class Lazy {
     }
   }
 
-  /// BioCD eq. (2)-(4): each primitive's bounds inflated by its reach, joined over the leaf.
+  /// BioCD eq. (2)-(4): the box of a leaf holds the bounds of its primitives, each inflated by its reach.
   std::span<const Aabb> boxes_of(std::size_t body) {
     boxes_.clear();
     for (std::uint32_t l = layout_->first_leaf(body); l < layout_->first_leaf(body + 1); ++l) {
@@ -146,7 +150,7 @@ class Lazy {
         .subspan(layout_->first_leaf(body), layout_->first_leaf(body + 1) - layout_->first_leaf(body));
   }
 
-  /// Does the query ask for collisions alone, so that primitives whose thresholds are all 0 take no part?
+  /// Returns true when the query asks for collisions only, so that leaves whose thresholds are all 0 can be skipped.
   template <Collector C>
   bool without_margin(const C& collector, const QueryOptions& options) const noexcept {
     return !never_collides_.empty() && asks_collisions(collector) && !options.adds_clearance();
@@ -210,7 +214,8 @@ class Lazy {
         without_margin(collector, rules.options));
   }
 
-  /// Every admitted pair of two leaves, or inside one; false when the collector wants no more.
+  /// Tests every admitted pair between two leaves, or inside one leaf if a == b. Returns false when the collector is
+  /// done.
   template <Collector C>
   bool test_leaves(std::uint32_t a, std::uint32_t b, C& collector, const Rules& rules, QueryCounts& counts) {
     const std::span<const P> placed = placement_.placed();
@@ -238,10 +243,10 @@ class Lazy {
   Placement<P> placement_;
   F filter_;
   D matrix_;
-  std::vector<detail::LazyTree> trees_;        // per body, items are its leaves
-  std::vector<std::uint64_t> built_;           // per body: sum of the versions its tree was built from
-  std::vector<std::uint8_t> never_collides_;   // per leaf: its thresholds are all 0; empty where that means nothing
-  detail::LazyTree upper_;                     // items are bodies
+  std::vector<detail::LazyTree> trees_;        // per body; its items are the leaves of the body
+  std::vector<std::uint64_t> built_;           // per body: sum of the versions that its tree was built from
+  std::vector<std::uint8_t> never_collides_;   // per leaf: 1 if all its thresholds are 0; empty unless P is point-like
+  detail::LazyTree upper_;                     // its items are the bodies
   std::vector<std::uint8_t> never_colliding_;  // scratch
   std::vector<Aabb> boxes_;                    // scratch
   detail::NodePairs stack_;                    // scratch

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The SIMD engine: sixteen pairs at a time in float; pairs that floats cannot rule out are decided in double.
+// The SIMD engine: tests sixteen pairs at a time in float; a pair that floats cannot rule out is decided in double.
 #pragma once
 
 #include <algorithm>
@@ -31,15 +31,15 @@
 
 namespace hinge {
 
-/// A rigid group of sixteen primitives or more keeps blocks in its own frame, with a tree above them when it is large;
-/// smaller groups share blocks that are refitted. Entries are placed along the chain and swept against earlier ones,
-/// and candidates are tested one against sixteen. Floats only prove that pairs are apart. Where boxes or floats are too
-/// coarse for that, the query goes on through a BVH in double precision.
+/// A rigid group of sixteen or more primitives keeps its blocks in its own frame; smaller groups share mixed blocks.
+/// Entries are swept against earlier entries; candidates are tested one against sixteen. Floats only prove pairs apart.
+/// If boxes or floats are too coarse, the query continues on a BVH in double precision. One engine per thread.
 template <Primitive P, PairFilter F, DistanceMatrix D>
 class Simd {
   using Side = detail::SimdSide<P>;
 
  public:
+  /// `filter` and `matrix` are made for the primitives of `model`; both are copied.
   Simd(std::shared_ptr<const SelectedModel<P>> model, F filter, D matrix)
       : placement_(model), filter_(std::move(filter)), matrix_(std::move(matrix)), sides_(*model, matrix_) {
     if constexpr (detail::UsesStaticBvh<P>)
@@ -48,9 +48,11 @@ class Simd {
       present_side(true);
   }
 
+  /// The world coordinates that queries use. Valid for the life of the engine.
   Placement<P>& placement() noexcept { return placement_; }
   const Placement<P>& placement() const noexcept { return placement_; }
 
+  /// Hands the pairs i < j with d - M <= collector.cutoff() to `collector`, until it is done.
   template <Collector C>
   void self_query(C& collector, const QueryOptions& options) {
     detail::WorkBudget budget;
@@ -65,7 +67,7 @@ class Simd {
     const detail::SelfPairTest test_pair{
         collector, rules, [&](PrimitiveId first, PrimitiveId second) { return rules.admits(first, second); }};
     if constexpr (C::ranks) {
-      // The pair that was closest last time bounds the answer from the start; it is no part of the answer by itself.
+      // The previous closest pair gives a first upper bound. test_pair decides whether it belongs to the answer.
       if (witness_)
         test_pair(witness_->first, witness_->second, side.exact(witness_->first, placement_),
                   side.exact(witness_->second, placement_));
@@ -83,7 +85,7 @@ class Simd {
     for (; u < layout.entries.size() && !collector.done() && !budget.is_too_much(); ++u) {
       side.refresh(u, placement_);
       if (u < layout.static_entries) continue;
-      // Margins depend on the size of what was placed so far, in powers of two, and on the cutoff.
+      // The margin depends on the cutoff and on the extent of the placed coordinates (a power of two).
       if (side.state().extent() != extent || collector.cutoff() != cutoff) {
         extent = side.state().extent();
         cutoff = collector.cutoff();
@@ -93,7 +95,7 @@ class Simd {
                                relief(run_listed, collector, budget)))
         break;
       broad_phase_.resume_point.reach(u + 1);
-      // Soon at first: a hit at the root saves placing the rest. Then in longer runs, which cost less.
+      // The first runs are short: a hit near the root saves placing the rest. Longer runs cost less per candidate.
       if (broad_phase_.candidates.size() < patience) continue;
       patience = std::min(2 * patience, longest_run);
       run_listed();
@@ -118,8 +120,8 @@ class Simd {
     budget.report(options.counts);
   }
 
-  /// Learns, from the present state and those of earlier calls, in which order a yes/no query tries pairs of links.
-  /// Answers stay the same; only models that are kept in trees have such an order.
+  /// Records which pairs of links collide in the present state, to improve the order in which yes/no queries try pairs.
+  /// Answers do not change. It has an effect only for primitives that are kept in static trees, such as triangles.
   void calibrate_pair_order() {
     if constexpr (detail::UsesStaticBvh<P>) {
       if (!by_trees()) return;
@@ -129,7 +131,7 @@ class Simd {
       trees_->learn(placement_, tree_pair_test(any, rules), any);
     }
   }
-  /// The same for queries against other models, of which this one stands for all: the order of this model's links.
+  /// The same for yes/no queries against other models, represented by `other`: the order of this model's links.
   template <PairFilter G>
   requires CrossMatrix<D>
   void calibrate_pair_order(Simd& other, const G& across) {
@@ -142,7 +144,7 @@ class Simd {
     }
   }
 
-  /// `across` admits (primitive of this, primitive of other).
+  /// As self_query, for pairs between this model and `other`. `across` admits (primitive of this, primitive of other).
   template <Collector C, PairFilter G>
   requires CrossMatrix<D>
   void query(Simd& other, const G& across, C& collector, const QueryOptions& options) {
@@ -155,7 +157,7 @@ class Simd {
         return budget.report(options.counts);
       }
     const detail::CrossPairTest test_pair{collector, rules};
-    // Compatible tables of types are alike; of other matrices nothing is known but that no threshold is above 0.
+    // As in Lazy::query: typed matrices share a table; otherwise all thresholds of both models must be 0.
     const bool skip_never_colliding =
         without_margin(collector, options) &&
         (TypedThresholdMatrix<D> || (sides_.all_never_collide() && other.sides_.all_never_collide()));
@@ -212,13 +214,13 @@ class Simd {
     };
   }
 
-  /// Does the query ask for collisions alone, so that primitives whose thresholds are all 0 take no part?
+  /// True when the query asks for collisions only: primitives whose thresholds are all 0 can be skipped.
   template <Collector C>
   static bool without_margin(const C& collector, const QueryOptions& options) noexcept {
     return IsPointLike<P> && asks_collisions(collector) && !options.adds_clearance();
   }
 
-  /// Are the trees up to the present coordinates? They cannot hold groups that deform.
+  /// Returns true when the trees can answer. They cannot hold groups that deform.
   bool by_trees() const noexcept { return trees_.has_value() && !placement_.groups_may_deform(); }
   bool by_trees_with(const Simd& other) const noexcept {
     return by_trees() && other.by_trees() && trees_->fits(*other.trees_);
@@ -226,7 +228,7 @@ class Simd {
 
   Side& present_side(bool without_margin) { return sides_.present(placement_, filter_, matrix_, without_margin); }
 
-  /// Thresholds grow, as boxes do, so that floats lose no pair with d - M <= cutoff. Extra clearances come on top, per
+  /// The margin covers the cutoff and the float error: no pair with d - M <= cutoff is lost. Clearances are added per
   /// pair.
   template <class Convert>
   void set_thresholds(const Side& one, const Side& sixteen, const detail::ThresholdTable& table, const Convert& convert,
@@ -234,9 +236,7 @@ class Simd {
     thresholds_.set(table,
                     detail::float_above(cutoff * sixteen.layout().scale + convert.band(one, sixteen, table, cutoff)));
   }
-
-  /// Runs the listed candidates: lanes of `one` against blocks of `sixteen`; what floats cannot rule out goes to
-  /// `test_pair`.
+  /// Tests lanes of `one` against blocks of `sixteen`. Pairs that floats cannot rule out go to `test_pair`.
   template <class Convert, class TestPair>
   void run(Side& one, Side& sixteen, Placement<P>& placement_of_sixteen, const detail::ThresholdTable& table,
            const Convert& convert, const TestPair& test_pair, detail::WorkBudget& budget) {
@@ -262,7 +262,7 @@ class Simd {
               budget.counts.undecided += measure(i, others, bits, squared, test_pair);
               return go_on();
             }
-          // For the first few only what they need is placed: often one of them answers the question.
+          // The first candidates with hits place only the primitives they need: one of them often answers the query.
           const bool few = visits_ < placed_alone;
           visits_ += few;
           constexpr auto n = static_cast<std::uint32_t>(detail::simd::width);
@@ -281,8 +281,8 @@ class Simd {
   }
 
   static constexpr std::size_t placed_alone = 4;  // candidates with hits whose primitives are placed one by one
-  static constexpr std::size_t longest_run = 16 * detail::simd::width;  // candidates listed before they are run
-  /// CandidateList that a large entry lists at a time: as many as second-level caches hold, whatever the entry's size.
+  static constexpr std::size_t longest_run = 16 * detail::simd::width;  // longest run of candidates
+  /// Longest candidate list while a large entry is swept: it fits in the second-level cache.
   static constexpr std::size_t longest_list = 16 * longest_run;
 
   Placement<P> placement_;
@@ -291,8 +291,8 @@ class Simd {
   detail::OptionalTreeSide<P> trees_;
   detail::SimdSides<P> sides_;
   detail::BroadPhase<P> broad_phase_;  // scratch
-  std::size_t visits_ = 0;             // scratch: candidates decided so far in a query, up to placed_alone
-  detail::Thresholds16 thresholds_;    // scratch: of the present margin
+  std::size_t visits_ = 0;             // scratch: candidates decided so far in a query, at most placed_alone
+  detail::Thresholds16 thresholds_;    // scratch: thresholds plus the present margin
   detail::FallbackBvh search_;         // scratch
   std::optional<std::pair<PrimitiveId, PrimitiveId>> witness_;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MoveChecker: Monte Carlo moves of a few DOF: tried, then accepted or rejected, each with the verdict of a full query.
+// MoveChecker: tries Monte Carlo moves of a few DOF, each with the verdict of a full query, and accepts or rejects
+// them.
 #pragma once
 
 #include <algorithm>
@@ -30,13 +31,12 @@
 
 namespace hinge {
 
-/// A state, and one move away from it. Verdicts and pairs are those of Hierarchy's queries at the configuration after
-/// the move, and frames those that forward kinematics gives there, to the bit: nothing adds up over moves. One per
-/// thread. docs/explanation/moves.md says how.
+/// Holds a state and at most one pending move. Verdicts, pairs and frames equal those of a Hierarchy updated to the
+/// configuration after the move, bit for bit: errors do not accumulate. One per thread. See docs/explanation/moves.md.
 template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf = Simd>
 class MoveChecker {
  public:
-  /// Starts at the reference, every value 0.
+  /// Starts at the reference: every value is 0.
   explicit MoveChecker(Hierarchy<P, F, D, EngineOf> hierarchy)
       : hierarchy_(std::move(hierarchy)),
         cut_(*model().groups(), hierarchy_.get().dof_count()),
@@ -46,21 +46,21 @@ class MoveChecker {
     set(std::vector<double>(q_));
   }
 
-  /// The state is q: one value per selected DOF, rad or model length unit. It may collide. A pending move is dropped.
-  /// ConfigurationError: see Hierarchy::update; nothing changes.
+  /// Sets the state to q (dof_count() values, rad or model length unit), which may collide, and drops the pending move.
+  /// Throws ConfigurationError as Hierarchy::update does; nothing changes then.
   void set(std::span<const double> q);
 
-  /// Is the state free after these changes? They are pending then, until accepted, rejected, or the next ones are
-  /// tried. ConfigurationError: see MoveCut::check; nothing changes.
+  /// Returns true if the changed state is free. The move is pending until accept(), reject() or the next try. Throws
+  /// ConfigurationError if a DOF does not exist or is listed twice, or a value is not finite; nothing changes then.
   bool try_move(std::span<const DofChange> changes) { return !attempt(changes, false); }
-  /// All pairs that collide after the changes, sorted by (first, second); valid until the next call.
+  /// Tries a move and returns all pairs that collide after it, sorted by (first, second). Valid until the next call.
   const std::vector<Hit>& try_move_listed(std::span<const DofChange> changes) {
     attempt(changes, true);
     return list_collisions(tried_known_, hits_);
   }
-  /// The pending move becomes the state, colliding or not. ConfigurationError: none is pending.
+  /// The pending move becomes the state, even if it collides. Throws ConfigurationError if no move is pending.
   void accept();
-  /// The pending move, if any, is dropped.
+  /// Drops the pending move, if any.
   void reject() noexcept {
     if constexpr (by_blocks)
       if (pending_ == Pending::blocks) blocks_->reject();
@@ -68,26 +68,29 @@ class MoveChecker {
     hierarchy_.rejected();
   }
 
-  // --- the state, without the pending move ---
+  // The functions below describe the state without the pending move.
 
+  /// dof_count() values, rad or model length unit. Valid until the state changes.
   std::span<const double> configuration() const noexcept { return q_; }
+  /// Returns true if the state has a colliding pair.
   bool collides() const noexcept { return any_collides(known_); }
-  /// All colliding pairs, sorted; valid until the next call.
+  /// All colliding pairs, sorted by (first, second). Valid until the next call.
   const std::vector<Hit>& collisions() { return list_collisions(known_, hits_); }
-  /// World frame of a rigid group; valid until the next call.
+  /// World frame of a rigid group. Valid until the next call.
   const Frame& frame(GroupId group);
   /// World coordinates of a primitive.
   P placed(PrimitiveId i) { return place(i, frame(model().group_of(i))); }
 
   const SelectedModel<P>& model() const noexcept { return hierarchy_.get().model(); }
   std::size_t dof_count() const noexcept { return q_.size(); }
+  /// Work done by all moves so far.
   const MoveCounts& counts() const noexcept { return counts_; }
 
  private:
-  // Other primitives, and those that engines keep in trees, are asked for with queries for what moved.
+  // Primitives that engines keep in static trees, or whose blocks do not turn, are answered by moved-only queries.
   static constexpr bool by_blocks = detail::TransformsBatch<P> && !detail::UsesStaticBvh<P>;
-  // With fewer blocks than this to a changed joint the full query wins, which looks near the root first: most blocks
-  // are cut then. The share of blocks that move does not matter (bench/moves.cpp).
+  // With fewer blocks per changed joint, most blocks are cut by a joint, and the full query is faster. The share of
+  // moving blocks does not matter (bench/moves.cpp).
   static constexpr std::size_t least_blocks_per_joint = 4;
 
   enum class Pending : std::uint8_t { none, blocks, query };
@@ -101,27 +104,27 @@ class MoveChecker {
     const P& local = model().primitives()[index(i)];
     return model().group_of(i) == GroupId{0} ? local : local.placed(frame.pose());
   }
-  /// After the pending move.
+  /// The primitive after the pending move.
   P tried(PrimitiveId i) {
     if constexpr (by_blocks)
       if (pending_ == Pending::blocks)
         return place(i, blocks_->frames().tried(parts().place(model().group_of(i)), parts()));
     return hierarchy_.placed(i);
   }
-  /// Finds the known pairs of the state.
+  /// Finds the known pairs of the state: those with d - M within the rounding tolerance.
   void collect() {
     hierarchy_.go_to_state(q_);
     known_.clear();
     hierarchy_.ask(rounding_.tolerance(), false, true, known_, nullptr);
   }
 
-  /// Brings blocks_ to the state.
+  /// Updates blocks_ to the state.
   void catch_up() {
     if constexpr (by_blocks) {
       if (all_behind_) {
         blocks_->set(q_, parts());
       } else if (!behind_.empty()) {
-        // Each DOF once, with its present value.
+        // Keep each DOF once, with its present value.
         std::ranges::sort(behind_, {}, &DofChange::dof);
         const auto same = [](const DofChange& a, const DofChange& b) { return a.dof == b.dof; };
         behind_.erase(std::unique(behind_.begin(), behind_.end(), same), behind_.end());
@@ -134,8 +137,8 @@ class MoveChecker {
     }
   }
 
-  /// Pairs that a part takes along stay as they are but for rounding, so they are asked again; is one of them
-  /// colliding?
+  /// Tests the known pairs inside one moving part again: only rounding changes their distance. Returns true if one
+  /// collides.
   bool recheck(bool all) {
     complete_ = true;
     bool collides = false;
@@ -155,18 +158,18 @@ class MoveChecker {
     return collides;
   }
 
-  /// One is enough, whatever others there are: false.
+  /// Stores one collision. The list of pairs is then incomplete; returns false.
   bool note_collision(PrimitiveId i, PrimitiveId j) {
     tried_known_.push_back({{i, j, 0.0, matrix().threshold(i, j)}, true});
     return complete_ = false;
   }
 
-  /// Judges a pair that floats could not rule out; go on?
+  /// Tests a pair that floats could not rule out. Returns false to stop the search.
   bool find_near(PrimitiveId i, PrimitiveId j, bool all) {
     if constexpr (by_blocks) {
       const std::uint32_t a = part_of(i), b = part_of(j);
       if (a == b || model().constant(i, j)) return true;
-      // Where the parts' motions take the two, in double: that decides nearly always.
+      // Place both by the parts' motions in double, without forward kinematics: nearly always enough for a verdict.
       const P p = place(i, blocks_->frames().moved(parts().place(model().group_of(i)), a));
       const P q = place(j, blocks_->frames().moved(parts().place(model().group_of(j)), b));
       const double m = matrix().threshold(i, j), off = rounding_.pair_error(m);
@@ -178,7 +181,7 @@ class MoveChecker {
     return false;
   }
 
-  /// Answers by blocks, in tried_known_; false when the full query is to be asked.
+  /// Answers by blocks, in tried_known_. Returns false if the full query must answer.
   bool try_blocks(bool all) {
     if constexpr (by_blocks) {
       if (!rounding_.is_small() || least_blocks_per_joint * changes_.size() > blocks_->block_count() ||
@@ -208,11 +211,11 @@ class MoveChecker {
   std::vector<double> q_;
   std::vector<detail::KnownPair> known_, tried_known_;
   std::vector<Hit> hits_;
-  std::vector<DofChange> changes_;  // of the pending move: those that change a value
+  std::vector<DofChange> changes_;  // changes of the pending move that change a value
   Pending pending_ = Pending::none;
-  bool complete_ = false;  // tried_known_ holds all pairs
+  bool complete_ = false;  // true if tried_known_ holds all pairs
   std::optional<std::conditional_t<by_blocks, detail::BlockMoves<P>, std::monostate>> blocks_;
-  std::vector<DofChange> behind_;  // accepted, and not known to blocks_
+  std::vector<DofChange> behind_;  // accepted, but not yet applied to blocks_
   bool all_behind_ = true;
   MoveCounts counts_;
 };
@@ -286,7 +289,7 @@ void MoveChecker<P, F, D, EngineOf>::accept() {
 template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
 const Frame& MoveChecker<P, F, D, EngineOf>::frame(GroupId group) {
   if constexpr (by_blocks) {
-    catch_up();  // not behind while a move by blocks, which needs its cut, is pending
+    catch_up();  // a pending move by blocks has already caught up, and its cut is kept
     blocks_->frames().settle(parts());
     return blocks_->frames().frame(parts().place(group));
   }

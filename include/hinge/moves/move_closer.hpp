@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MoveCloser: completes moves so that closed cycles stay closed.
+// MoveCloser: completes a move so that closed cycles stay closed.
 #pragma once
 
 #include <algorithm>
@@ -12,16 +12,19 @@
 
 namespace hinge {
 
-/// A move of a DOF in a cycle opens it; the other DOF of the cycles then follow by the smallest turns that close them
-/// (ClosureSolver). Moves of DOF outside of all cycles are left as they are. One per thread.
+/// Changing a DOF of a cycle opens the cycle. MoveCloser then changes the other DOF of the cycles by the smallest step
+/// that closes them (ClosureSolver). Moves of DOF outside all cycles stay unchanged. One per thread.
 class MoveCloser {
  public:
-  /// Keeps `closures`, positions in tree.closures(). ModelError: a selection made for another tree, no such closure.
+  /// closures: positions in tree.closures(); these stay closed. Throws ModelError if the selection was made for another
+  /// tree or if a closure does not exist.
   MoveCloser(const KinematicTree& tree, const DofSelection& selection, const std::vector<std::size_t>& closures)
       : solver_(tree, selection, closures), in_cycle_(solver_.dofs_in_cycles()) {}
 
-  /// q: a configuration with closed cycles. changes: a move from it, sorted by DOF; replaced by one that leads to
-  /// closed cycles again. False, with the changes of no use, when the solver finds none.
+  /// q: one value per selected DOF, with closed cycles. changes: a move from q, sorted by DOF. It is replaced by a move
+  /// to a configuration with closed cycles. Returns false, and leaves `changes` unusable, if the solver fails or ends
+  /// at q itself. Throws ConfigurationError if q has a wrong length or a value is not finite (see
+  /// ClosureSolver::close).
   bool close(std::span<const double> q, std::vector<DofChange>& changes) {
     if (std::ranges::none_of(changes, [&](const DofChange& change) { return in_cycle_[change.dof]; })) return true;
     closed_.assign(q.begin(), q.end());
@@ -35,7 +38,7 @@ class MoveCloser {
 
  private:
   ClosureSolver solver_;
-  std::vector<bool> in_cycle_;  // by position in a configuration
+  std::vector<bool> in_cycle_;  // one entry per selected DOF
   std::vector<double> closed_;
 };
 

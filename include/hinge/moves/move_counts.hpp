@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MoveCounts: what Monte Carlo moves report about their work.
+// MoveCounts: the work done by Monte Carlo moves.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,14 @@
 
 namespace hinge {
 
-/// Work done by moves; added to by every move that is tried.
+/// Work done by moves; every tried move adds to it.
 struct MoveCounts {
-  std::uint64_t tried = 0;
-  std::uint64_t full_queries = 0;  ///< moves that were answered by a query over all of the model
-  std::uint64_t recalled = 0;      ///< of the others, those found colliding by a pair that collided lately
-  std::uint64_t blocks_moved = 0;  ///< sixteens of primitives, or fewer, that the others take along
-  QueryCounts query;               ///< of the others
+  std::uint64_t tried = 0;         ///< moves tried
+  std::uint64_t full_queries = 0;  ///< moves answered by a query of the whole model
+  std::uint64_t recalled = 0;      ///< other moves, rejected by a pair that collided in a recent move
+  /// blocks (up to sixteen primitives each) moved by moves answered without a full query
+  std::uint64_t blocks_moved = 0;
+  QueryCounts query;  ///< work of those moves
 };
 
 }  // namespace hinge

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// random_move: Gaussian changes of a few DOF chosen at random, a pure function of (seed, step) and the configuration.
+// random_move: Gaussian changes of a few random DOF, a pure function of (seed, step) and the configuration.
 #pragma once
 
 #include <algorithm>
@@ -13,9 +13,9 @@
 
 namespace hinge {
 
-/// `count` different DOF, or all when there are fewer, each from its value in q by a normal step of deviation `sigma`
-/// (rad or model length unit), into `changes`, by DOF. Any subset of that size is as likely (Floyd's sampling, Bentley,
-/// Floyd, "A sample of brilliance", CACM 30, 1987).
+/// Fills `changes` with `count` different DOF (all DOF if there are fewer), sorted by DOF. Each new value is the value
+/// in q plus a normal step of standard deviation `sigma` (rad or model length unit). Every subset of that size is
+/// equally likely (Floyd's sampling: Bentley, Floyd, "A sample of brilliance", CACM 30, 1987).
 inline void random_move(std::uint64_t seed, std::uint64_t step, std::span<const double> q, std::size_t count,
                         double sigma, std::vector<DofChange>& changes) {
   SampleStream stream(seed, step);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// CertifiedPath: is a straight path free, proved for every state of it, or is there one that collides?
+// CertifiedPath: proves that a straight path is free in every state, or finds a state of it that collides.
 #pragma once
 
 #include <algorithm>
@@ -32,33 +32,33 @@
 
 namespace hinge {
 
-/// Proves paths with its own copy of a hierarchy; one per thread. The proof is in docs/explanation/certified_paths.md.
+/// Checks paths with its own copy of a hierarchy. One per thread. Proof: docs/explanation/certified_paths.md.
 template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
 class CertifiedPath {
  public:
+  /// Takes the model, the selected DOF, the filter and the matrix from `hierarchy`; its state does not matter.
   explicit CertifiedPath(Hierarchy<P, F, D, EngineOf> hierarchy)
       : hierarchy_(std::move(hierarchy)),
         rates_(hierarchy_.model()),
         list_limit_(rates_.extent() > 0.0 ? rates_.extent() * rates_.scale() * list_share : 1.0),
         near_links_(by_links ? hierarchy_.model().model().links() : std::span<const LinkId>()) {}
 
-  /// from, to: one value per selected DOF, rad or model length unit. A stretch of the path, as a share of it, is not
-  /// cut any more when it is no longer than `smallest_step`. ConfigurationError: see StraightPath; a step that is not
-  /// above 0.
+  /// from, to: dof_count values each (rad or model length unit). A segment no longer than `smallest_step` (a share of
+  /// the path) is not divided. Throws ConfigurationError unless the path is valid (StraightPath) and smallest_step > 0.
   PathAnswer check(std::span<const double> from, std::span<const double> to, double smallest_step = smallest_path_step);
 
  private:
-  // A path that takes more than this many segments is left undecided.
+  // A path that needs more segments than this is left undecided.
   static constexpr std::size_t most_segments = std::size_t{1} << 17;
-  // Beyond the limit by this factor a segment is cut once more: speeds differ along the path.
+  // A segment whose displacement exceeds the limit by this factor is halved: speeds differ along the path.
   static constexpr double most_above_limit = 1.5;
   static constexpr double most_pieces = 4096.0;
-  // Links of many primitives with an extent are listed as wholes first: their pairs would be too many.
+  // Pairs of links are listed first if links have many primitives: their pairs of primitives would be too many.
   static constexpr bool by_links = detail::UsesStaticBvh<P>;
-  // Displacements up to this share of the model are listed for; larger ones make long lists, smaller ones many. Near
-  // the best for proteins and robots (bench/paths.cpp); answers do not depend on it.
+  // Largest listed displacement, as a share of the model's extent. A larger limit makes long lists, a smaller one many
+  // lists. These values are near the best for proteins and robots (bench/paths.cpp); answers do not depend on them.
   static constexpr double list_share = by_links ? 1.0 / 160.0 : 1.0 / 40.0;
-  // Pairs of two links that are judged one by one; when more are near, halving the segment is cheaper.
+  // Pairs of primitives of two links that are tested one by one. With more near pairs, halving the segment is cheaper.
   static constexpr std::size_t most_near = 32;
 
   void place(double t);
@@ -75,7 +75,7 @@ class CertifiedPath {
   detail::GroupRates rates_;
   detail::Displacements displacements_;
   double list_limit_;
-  StraightPath path_{{}, {}, 0};  // the one under way, or the last
+  StraightPath path_{{}, {}, 0};  // the last path
   double smallest_step_ = 0.0;
   PathAnswer answer_;
   std::vector<double> q_;
@@ -124,7 +124,7 @@ void CertifiedPath<P, F, D, EngineOf>::place(double t) {
   motions_.forget();
 }
 
-/// Finds the pairs that might come too close; none when the segment had better be cut first.
+/// Lists the pairs that may come too close, or divides the segment if the displacements in it are large.
 template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
 void CertifiedPath<P, F, D, EngineOf>::list(const detail::PathSegment& segment) {
   if (segment.is_whole()) displacements_.begin(rates_.groups());
@@ -140,7 +140,7 @@ void CertifiedPath<P, F, D, EngineOf>::list(const detail::PathSegment& segment) 
   if (!is_length(largest / rates_.scale())) return leave_undecided(segment, nullptr);
   clearance_.clear();
   for (const double d : displacements_.of_groups()) clearance_.push_back(d / rates_.scale());
-  const QueryOptions options{.clearance = clearance_, .precision = Precision::never_miss};  // more is no harm
+  const QueryOptions options{.clearance = clearance_, .precision = Precision::never_miss};  // extra pairs are safe
   if constexpr (by_links) {
     near_links_.clear();
     hierarchy_.self_query(near_links_, options);
@@ -154,7 +154,7 @@ void CertifiedPath<P, F, D, EngineOf>::list(const detail::PathSegment& segment) 
   }
 }
 
-/// Asks the ordinary query where a list would be long.
+/// Decides the middle state by the exact query, where a list would be long.
 template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
 bool CertifiedPath<P, F, D, EngineOf>::middle_collides(const detail::PathSegment& segment) {
   AnyHit any;
@@ -164,7 +164,7 @@ bool CertifiedPath<P, F, D, EngineOf>::middle_collides(const detail::PathSegment
   return true;
 }
 
-/// Into so many pieces that the lists of each are short.
+/// Divides the path into enough pieces that the list of each is short.
 template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
 void CertifiedPath<P, F, D, EngineOf>::cut_evenly(double largest) {
   double pieces = 1.0;
@@ -175,7 +175,7 @@ void CertifiedPath<P, F, D, EngineOf>::cut_evenly(double largest) {
   segments_.push_pieces(static_cast<std::uint64_t>(std::min(pieces, most_pieces)));
 }
 
-/// Proves what can be proved of the listed pairs and hands on the others; true when one of them collides.
+/// Proves listed pairs apart, and pushes new segments for the rest. Returns true when a pair collides.
 template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
 bool CertifiedPath<P, F, D, EngineOf>::judge(const detail::PathSegment& segment) {
   const double middle = segment.middle(), half = segment.half();
@@ -198,7 +198,7 @@ bool CertifiedPath<P, F, D, EngineOf>::judge(const detail::PathSegment& segment)
         continue;
       }
     if (pair.stands_for_links) {
-      // The pairs of two links that may come too close are judged one by one, when they are few.
+      // If few pairs of primitives of the two links may come too close, each of them is tested by itself.
       if (find_near(pair, approach(motion, groups[a], groups[b], half), most_near)) {
         ++answer_.counts.pairs_proved;
         listed_.insert(listed_.end(), found_.begin(), found_.end());
@@ -218,7 +218,7 @@ bool CertifiedPath<P, F, D, EngineOf>::judge(const detail::PathSegment& segment)
     }
     if (radii.before == 0.0 && radii.after == 0.0) {
       if (collides(pair, middle)) return true;
-      // What never moves, and what nothing comes closer to than 0, is free as it is.
+      // A pair that does not move, or that no distance can bring below a threshold of 0, stays free.
       if ((groups[a].stands && groups[b].stands) || (IsPointLike<P> && m == 0.0)) {
         ++answer_.counts.pairs_proved;
         continue;
@@ -239,7 +239,7 @@ bool CertifiedPath<P, F, D, EngineOf>::judge(const detail::PathSegment& segment)
     segments_.push(detail::next_down(middle + shortest.after), segment.high, after_);
     return false;
   }
-  // The ends are asked as well: a path may touch in its first state.
+  // Test the ends as well: the path may touch in its first state.
   for (const double end : {segment.low, segment.high}) {
     place(end);
     for (const detail::PathPair& pair : listed_) {
@@ -251,7 +251,7 @@ bool CertifiedPath<P, F, D, EngineOf>::judge(const detail::PathSegment& segment)
   return false;
 }
 
-/// Finds the pairs of the two links closer than their threshold and an approach (scaled); are there at most so many?
+/// Finds the pairs of the two links with d - M < `closer` (scaled). Returns true if there are at most `most`.
 template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
 bool CertifiedPath<P, F, D, EngineOf>::find_near(const detail::PathPair& links, double closer, std::size_t most) {
   const double margin = closer / rates_.scale();
@@ -262,7 +262,7 @@ bool CertifiedPath<P, F, D, EngineOf>::find_near(const detail::PathPair& links, 
   return found_.size() <= most;
 }
 
-/// At the state t, which was placed last, by the rule of every query; answers if so.
+/// Decides the pair by the exact rule in the last placed state, at t. Stores the answer if it collides.
 template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
 bool CertifiedPath<P, F, D, EngineOf>::collides(const detail::PathPair& pair, double t) {
   const P p = hierarchy_.placed(pair.first), q = hierarchy_.placed(pair.second);
@@ -281,7 +281,7 @@ void CertifiedPath<P, F, D, EngineOf>::answer_collision(const Hit& hit, double t
   answer_.hit = hit;
 }
 
-/// The longest stretch that is left is the one that is told.
+/// The answer reports the longest undecided segment.
 template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
 void CertifiedPath<P, F, D, EngineOf>::leave_undecided(const detail::PathSegment& segment,
                                                        const detail::PathPair* pair) {

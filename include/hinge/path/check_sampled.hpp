@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// check_sampled: is any of many states along a straight path in collision? Says nothing about what lies between them.
+// check_sampled: tests many states along a straight path. It proves nothing about the states in between.
 #pragma once
 
 #include <algorithm>
@@ -22,10 +22,10 @@
 
 namespace hinge {
 
-/// Both ends and as many states between them, evenly spaced, that no joint value changes by more than `resolution`
-/// (rad or model length unit) from one to the next; those in the middle of what is not looked at first.
-/// ConfigurationError: see StraightPath; a resolution that is not finite or not above 0, or takes more than 2^53
-/// states. The hierarchy is left at the last state that was asked.
+/// Tests both ends and evenly spaced states between them, so that no value changes by more than `resolution` (rad or
+/// model length unit) from one state to the next. The states are tested in order of bisection. The hierarchy is left at
+/// the last tested state. Throws ConfigurationError for a bad path (see StraightPath), and for a resolution that is not
+/// finite, not above 0, or needs more than 2^53 states.
 template <class H>
 PathAnswer check_sampled(H& hierarchy, std::span<const double> from, std::span<const double> to, double resolution) {
   const StraightPath path(from, to, hierarchy.dof_count());

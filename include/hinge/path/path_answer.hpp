@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PathAnswer: what is said about a straight path between two configurations, and the work it took.
+// PathAnswer: the verdict on a straight path between two configurations, and the work it took.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,14 @@
 
 namespace hinge {
 
+/// The verdict on a path.
 enum class PathVerdict : std::uint8_t {
-  free,       ///< sampled: no state that was looked at collides; certified: proved for every state of the path
-  colliding,  ///< at one configuration of the path, by the ordinary query
-  undecided   ///< certified only: neither, down to the smallest step
+  free,       ///< sampled: no sampled state collides; certified: proved for every state of the path
+  colliding,  ///< one configuration of the path collides, by the exact query
+  undecided   ///< certified only: no verdict down to the smallest step
 };
 
+/// The verdict in lower case, as reports print it; a static string.
 inline const char* name(PathVerdict verdict) noexcept {
   switch (verdict) {
     case PathVerdict::free: return "free";
@@ -25,25 +27,32 @@ inline const char* name(PathVerdict verdict) noexcept {
   return "undecided";
 }
 
+/// Work done by one check of a path.
 struct PathCounts {
-  std::uint64_t configurations = 0;  ///< states the kinematics were computed for
-  std::uint64_t segments = 0;        ///< pieces of the path that were looked at
-  std::uint64_t pairs_listed = 0;    ///< pairs of primitives, or of links of many, looked at, once for every segment
-  std::uint64_t pairs_proved = 0;    ///< of these, proved apart over the whole segment
+  std::uint64_t configurations = 0;  ///< states for which forward kinematics were computed
+  std::uint64_t segments = 0;        ///< segments of the path that were examined
+  /// pairs of primitives examined, or pairs of links that stand for many, counted once per segment
+  std::uint64_t pairs_listed = 0;
+  std::uint64_t pairs_proved = 0;  ///< pairs_listed that were proved apart over the whole segment
 };
 
-/// As a share of the path, a millionth: pairs that no shorter step settles touch their threshold, or nearly so.
+/// The default smallest step, as a share of the path: 2^-20, about a millionth. A pair that no longer segment settles
+/// touches its threshold, or nearly so.
 inline constexpr double smallest_path_step = 0x1p-20;
 
-/// The path is q(t) = q0 + t (q1 - q0), 0 <= t <= 1.
+/// The answer for the path q(t) = q0 + t (q1 - q0), 0 <= t <= 1.
 struct PathAnswer {
   PathVerdict verdict = PathVerdict::undecided;
-  double parameter = 0.0;             ///< colliding: t; undecided: the middle of a stretch that is not
-  double half_width = 0.0;            ///< undecided: of that stretch, else 0
-  std::vector<double> configuration;  ///< at t; empty when the path is free
-  std::optional<Hit> hit;             ///< colliding: a pair that does; undecided: a pair nothing is proved of
+  /// colliding: t of the collision; undecided: t in the middle of an undecided segment
+  double parameter = 0.0;
+  double half_width = 0.0;  ///< undecided: half the length of that segment; otherwise 0
+  /// the state at `parameter` (rad or model length unit); empty if the path is free
+  std::vector<double> configuration;
+  /// colliding: a pair that collides; undecided: a pair that was not proved apart, if one is known
+  std::optional<Hit> hit;
   PathCounts counts;
 
+  /// True if the verdict is free.
   bool is_free() const noexcept { return verdict == PathVerdict::free; }
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// StraightPath: the segment between two configurations, checked once, and the states on it.
+// StraightPath: the segment between two configurations, validated once, and its states.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,11 @@
 
 namespace hinge {
 
-/// q(t) = q0 + t (q1 - q0), 0 <= t <= 1, rad or model length unit.
+/// The path q(t) = q0 + t (q1 - q0), 0 <= t <= 1; values in rad or model length unit. It copies both ends.
 class StraightPath {
  public:
-  /// dof_count values each. ConfigurationError: another number of values; a value, or a difference of two, that is not
-  /// finite.
+  /// from, to: dof_count values each. Throws ConfigurationError if a length differs, or if a value or a difference of
+  /// two values is not finite.
   StraightPath(std::span<const double> from, std::span<const double> to, std::size_t dof_count)
       : from_(from.begin(), from.end()), to_(to.begin(), to.end()) {
     for (const auto& [end, what] : {std::pair{from, "start"}, std::pair{to, "end"}}) {
@@ -39,12 +39,13 @@ class StraightPath {
     }
   }
 
+  /// The start q0 and the end q1: dof_count values each. All spans are valid for the life of the path.
   std::span<const double> from() const noexcept { return from_; }
   std::span<const double> to() const noexcept { return to_; }
   /// q1 - q0, rounded.
   std::span<const double> rate() const noexcept { return rate_; }
 
-  /// The state at t, rounded; exactly q0 and q1 at the ends, and where the two are equal.
+  /// Writes the state at t into q, rounded. The state is exactly q0 at t = 0, q1 at t = 1, and both where q0 = q1.
   void at(double t, std::vector<double>& q) const {
     q.resize(rate_.size());
     if (t == 1.0) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// LazyTree: a binary tree of boxes over items, split on demand (BioCD section IV). Knows boxes only.
+// LazyTree: a binary tree of boxes over items, split on demand (BioCD section IV). It knows boxes only.
 #pragma once
 
 #include <algorithm>
@@ -15,23 +15,23 @@
 
 namespace hinge::detail {
 
-/// Items are numbered 0 .. n-1; reset() computes the root only, everything below comes with split(). The same boxes
-/// give the same tree whatever was there before. Nothing recurses; depth is at most 3 ceil(log2 n) + 9.
+/// Items are numbered 0 .. n-1. reset() computes the root only; split() creates the nodes below. The same boxes always
+/// give the same tree. No recursion; depth is at most 3 ceil(log2 n) + 9.
 class LazyTree {
  public:
   struct Node {
     Aabb box;
-    std::uint32_t begin = 0;  ///< range of items in order()
-    std::uint32_t end = 0;
-    std::uint32_t left = 0;  ///< children are left and left + 1; 0 while not split
+    std::uint32_t begin = 0;  ///< first item in order()
+    std::uint32_t end = 0;    ///< one past the last item in order()
+    std::uint32_t left = 0;   ///< children are left and left + 1; 0 until the node is split
     std::uint32_t depth = 0;
-    bool never_collides = false;  ///< all its items are
+    bool never_collides = false;  ///< true if all its items never collide
     bool is_leaf() const noexcept { return end - begin == 1; }
     std::uint32_t size() const noexcept { return end - begin; }
   };
 
-  /// Drops the tree and makes the root of these boxes; at least one. never_collides: items, not 0, that queries without
-  /// a margin may pass over; empty: none. Both are copied.
+  /// Replaces the tree by the root of these boxes (at least one). never_collides: nonzero for items that queries
+  /// without a margin may skip; empty means no item. Both are copied.
   void reset(std::span<const Aabb> boxes, std::span<const std::uint8_t> never_collides = {});
 
   const Node& node(std::uint32_t k) const noexcept { return nodes_[k]; }
@@ -40,7 +40,7 @@ class LazyTree {
   std::uint32_t item(const Node& leaf) const noexcept { return order_[leaf.begin]; }
   std::span<const std::uint32_t> order() const noexcept { return order_; }
 
-  /// Makes the children of a node that is no leaf, if it has none yet; true when it made them.
+  /// Creates the children of an inner node unless they exist. Returns true if it created them.
   bool split(std::uint32_t k) {
     if (nodes_[k].left != 0) return false;
     make_children(k);
@@ -49,7 +49,7 @@ class LazyTree {
 
  private:
   void make_children(std::uint32_t k);
-  /// Fills in the box of a node, and whether it is never_collides.
+  /// Computes the box of a node, and its never_collides flag.
   void join_items(Node& node) const noexcept {
     node.never_collides = !never_collides_.empty();
     for (std::uint32_t i = node.begin; i < node.end; ++i) {
@@ -57,7 +57,7 @@ class LazyTree {
       node.never_collides = node.never_collides && never_collides_[order_[i]] != 0;
     }
   }
-  /// Number of items that go left, after reordering the node's range.
+  /// Reorders the node's range of items. Returns the number of items that go to the left child.
   std::uint32_t partition(const Node& node);
 
   std::vector<Aabb> boxes_;
@@ -79,14 +79,14 @@ inline void LazyTree::reset(std::span<const Aabb> boxes, std::span<const std::ui
   join_items(root);
   nodes_.clear();
   nodes_.push_back(root);
-  // The midpoint rule can be one-sided on clustered or coincident input, level after level. Natural input stays within
-  // log2 n + 6 levels; beyond twice that plus a margin the median takes over and halves the rest.
+  // The midpoint rule can give one-sided splits at every level if the input is clustered or coincident. Natural input
+  // stays within log2 n + 6 levels. Below 2 log2 n + 8 levels, the median rule halves the rest.
   midpoint_depth_ = 2 * static_cast<std::uint32_t>(std::bit_width(boxes_.size() - 1)) + 8;
 }
 
 inline std::uint32_t LazyTree::partition(const Node& node) {
-  // BioCD Fig. 6: widest dimension, middle value (max + min) / 2, boxes by centre; a box longer than half the node goes
-  // alone to the left.
+  // BioCD Fig. 6: split the widest axis at its middle value (max + min) / 2, items by their centre. An item longer than
+  // half the node goes alone to the left.
   const int axis = node.box.widest_axis();
   const auto first = order_.begin() + node.begin, last = order_.begin() + node.end;
   if (node.depth <= midpoint_depth_) {
@@ -124,7 +124,8 @@ inline void LazyTree::make_children(std::uint32_t k) {
   nodes_.push_back(right);
 }
 
-/// Does every built node hold its items' boxes, within the depth bound, and do children share out their parent's items?
+/// Returns true if every built node is the hull of its items' boxes and keeps the depth bound, and if children
+/// partition their parent's items.
 inline bool check_well_formed(const LazyTree& tree, std::span<const Aabb> boxes) {
   const auto levels = static_cast<std::uint32_t>(std::bit_width(boxes.size() - 1));
   for (std::uint32_t k = 0; k < tree.node_count(); ++k) {

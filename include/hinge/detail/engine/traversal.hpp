@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The descent through one or two lazy trees (BioCD Fig. 7), on an explicit stack.
+// traverse: the descent through one or two lazy trees (BioCD Fig. 7), with an explicit stack.
 #pragma once
 
 #include <cstddef>
@@ -13,18 +13,18 @@
 
 namespace hinge::detail {
 
-/// Pairs of node numbers still to be looked at. Grows as needed and keeps its memory between queries.
+/// Pairs of node numbers still to be tested. The vector keeps its memory between queries.
 using NodePairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-/// Could anything in the two (inflated) boxes have d - M at most `cutoff`?
+/// Returns true if the contents of two boxes (inflated by reach) may have d - M <= cutoff.
 inline bool reaches(const Aabb& a, const Aabb& b, double cutoff) noexcept {
   return cutoff == 0.0 ? overlap(a, b) : separation(a, b) <= cutoff;
 }
 
-/// Calls visit(item of a, item of b) -> bool for every pair of leaves whose boxes may hold wanted pairs; stops when it
-/// returns false, and then returns false itself. `cutoff()` may shrink on the way. Where a and b are the same tree,
-/// every unordered pair of different leaves comes once; a leaf is not tested with itself. skip_never_colliding: pairs
-/// with an never_collides item are left out.
+/// Calls visit(item of a, item of b) -> bool for every pair of leaves whose boxes may hold a wanted pair. Stops and
+/// returns false when visit returns false. cutoff() may shrink during the descent. If a and b are the same tree, every
+/// unordered pair of different leaves is visited once. skip_never_colliding: skips pairs in which an item never
+/// collides.
 template <class Cutoff, class Visit>
 bool traverse(LazyTree& a, LazyTree& b, NodePairs& stack, QueryCounts& counts, const Cutoff& cutoff, const Visit& visit,
               bool skip_never_colliding = false) {
@@ -38,7 +38,7 @@ bool traverse(LazyTree& a, LazyTree& b, NodePairs& stack, QueryCounts& counts, c
     if (tree.split(k)) ++counts.nodes_split;
     return tree.node(k).left;
   };
-  const std::size_t floor = stack.size();  // what lies below belongs to a descent that is under way
+  const std::size_t floor = stack.size();  // entries below belong to an outer descent in progress
   if (self)
     stack.emplace_back(0, 0);
   else
@@ -57,7 +57,7 @@ bool traverse(LazyTree& a, LazyTree& b, NodePairs& stack, QueryCounts& counts, c
     const LazyTree::Node& p = a.node(m);
     const LazyTree::Node& q = b.node(n);
     if (p.is_leaf() && q.is_leaf()) {
-      if (!reaches(p.box, q.box, cutoff())) continue;  // the cutoff shrank since the pair was pushed
+      if (!reaches(p.box, q.box, cutoff())) continue;  // the cutoff may have shrunk since the push
       if (!visit(a.item(p), b.item(q))) {
         stack.resize(floor);
         return false;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// LazyLayout: what engine/lazy fixes when the DOF are selected: leaves, bodies, short-range-interaction lists.
+// LazyLayout: the constant data of engine/lazy for one selection of DOF: leaves, bodies, and lists of short-range
+// pairs.
 #pragma once
 
 #include <algorithm>
@@ -18,11 +19,11 @@
 
 namespace hinge::detail {
 
-/// Leaves are the basic groups of BioCD section III. A body is what has a low-level tree of its own: a rigid group with
-/// the basic groups that lie wholly in it, or one basic group that spans several rigid groups (an articulated unit,
-/// such as a side chain whose torsions are free), which is a single leaf. Near leaf pairs are those with pairs that the
-/// filter lists as excluded; the admitted rest of each is its SRI list. Leaves so large that lists of their pairs would
-/// fill the memory have none.
+/// Leaves are the basic groups of BioCD section III. A body is the owner of one low-level tree. It is either a rigid
+/// group with all basic groups that lie wholly in it, or one basic group that spans several rigid groups (such as a
+/// side chain with free torsions); this body has one leaf. Two leaves are near if the filter lists an excluded pair
+/// between them. The other, admitted pairs of near leaves form their SRI list (short-range interactions). Large leaves
+/// have no list: it would need too much memory.
 class LazyLayout {
  public:
   using PrimitivePair = std::pair<PrimitiveId, PrimitiveId>;
@@ -35,16 +36,17 @@ class LazyLayout {
 
   std::size_t body_count() const noexcept { return body_leaf_.size() - 1; }
   std::size_t leaf_count() const noexcept { return leaf_start_.size() - 1; }
-  /// Leaves of a body are numbered first_leaf(body) .. first_leaf(body + 1) - 1.
+  /// The leaves of a body are first_leaf(body) .. first_leaf(body + 1) - 1.
   std::uint32_t first_leaf(std::size_t body) const noexcept { return body_leaf_[body]; }
-  /// One rigid group, or the several an articulated unit spans.
+  /// The rigid groups of a body: one, or several for an articulated basic group.
   std::span<const GroupId> groups(std::size_t body) const noexcept {
     return std::span(groups_).subspan(group_start_[body], group_start_[body + 1] - group_start_[body]);
   }
   std::span<const PrimitiveId> primitives(std::uint32_t leaf) const noexcept {
     return std::span(primitives_).subspan(leaf_start_[leaf], leaf_start_[leaf + 1] - leaf_start_[leaf]);
   }
-  /// For a <= b: the SRI list of the two leaves in `pairs`, or false when all pairs of the two are to be tested.
+  /// Requires a <= b. Sets `pairs` to the SRI list of the two leaves. Returns false if they have none: test all their
+  /// pairs.
   bool lists(std::uint32_t a, std::uint32_t b, std::span<const PrimitivePair>& pairs) const noexcept {
     if (near_start_.empty()) return false;
     const auto end = near_.begin() + static_cast<std::ptrdiff_t>(near_start_[a + 1]);
@@ -60,7 +62,8 @@ class LazyLayout {
     std::uint32_t leaf;
     std::size_t begin, end;  // in sri_
   };
-  /// Pairs of two leaves, up to which they are listed: two basic groups of 32, the largest of a protein has 14.
+  /// Number of pairs of two leaves up to which an SRI list is made: 32 x 32. The largest basic group of a protein has
+  /// 14.
   static constexpr std::size_t longest_list = 1024;
 
   template <Primitive P>
@@ -80,7 +83,7 @@ class LazyLayout {
 
 template <Primitive P>
 void LazyLayout::make_bodies(const SelectedModel<P>& model) {
-  // Primitives by basic group; a basic group is a leaf of its rigid group's body, or an articulated unit.
+  // Collect primitives by basic group. A basic group is a leaf of its rigid group's body, or a body of its own.
   std::map<std::uint32_t, std::vector<PrimitiveId>> basic;
   for (std::size_t i = 0; i < model.size(); ++i) basic[model.model().basic_groups()[i]].push_back(id<PrimitiveId>(i));
   struct Leaf {

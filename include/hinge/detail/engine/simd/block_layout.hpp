@@ -19,7 +19,8 @@
 
 namespace hinge::detail {
 
-/// Sixteen primitives or fewer. Rigid: all of one large group. Mixed: of several small groups next to each other.
+/// At most sixteen primitives. Rigid: all belong to one large group. Mixed: they belong to several small groups that
+/// are neighbours in the chain.
 struct Block {
   std::uint32_t first_group = 0,
                 group_count = 0;  ///< its groups, in BlockLayout::groups
@@ -27,24 +28,25 @@ struct Block {
   bool rigid = false;
 };
 
-/// What the sweep holds one box for: one block, or all blocks of a group large enough for a tree of its own.
+/// The object that the sweep holds one box for: one block, or all blocks of a rigid group large enough for a tree.
 struct SweepEntry {
   std::uint32_t first_block = 0, block_count = 1;
-  std::uint32_t sweep_end = 0;  ///< entries before this one can hold partners; those of the same rigid group come after
-  std::uint32_t last_group = 0;  ///< forward kinematics must have come this far
+  /// Only entries before this one can be partners: entries of the same rigid group are excluded.
+  std::uint32_t sweep_end = 0;
+  std::uint32_t last_group = 0;  ///< forward kinematics must be complete up to this group
 };
 
-/// Computed once when the DOF are selected. Entries are ordered by the last group they need, the static ones first, and
-/// blocks as their entries.
+/// Computed once when the DOF are selected. Entries are ordered by the last group they need, static entries first.
+/// Blocks have the order of their entries.
 struct BlockLayout {
-  /// Rigid groups with more blocks than this are searched through a tree, others block by block.
+  /// A rigid group with more blocks than this is searched through a tree; other groups are searched block by block.
   static constexpr std::size_t largest_flat_group = simd::width * simd::width;
 
-  /// By rigid groups, for configurations and poses. left_out: per primitive, not 0 for those the layout does not hold;
-  /// empty: it holds all.
+  /// Blocks by rigid group, for configurations and poses. left_out: per primitive, nonzero to leave it out of the
+  /// layout; empty: the layout holds all.
   template <Primitive P>
   static BlockLayout by_groups(const SelectedModel<P>& model, std::span<const std::uint8_t> left_out = {});
-  /// By index alone, for coordinates from elsewhere, where nothing is known to be rigid.
+  /// Blocks by index, for coordinates given from outside: no group is known to be rigid.
   template <Primitive P>
   static BlockLayout by_index(const SelectedModel<P>& model, std::span<const std::uint8_t> left_out = {});
 
@@ -53,14 +55,14 @@ struct BlockLayout {
     return std::span(groups).subspan(block.first_group, block.group_count);
   }
 
-  /// The entry of a primitive it holds.
+  /// The entry that holds primitive i. Requires that the layout holds i.
   std::size_t entry_of(PrimitiveId i) const noexcept {
     const auto after = std::upper_bound(entries.begin(), entries.end(), block_of[index(i)],
                                         [](std::uint32_t b, const SweepEntry& entry) { return b < entry.first_block; });
     return static_cast<std::size_t>(after - entries.begin()) - 1;
   }
 
-  /// The entry after the last one of the same rigid group; u must be the group's first. A mixed entry stands alone.
+  /// One past the last entry of the rigid group whose first entry is u. For a mixed entry, u + 1.
   std::size_t group_end(std::size_t u) const noexcept {
     std::size_t end = u + 1;
     while (blocks[entries[u].first_block].rigid && end < entries.size() && blocks[entries[end].first_block].rigid &&
@@ -69,13 +71,13 @@ struct BlockLayout {
     return end;
   }
 
-  std::vector<std::uint32_t> primitive;  ///< per slot (sixteen per block); padding repeats the block's first
+  std::vector<std::uint32_t> primitive;  ///< per slot, sixteen per block; padding repeats the block's first primitive
   std::vector<Block> blocks;
   std::vector<SweepEntry> entries;
-  std::vector<GroupId> groups;          ///< of all blocks, each block's sorted without repetition
-  std::vector<std::uint32_t> block_of;  ///< per primitive; above all numbers of blocks where it was left out
-  std::size_t static_entries = 0;       ///< leading entries that hold primitives of group 0 only
-  Vec3 origin = Vec3::Zero();           ///< about the middle of the model at the reference
+  std::vector<GroupId> groups;          ///< groups of all blocks; sorted and unique per block
+  std::vector<std::uint32_t> block_of;  ///< per primitive; a number above all blocks if it was left out
+  std::size_t static_entries = 0;       ///< number of leading entries that hold only primitives of group 0
+  Vec3 origin = Vec3::Zero();           ///< middle of the model at the reference, world frame
   double scale = 1.0;                   ///< power of two that brings the model to a size where float squares are safe
 
  private:
@@ -98,8 +100,8 @@ BlockLayout BlockLayout::by_groups(const SelectedModel<P>& model, std::span<cons
   const std::vector<GroupId> order = chain_order(*model.groups());
   const auto is_large = [&](GroupId g) { return members.of(g).size() >= simd::width; };
   std::vector<Piece> pieces;
-  // Small groups are joined in chain order while they stay together: across a large group, only if the block stays
-  // about as compact as sixteen primitives of this model usually are.
+  // Small groups are joined in chain order while they are close. Across a large group they are joined only if the block
+  // stays about as compact as an average set of sixteen primitives.
   ChainFiller filler(middles, members, *model.groups(), is_large);
   for (const GroupId g : order) {
     const auto primitives = members.of(g);
@@ -181,7 +183,8 @@ inline void BlockLayout::measure(const Aabb& all) {
     origin[k] = all.middle(k);
     size = std::max(size, all.length(k));
   }
-  // To a size of about 64: room for squares on both sides of it. A model of one point keeps its entry.
+  // Scale to a size of about 64: squares then have room at both ends of the float range. A model without extent keeps
+  // its scale.
   int exponent = 0;
   if (size > 0.0) std::frexp(size, &exponent);
   scale = size > 0.0 ? std::ldexp(1.0, std::min(6 - exponent, 1000)) : 1.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// BroadPhase: from boxes that come close to candidates, "one primitive against sixteen".
+// BroadPhase: turns overlapping boxes of entries into candidates "one primitive against a block of sixteen".
 #pragma once
 
 #include <bit>
@@ -20,7 +20,7 @@
 
 namespace hinge::detail {
 
-/// Where the floats of a block start, and which slot the floats at a position are of.
+/// Position of a block's first float, and the slot of the primitive whose floats start at a position.
 template <Primitive P>
 std::uint32_t position(std::uint32_t block) noexcept {
   return block * static_cast<std::uint32_t>(Batch<P>::floats);
@@ -31,17 +31,17 @@ std::uint32_t slot(std::uint32_t position) noexcept {
   return position / floats * static_cast<std::uint32_t>(simd::width) + position % floats;
 }
 
-/// `margin()`: what is not farther than a threshold plus this must be listed; extra clearances come on top; it may
-/// shrink on the way. `relieve` is called between blocks of a large entry, whose candidates may be as many as its
-/// pairs; it answers false to stop, and so do listers that were stopped.
+/// `margin()`: pairs with d - M <= margin() (plus extra clearances) must be listed; it may shrink during the sweep.
+/// `relieve()` is called between the blocks of a large entry, whose candidates may be as many as its pairs. It returns
+/// false to stop. within() and across() then return false too.
 template <Primitive P>
 class BroadPhase {
  public:
   CandidateList candidates;
-  /// To be told of the entries that are done; knows of the one where a lister was stopped.
+  /// The caller reports finished entries. The broad phase stores the position where it stopped.
   ResumePoint resume_point;
 
-  /// Adds the candidates between an entry and the ones before it, and inside it.
+  /// Lists the candidates between entry u and earlier entries, and inside u.
   template <class Margin, class Relieve>
   bool within(SimdSide<P>& side, std::size_t u, Placement<P>& placement, const Margin& margin, QueryCounts& counts,
               const Relieve& relieve) {
@@ -74,7 +74,7 @@ class BroadPhase {
       side.descend(u, side.state().entries().get(w).grown(margin() + both), placement, counts, mine_);
       for (const std::uint32_t b : mine_) {
         const float near = margin() + both;
-        // Placed only when it meets something.
+        // The block itself is placed only if its box overlaps something.
         if (side.layout().entries[w].block_count == 1)
           theirs_.assign(1, side.layout().entries[w].first_block);
         else
@@ -87,7 +87,7 @@ class BroadPhase {
     return true;
   }
 
-  /// Adds the candidates of an entry against another model, into whose unit and origin `into` brings coordinates.
+  /// Lists the candidates between an entry and the other model. `into` transforms coordinates into that model.
   template <class Margin, class Relieve>
   bool across(SimdSide<P>& mine, std::size_t u, Placement<P>& placement, SimdSide<P>& theirs,
               Placement<P>& other_placement, const CrossModelTransform<P>& into, const Margin& margin, bool moved_only,
@@ -125,13 +125,13 @@ class BroadPhase {
   }
 
  private:
-  /// Block b of mine_ was the last to be held against partner w.
+  /// Stops: blocks of mine_ up to b were swept against partner w.
   bool stop(std::size_t w, std::uint32_t b) {
     resume_point.stop(w, {mine_.begin(), std::find(mine_.begin(), mine_.end(), b) + 1});
     return false;
   }
 
-  /// A block, ready to be held against many others, whose extra clearances come on top.
+  /// A block prepared for tests against many others. `more` is the margin plus its extra clearance.
   struct Facing {
     Facing(SimdSide<P>& side, std::uint32_t b, Placement<P>& placement, float more) noexcept
         : block(b),
@@ -139,24 +139,25 @@ class BroadPhase {
           box(side.state().block_box(b).grown(more + side.parts().rigid.largest_reach)),
           partners(side.near(), b) {}
     std::uint32_t block;
-    typename Batch<P>::Grown lanes;  // by its reach and more
-    BoxLanes box;                    // by its own reach, the largest of all, and more
+    typename Batch<P>::Grown lanes;  // inflated by the block's reach and `more`
+    BoxLanes box;                    // inflated by its own reach, the largest reach of all blocks, and `more`
     ExclusionMasks::Partners partners;
   };
 
-  /// A block against those found in trees.
+  /// Lists the candidates between a block and the blocks found in a tree.
   [[gnu::noinline]] void add_found(SimdSide<P>& side, const Facing& facing, Placement<P>& placement) {
     for (const std::uint32_t a : theirs_) add_pair(side, facing, a, side.near().find(facing.block, a), placement);
   }
 
-  /// A block against block a before it: whichever side has fewer primitives near the other's box goes one by one.
+  /// Lists the candidates between block b and an earlier block a. The side with fewer primitives near the other's box
+  /// is listed one by one.
   [[gnu::always_inline]] void add_pair(SimdSide<P>& side, const Facing& facing, std::uint32_t a, const simd::Bits* rows,
                                        Placement<P>& placement) {
     const float* at_a = side.state().block(a, placement);
     const std::uint32_t b = facing.block;
     const simd::Bits real_b = side.layout().blocks[b].real, real_a = side.layout().blocks[a].real;
     const FloatBox& box_a = side.state().block_box(a);
-    // (Growing by 0 can be felt in queries without extra clearances.)
+    // Inflating by zero is measurable here; skip it.
     const simd::Bits in_b =
         (side.has_extra() ? facing.lanes.meets(box_a.grown(side.extra(a))) : facing.lanes.meets(box_a)) & real_b;
     if (rows != nullptr) [[unlikely]]
@@ -164,7 +165,7 @@ class BroadPhase {
     const simd::Bits in_a = (side.has_extra() ? Batch<P>::inside(at_a, facing.box.grown(side.extra(a)))
                                               : Batch<P>::inside(at_a, facing.box)) &
                             real_a;
-    // Without branches, which nobody could foretell: an empty side lists nothing.
+    // Branch-free: the branch is unpredictable. An empty side lists nothing.
     const bool b_by_one = std::popcount(in_b) <= std::popcount(in_a);
     candidates.add(b_by_one ? in_b : in_a, position<P>(b_by_one ? b : a), position<P>(b_by_one ? a : b),
                    b_by_one ? real_a : real_b);

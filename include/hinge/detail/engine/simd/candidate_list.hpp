@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// CandidateList: "one primitive against sixteen", listed first and run in one straight loop.
+// CandidateList: candidates "one primitive against a block of sixteen", listed first and tested in one loop.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +12,10 @@
 
 namespace hinge::detail {
 
-/// Three arrays: where the floats of the one start, where those of the sixteen start, and which of the sixteen count.
+/// A candidate is a position of floats of the single primitive, a position of floats of the block, and a mask of lanes.
 class CandidateList {
  public:
-  /// A candidate that floats did not rule out, and the lanes that are left of it.
+  /// A candidate that floats did not rule out, with the remaining lanes.
   struct Left {
     std::uint32_t candidate;
     simd::Bits lanes;
@@ -26,19 +26,19 @@ class CandidateList {
   const std::uint32_t* ones() const noexcept { return one_.data(); }
   const std::uint32_t* sixteens() const noexcept { return sixteen_.data(); }
   const simd::Bits* masks() const noexcept { return mask_.data(); }
-  /// Room for all candidates and one more.
+  /// Scratch with room for all candidates and one more.
   Left* left() noexcept { return left_.data(); }
-  /// How many were left, which tells what to expect of the next ones.
+  /// Stores whether many candidates remained: a prediction for the next run.
   void set_left(std::size_t count) noexcept { many_left_ = 16 * count > size_; }
   bool many_left() const noexcept { return many_left_; }
 
-  /// The lanes of the block at first_one, each against the block at `sixteen` under one mask.
+  /// Adds the `lanes` of the block at position first_one, each against the block at position `sixteen`, with one mask.
   [[gnu::always_inline]] void add(simd::Bits lanes, std::uint32_t first_one, std::uint32_t sixteen, simd::Bits mask) {
     make_room();
     std::fill_n(mask_.data() + size_, simd::width, mask);
     push(lanes, first_one, sixteen);
   }
-  /// The same with a mask per lane.
+  /// The same with one mask per lane.
   [[gnu::always_inline]] void add_rows(simd::Bits lanes, std::uint32_t first_one, std::uint32_t sixteen,
                                        const simd::Bits* masks) {
     make_room();
@@ -48,7 +48,7 @@ class CandidateList {
 
  private:
   [[gnu::always_inline]] void make_room() {
-    // Lists are written sixteen at a time, whatever counts.
+    // append_lanes always writes sixteen values.
     if (size_ + simd::width > one_.size()) [[unlikely]]
       grow();
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Identity and CrossModelTransform: how candidates read the coordinates of the one: as they are, or brought into
-// another model's; and how far distances in float may then be off.
+// Identity and CrossModelTransform: read the coordinates of a candidate's single primitive, in its own model or
+// transformed into another model, with the float error of the distances.
 #pragma once
 
 #include <array>
@@ -15,13 +15,13 @@
 
 namespace hinge::detail {
 
-/// Coordinates of one model as they are.
+/// Reads coordinates of the same model: no transform.
 template <Primitive P>
 struct Identity {
   [[gnu::always_inline]] typename Batch<P>::One operator()(const float* at) const noexcept {
     return typename Batch<P>::One(at);
   }
-  /// What floats of a model may be off by, scaled, next to its largest threshold plus the cutoff.
+  /// Bound of the error of float distances, scaled, for the largest threshold plus |cutoff| and extra clearances.
   double band(const SimdSide<P>& one, const SimdSide<P>&, const ThresholdTable& table, double cutoff) const noexcept {
     return one.state().band(static_cast<double>(table.largest) + std::abs(cutoff * one.layout().scale) +
                             2 * static_cast<double>(one.largest_extra()));
@@ -29,7 +29,7 @@ struct Identity {
   float scale = 1.0F;
 };
 
-/// Coordinates of one model in the origin and scale of another.
+/// Transforms coordinates into the origin and scale of another model.
 template <Primitive P>
 struct CrossModelTransform {
   CrossModelTransform(const SimdSide<P>& from, const SimdSide<P>& to) noexcept
@@ -39,7 +39,7 @@ struct CrossModelTransform {
       shift[k] = static_cast<float>((from.state().origin()[i] - to.state().origin()[i]) * to.layout().scale);
     }
   }
-  /// Can floats hold both models in one unit?
+  /// True if floats can hold both models in one unit.
   bool holds() const noexcept {
     bool all = scale >= 0x1p-60F && scale <= 0x1p60F;
     for (const float s : shift) all = all && std::abs(s) <= largest_sane_coordinate;
@@ -48,16 +48,17 @@ struct CrossModelTransform {
   [[gnu::always_inline]] typename Batch<P>::One operator()(const float* at) const noexcept {
     return {at, scale, shift};
   }
-  /// The same for both, in the scale of the sixteen.
+  /// Bound of the error of float distances between the two models, in the scale of `sixteen`.
   double band(const SimdSide<P>& one, const SimdSide<P>& sixteen, const ThresholdTable& table,
               double cutoff) const noexcept {
     const auto ratio = static_cast<double>(scale);
     double largest = static_cast<double>(table.largest) + std::abs(cutoff * sixteen.layout().scale) +
                      static_cast<double>(sixteen.largest_extra()) + ratio * static_cast<double>(one.largest_extra());
-    // Shifting rounds once more, by the size of what is shifted.
+    // The shift rounds once more, relative to its own size.
     for (const float s : shift) largest += 2 * std::abs(static_cast<double>(s));
     return sixteen.state().band(largest) + 2 * ratio * one.state().band(0.0);
   }
+  /// Box in the other model's unit and origin.
   FloatBox operator()(FloatBox box) const noexcept {
     for (std::size_t k = 0; k < 3; ++k) {
       box.lower[k] = box.lower[k] * scale + shift[k];
@@ -65,6 +66,7 @@ struct CrossModelTransform {
     }
     return box;
   }
+  /// The inverse transform of a box.
   FloatBox back(FloatBox box) const noexcept {
     for (std::size_t k = 0; k < 3; ++k) {
       box.lower[k] = (box.lower[k] - shift[k]) / scale;

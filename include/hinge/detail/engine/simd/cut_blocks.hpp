@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cutting primitives into blocks: spatially inside a large rigid group, along the chain across small ones.
+// Cutting primitives into blocks: spatially inside a large rigid group, along the chain across small groups.
 #pragma once
 
 #include <algorithm>
@@ -20,10 +20,10 @@
 
 namespace hinge::detail {
 
-/// The primitives a layout holds, by rigid group: all of a model but those left out.
+/// The primitives of a layout by rigid group: all primitives of the model except those left out.
 class Members {
  public:
-  /// left_out: per primitive, not 0 for those to be left out; empty: none.
+  /// left_out: per primitive, nonzero to leave it out; empty: leaves out none.
   template <Primitive P>
   Members(const SelectedModel<P>& model, std::span<const std::uint8_t> left_out) {
     list_.reserve(model.size());
@@ -39,7 +39,7 @@ class Members {
     return all().subspan(start_[index(g)], start_[index(g) + 1] - start_[index(g)]);
   }
   std::span<const PrimitiveId> all() const noexcept { return list_; }
-  /// The box around some points, one per primitive of the model.
+  /// The box around `points`, one per primitive of the model, of the primitives in this list.
   Aabb around(const std::vector<Vec3>& points) const noexcept {
     Aabb box;
     for (const PrimitiveId i : list_) box.extend(points[index(i)]);
@@ -51,7 +51,7 @@ class Members {
   std::vector<std::size_t> start_;  // per group
 };
 
-/// The middle of every primitive's bounds, world frame, all joints at their reference.
+/// The middle of every primitive's bounds in the world frame, with all joints at their reference.
 template <Primitive P>
 std::vector<Vec3> middles_at_reference(const SelectedModel<P>& model) {
   PoseSource reference(model.groups(), model.selection().size());
@@ -66,7 +66,7 @@ std::vector<Vec3> middles_at_reference(const SelectedModel<P>& model) {
   return middles;
 }
 
-/// Groups depth first, smaller subtrees first: what hangs on a chain comes before the chain goes on.
+/// Groups in depth-first order, smaller subtrees first: side branches come before the chain continues.
 inline std::vector<GroupId> chain_order(const RigidGroups& groups) {
   const std::size_t n = groups.size();
   std::vector<std::size_t> subtree(n, 1);
@@ -82,7 +82,7 @@ inline std::vector<GroupId> chain_order(const RigidGroups& groups) {
     const std::size_t g = stack.back();
     stack.pop_back();
     order.push_back(id<GroupId>(g));
-    // Children were collected last first; the largest goes to the bottom of the stack.
+    // Children are in reverse order; the largest subtree goes to the bottom of the stack.
     std::stable_sort(children[g].begin(), children[g].end(),
                      [&](std::size_t a, std::size_t b) { return subtree[a] > subtree[b]; });
     stack.insert(stack.end(), children[g].begin(), children[g].end());
@@ -90,8 +90,9 @@ inline std::vector<GroupId> chain_order(const RigidGroups& groups) {
   return order;
 }
 
-/// Blocks of at most sixteen, about equally full, by median cuts across the widest axis. Cuts fall on multiples of 16,
-/// 256, ... blocks where there are so many, so that runs of that length are compact too. O(n log n), no recursion.
+/// Blocks of at most sixteen primitives, about equally full, by median cuts across the widest axis. If there are enough
+/// blocks, cuts fall on multiples of 16, 256, ... blocks, so that runs of this length are compact too. O(n log n), no
+/// recursion.
 inline std::vector<std::vector<std::uint32_t>> cut_spatially(std::span<const PrimitiveId> primitives,
                                                              const std::vector<Vec3>& middles) {
   std::vector<std::uint32_t> items;
@@ -118,7 +119,7 @@ inline std::vector<std::vector<std::uint32_t>> cut_spatially(std::span<const Pri
     const std::size_t left = std::max<std::size_t>(1, (r.blocks / 2 + run / 2) / run) * run;
     const std::size_t cut = r.begin + (r.end - r.begin) * left / r.blocks;
     const auto at = [&](std::size_t k) { return items.begin() + static_cast<std::ptrdiff_t>(k); };
-    // Ties by index, so that coincident primitives are cut like any others.
+    // Break ties by index, so that coincident primitives can be cut.
     std::nth_element(at(r.begin), at(cut), at(r.end), [&](std::uint32_t a, std::uint32_t b) {
       return std::pair(middles[a][axis], a) < std::pair(middles[b][axis], b);
     });
@@ -128,7 +129,7 @@ inline std::vector<std::vector<std::uint32_t>> cut_spatially(std::span<const Pri
   return blocks;
 }
 
-/// Fills blocks with the primitives of small groups that come in chain order.
+/// Fills blocks with the primitives of small groups in chain order.
 class ChainFiller {
  public:
   template <class IsLarge>
@@ -143,7 +144,7 @@ class ChainFiller {
     const Aabb all = members.around(middles);
     double volume = 1.0;
     for (int k = 0; k < 3; ++k) volume *= all.length(k);
-    // The side of the cube that sixteen primitives fill on average, and half as much again.
+    // 1.5 times the side of the cube that sixteen primitives fill on average.
     compact_ = 1.5 * std::cbrt(volume / static_cast<double>(members.all().size()) * static_cast<double>(simd::width));
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// EntryBoxes: the boxes of all entries in rows of sixteen, boxes around rows above them, and the sweep through both.
+// EntryBoxes: the boxes of all entries in rows of sixteen, levels of boxes above them, and the sweep through all
+// levels.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +17,7 @@
 
 namespace hinge::detail {
 
-/// Which entries a sweep of EntryBoxes looks at, whatever their boxes.
+/// A mask of the entries that a sweep of EntryBoxes may return.
 class ShownEntries {
  public:
   explicit ShownEntries(std::size_t entries) : entries_(entries) {
@@ -43,22 +44,22 @@ class ShownEntries {
         const std::size_t to = row == last ? (end - 1) % simd::width + 1 : simd::width;
         level[row] &= ~(((simd::Bits{1} << (to - from)) - 1) << from);
       }
-      // Rows with nothing left: all between, and maybe those at the ends.
+      // Continue with the rows that became empty: all rows between, and possibly the first and last row.
       begin = level[first] == 0 ? first : first + 1;
       end = level[last] == 0 ? last + 1 : last;
       if (begin > end) return;
     }
   }
-  /// Of a row of a level: of entries those that are shown, above them rows with any.
+  /// Mask of a row: at level 0 the shown entries, above it the rows with a shown entry.
   simd::Bits lanes(std::size_t level, std::size_t row) const noexcept { return lanes_[level][row]; }
 
  private:
   std::size_t entries_;
-  std::vector<std::vector<simd::Bits>> lanes_;  // per level, the entries' first
+  std::vector<std::vector<simd::Bits>> lanes_;  // per level; level 0 is that of the entries
 };
 
-/// Entries come up to date in order, and a sweep looks at those before a given one. More than sixteen rows have a level
-/// of boxes around rows above them, and so on; a row is only looked at from above when all of its entries were closed.
+/// Entries are updated in order, and a sweep tests the entries before a given one. More than sixteen rows have a level
+/// of boxes above them, recursively. An upper box is used only after all entries below it are closed.
 class EntryBoxes {
  public:
   explicit EntryBoxes(std::size_t entries) : entries_(entries), found_(entries + simd::width) {
@@ -76,7 +77,7 @@ class EntryBoxes {
   FloatBox get(std::size_t u) const noexcept { return levels_.front()[u / simd::width].get(u % simd::width); }
   void set(std::size_t u, const FloatBox& box) noexcept { levels_.front()[u / simd::width].set(u % simd::width, box); }
 
-  /// The entries up to u are up to date. To be called in order.
+  /// Marks the entries up to u as up to date. Call it in increasing order.
   void close(std::size_t u) noexcept {
     std::size_t lane = u;
     for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
@@ -87,8 +88,7 @@ class EntryBoxes {
     }
   }
 
-  /// Brings the boxes around the row of an entry up to date; to be called for one entry of each row that was set out of
-  /// order.
+  /// Updates the boxes above the row of entry u. Call it once per row whose entries were set out of order.
   void cover(std::size_t u) noexcept {
     for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
       u /= simd::width;
@@ -96,11 +96,11 @@ class EntryBoxes {
     }
   }
 
-  /// The entries before `end` whose boxes share a point with `box`, in order; valid until the next sweep.
+  /// Returns the entries before `end` whose boxes overlap `box`, in order. Valid until the next sweep.
   std::span<const std::uint32_t> sweep(const FloatBox& box, std::size_t end, QueryCounts& counts) noexcept {
     const BoxLanes probe(box);
     const std::size_t top = levels_.size() - 1;
-    // Rows of the top level all of whose entries come before the end: there are sixteen at most.
+    // Rows of the top level that lie wholly before the end: sixteen at most.
     std::span<const std::uint32_t> rows(first_rows.data(), end >> (shift * (top + 1)));
     for (std::size_t l = top; l > 0; --l) {
       rows = through(l, end, probe, rows, next_rows_.data(), counts);
@@ -108,7 +108,7 @@ class EntryBoxes {
     }
     return through(0, end, probe, rows, found_.data(), counts);
   }
-  /// The same of the entries that are shown; rows are covered.
+  /// The same for shown entries. The boxes above all rows must be up to date (see cover()).
   std::span<const std::uint32_t> sweep(const FloatBox& box, const ShownEntries& shown, QueryCounts& counts) noexcept {
     const BoxLanes probe(box);
     std::span<const std::uint32_t> rows(first_rows.data(), levels_.back().size());
@@ -131,7 +131,7 @@ class EntryBoxes {
                                                                         8, 9, 10, 11, 12, 13, 14, 15};
   static_assert(std::size_t{1} << shift == simd::width);
 
-  /// Lanes of some complete rows of a level, and of the one that the end cuts.
+  /// Tests the given complete rows of a level, and the row that contains the end. Returns the overlapping lanes.
   [[gnu::always_inline]] std::span<const std::uint32_t> through(std::size_t l, std::size_t end, const BoxLanes& probe,
                                                                 std::span<const std::uint32_t> rows, std::uint32_t* to,
                                                                 QueryCounts& counts) const noexcept {
@@ -148,7 +148,7 @@ class EntryBoxes {
   }
 
   std::size_t entries_;
-  std::vector<std::vector<BoxRow>> levels_;  // the entries' first
+  std::vector<std::vector<BoxRow>> levels_;  // per level; level 0 is that of the entries
   std::vector<std::uint32_t> found_, rows_, next_rows_;
 };
 

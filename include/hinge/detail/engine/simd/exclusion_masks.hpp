@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ExclusionMasks: which lanes of a block may be tested with which of another, where the filter forbids some of them.
+// ExclusionMasks: bit masks of the lane pairs that may be tested, for pairs of blocks with exclusions.
 #pragma once
 
 #include <algorithm>
@@ -17,31 +17,31 @@
 
 namespace hinge::detail {
 
-/// A near pair of blocks (b, a), a <= b, has sixteen rows: bit l of row k tells whether lane k of b is tested with lane
-/// l of a. Near pairs are those with a pair the filter lists as excluded, and every block with itself. Masks only leave
-/// pairs out early: what comes too close is asked of the filter in any case.
+/// A near pair of blocks (b, a), a <= b, has sixteen rows: bit l of row k is set if lane k of b may be tested with lane
+/// l of a. Near pairs are the pairs of blocks that contain an excluded pair of primitives, and every block with itself.
+/// Masks only save work: the filter is asked again for every pair that is close.
 class ExclusionMasks {
  public:
-  /// inside_groups: are pairs within one rigid group tested?
+  /// inside_groups: true if pairs within one rigid group are tested.
   template <Primitive P, PairFilter F>
   ExclusionMasks(const BlockLayout& layout, const SelectedModel<P>& model, const F& filter, bool inside_groups);
 
-  /// The rows of the pair, or nullptr; a < b.
+  /// Returns the rows of the pair a < b, or nullptr if it is not near.
   const simd::Bits* find(std::uint32_t b, std::uint32_t a) const noexcept { return Partners(*this, b).find(a); }
-  /// Rows of b with itself; only when self_lanes(b) is not empty.
+  /// Returns the rows of b with itself. Requires self_lanes(b) != 0.
   const simd::Bits* self_rows(std::uint32_t b) const noexcept { return rows_.data() + row_[start_[b + 1] - 1]; }
-  /// The near blocks of b up to b itself, which ends them.
+  /// The near blocks of b in increasing order; b itself is the last.
   std::span<const std::uint32_t> partners(std::uint32_t b) const noexcept {
     return std::span(partner_).subspan(start_[b], start_[b + 1] - start_[b]);
   }
-  /// Those of its rows that admit anything.
+  /// Lanes of b whose row with b itself is not empty.
   simd::Bits self_lanes(std::uint32_t b) const noexcept { return self_lanes_[b]; }
 
-  /// The near blocks of one block, to be asked for in increasing order.
+  /// Looks up near blocks of one block. Call find() with increasing arguments.
   class Partners {
    public:
     Partners(const ExclusionMasks& near, std::uint32_t b) noexcept : near_(near), next_(near.start_[b]) {}
-    /// The rows with block a, or nullptr; a < b.
+    /// Returns the rows with block a < b, or nullptr if the pair is not near.
     const simd::Bits* find(std::uint32_t a) noexcept {
       while (near_.partner_[next_] < a) ++next_;
       return near_.partner_[next_] == a ? near_.rows_.data() + near_.row_[next_] : nullptr;
@@ -55,8 +55,8 @@ class ExclusionMasks {
  private:
   simd::AlignedVector<simd::Bits> rows_;
   std::vector<std::uint16_t> self_lanes_;
-  std::vector<std::uint32_t> start_;    // per block, in partner_ and row_
-  std::vector<std::uint32_t> partner_;  // sorted; the block itself ends every list
+  std::vector<std::uint32_t> start_;    // per block: start in partner_ and row_
+  std::vector<std::uint32_t> partner_;  // sorted per block; every list ends with the block itself
   std::vector<std::uint32_t> row_;
 };
 
@@ -80,7 +80,7 @@ ExclusionMasks::ExclusionMasks(const BlockLayout& layout, const SelectedModel<P>
     near.erase(std::unique(near.begin(), near.end()), near.end());
     simd::Bits self_lanes = 0;
     for (const std::uint32_t a : near) {
-      // Two blocks of one rigid group never meet, unless groups deform; but the block itself ends its list.
+      // Two blocks of one rigid group are never tested unless groups deform. The block itself still ends its own list.
       const bool never = !inside_groups && mine.rigid && layout.blocks[a].rigid &&
                          layout.groups_of(mine).front() == layout.groups_of(layout.blocks[a]).front();
       if (never && a != b) continue;
@@ -89,7 +89,7 @@ ExclusionMasks::ExclusionMasks(const BlockLayout& layout, const SelectedModel<P>
       if (never) continue;
       for (std::size_t k = 0; k < simd::width; ++k) {
         simd::Bits row = 0;
-        const std::size_t end = a == b ? k : simd::width;  // each pair of a block with itself once
+        const std::size_t end = a == b ? k : simd::width;  // each pair within a block once
         for (std::size_t l = 0; l < end && (mine.real >> k & 1U) != 0; ++l) {
           if ((layout.blocks[a].real >> l & 1U) == 0) continue;
           const PrimitiveId i = primitive(b, k), j = primitive(a, l);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FallbackBvh: engine/simd's way round what its blocks and floats cannot tell apart: trees of boxes in double.
+// FallbackBvh: the double-precision BVH of engine/simd, used when the float filter stops pruning.
 #pragma once
 
 #include <algorithm>
@@ -24,35 +24,38 @@
 
 namespace hinge::detail {
 
-/// A tree over each rigid group's primitives, split as far as a query looks, and one over the groups: the two levels of
-/// BioCD over the primitives themselves. Boxes are made anew for every search. Functions instead of template parameters
-/// keep it out of what is compiled for every collector: searches are rare, and boxes outnumber pairs.
+/// Two levels as in BioCD, over single primitives: a tree over the primitives of each rigid group, split on demand, and
+/// a tree over the groups. Each search makes new boxes. std::function keeps this code out of the instantiations per
+/// collector: searches are rare, and they test more boxes than pairs.
 class FallbackBvh {
  public:
-  /// What a pair's d - M may be at most to be of interest; may shrink on the way.
+  /// Largest d - M of interest. It may shrink during the search.
   using Cutoff = std::function<double()>;
-  /// Answers false to stop.
+  /// Returns false to stop.
   using Visit = std::function<bool(PrimitiveId, PrimitiveId)>;
 
-  /// Boxes of the present coordinates of the primitives that a layout holds. clearance: extra ones, per rigid group.
+  /// Makes boxes of the present coordinates of all primitives in the layout. clearance: extra clearance per rigid
+  /// group.
   template <Primitive P, DistanceMatrix D>
   [[gnu::noinline]] void place(const BlockLayout& layout, Placement<P>& placement, const D& matrix,
                                std::span<const double> clearance);
 
-  /// Visits every pair of different groups that may be of interest, and where groups deform every pair.
+  /// Visits every pair of primitives of different groups with a possible d - M <= cutoff. If groups deform, visits
+  /// pairs within groups too.
   void within(const Cutoff& cutoff, const Visit& visit, QueryCounts& counts) {
     if (deform_ && !bodies_.empty())
       bodies(*this, 0, 0, cutoff, visit, counts);
     else
       across(*this, cutoff, visit, counts);
   }
-  /// The same of pairs of a primitive here and one there.
+  /// The same for pairs of a primitive here and a primitive of `other`.
   void across(FallbackBvh& other, const Cutoff& cutoff, const Visit& visit, QueryCounts& counts);
 
  private:
+  /// One low-level tree: the primitives of a rigid group, or all primitives if groups deform.
   struct Body {
     std::uint32_t first, count;  // in primitives_
-    double extra;                // the largest clearance
+    double extra;                // largest extra clearance in it
   };
 
   PrimitiveId primitive(std::uint32_t body, std::uint32_t item) const noexcept {

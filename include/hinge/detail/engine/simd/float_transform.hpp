@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FloatTransform: a rigid group's frame as engine/simd's floats apply it, to points and boxes.
+// FloatTransform: a rigid group's frame applied to points and boxes in the floats of engine/simd.
 #pragma once
 
 #include <algorithm>
@@ -18,18 +18,19 @@
 
 namespace hinge::detail {
 
-/// Beyond this squares leave the range of floats: such boxes overlap everything, and what is in them is judged in
-/// double.
+/// Above this, squares may overflow in float. Such a box is replaced by an infinite one, and its contents are decided
+/// in double.
 inline constexpr float largest_sane_coordinate = 1e15F;
 
+/// The box, or an infinite box if a coordinate is too large or NaN.
 [[gnu::always_inline]] inline FloatBox sane(const FloatBox& box) noexcept {
   if (!(box.extent() <= largest_sane_coordinate)) [[unlikely]]
     return FloatBox::everything();
   return box;
 }
 
-/// The same for a box and the coordinates in it, which are pulled in: that brings no two farther apart. Infinite ones
-/// would be no numbers once they are grown by what is infinite too, and look apart.
+/// The same for a box and the coordinates in it. Large coordinates are clamped, which never increases a distance.
+/// Infinite coordinates would become NaN when inflated by an infinite length, and look apart.
 [[gnu::always_inline]] inline FloatBox sane(const FloatBox& box, std::span<float> coordinates) noexcept {
   const FloatBox kept = sane(box);
   if (kept.extent() > largest_sane_coordinate) [[unlikely]]
@@ -37,7 +38,7 @@ inline constexpr float largest_sane_coordinate = 1e15F;
   return kept;
 }
 
-/// x -> (R x + t - origin) * scale. Middles are computed in double and rounded once; around them everything is float.
+/// x -> (R x + t - origin) * scale. Middles are computed in double and rounded once; offsets from them are float.
 class FloatTransform {
  public:
   FloatTransform(const Frame& frame, const Vec3& origin, double scale) noexcept
@@ -57,7 +58,7 @@ class FloatTransform {
     return {x[0], x[1], x[2]};
   }
 
-  /// The box around the turned box. Its half lengths grow by the rounding of rotation, products and sums.
+  /// The box around the rotated box. Its half lengths include the rounding of rotation, products and sums.
   FloatBox operator()(const LocalBox& local) const noexcept {
     const std::array<float, 3> middle = (*this)(local.middle);
     const std::array<float, 9>& r = rotation_;
@@ -72,8 +73,8 @@ class FloatTransform {
     return sane(box);
   }
 
-  /// Boxes around those of lanes first ... last - 1 of a row, grown by reach, and their largest magnitudes. `whole` is
-  /// the box whose middle the row's middles are relative to.
+  /// Boxes around the boxes of lanes first .. last - 1 of a row, inflated by reach, and their largest coordinate
+  /// magnitudes. `whole`: the box whose middle is the origin of the row's middles.
   void turn_row(const LocalRow& local, const LocalBox& whole, float reach, std::size_t first, std::size_t last,
                 BoxRow& boxes, float* extents) const noexcept {
     using simd::Float16;

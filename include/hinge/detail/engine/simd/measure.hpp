@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measure: verdicts by float distances, for queries that need not be exact.
+// Measure: verdicts by float distances, for queries with a precision below exact.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +21,8 @@
 
 namespace hinge::detail {
 
-/// For the candidates listed so far. Where floats do not hold the coordinates, or the squares of what is asked for,
-/// nothing is measured.
+/// Made for the present candidates and margin. It does not hold if floats cannot represent the coordinates or the
+/// squared thresholds.
 class Measure {
  public:
   Measure() = default;
@@ -37,10 +37,11 @@ class Measure {
       error_ = convert.band(one, sixteen, table, cutoff) * unit_;
   }
 
+  /// True if distances can be measured.
   bool holds() const noexcept { return is_finite(error_); }
 
-  /// Primitive i against lanes of sixteen `others`, whose squared distances are in the engine's scaled unit; until the
-  /// collector wants no more. Returns how many stay undecided.
+  /// Tests primitive i against the lanes of the sixteen `others`, until the collector is done. squared: squared
+  /// distances in scaled units. Returns the number of undecided pairs.
   template <class TestPair>
   [[gnu::always_inline]] std::uint64_t operator()(PrimitiveId i, const std::uint32_t* others, simd::Bits lanes,
                                                   const simd::Float16& squared, const TestPair& test_pair) const {
@@ -56,7 +57,7 @@ class Measure {
   }
 
  private:
-  double unit_ = 0.0;  // the model's, a power of two: nothing is rounded
+  double unit_ = 0.0;  // model unit per scaled unit, a power of two: the product is exact
   double error_ = std::numeric_limits<double>::infinity();
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// narrow_phase: the inner loop of engine/simd. Float lower bounds of distances against thresholds plus margin.
+// narrow_phase: the inner loop of engine/simd: float lower bounds of distances against thresholds plus margin.
 #pragma once
 
 #include <array>
@@ -15,10 +15,10 @@
 
 namespace hinge::detail {
 
-/// Thresholds plus a margin, and their squares, row by row.
+/// Thresholds plus a margin, and their squares, by rows of the threshold table.
 class Thresholds16 {
  public:
-  /// What is within `margin` of a threshold of the table, or closer, is near.
+  /// Pairs with d <= M + margin are near.
   void set(const ThresholdTable& table, float margin) noexcept {
     margin_ = margin;
     for (std::size_t c = 0; c < simd::width; ++c) {
@@ -32,7 +32,7 @@ class Thresholds16 {
   float margin() const noexcept { return margin_; }
   const float* plain() const noexcept { return plain_.data(); }
   const float* squares() const noexcept { return squares_.data(); }
-  /// The largest of each row.
+  /// The largest value of each row.
   const float* largest_plain() const noexcept { return largest_plain_.data(); }
   const float* largest_squares() const noexcept { return largest_squares_.data(); }
 
@@ -43,10 +43,10 @@ class Thresholds16 {
   std::array<float, simd::width> largest_plain_{}, largest_squares_{};
 };
 
-/// Calls visit(position of the one, position of the sixteen, lanes, squared distances) for every candidate that floats
-/// cannot rule out; visit may lower the thresholds and answers false to stop. First all candidates are held against the
-/// largest threshold of their one; what is left, lane by lane against its own. Side: SimdSide, or what else holds
-/// floats of P under threshold classes.
+/// Calls visit(position of the single primitive, position of the block, lanes, squared distances) for every candidate
+/// that floats cannot rule out. visit may lower the thresholds; it returns false to stop. The first loop tests all
+/// candidates against the largest threshold of the single primitive's class. The second loop tests the rest lane by
+/// lane. Side: SimdSide, or any type that holds floats of P under threshold classes.
 template <Primitive P, class Side, class Convert, class Visit>
 void narrow_phase(CandidateList& candidates, const Side& one, const Side& sixteen, const Convert& convert,
                   const Thresholds16& thresholds, const Visit& visit) {
@@ -65,10 +65,10 @@ void narrow_phase(CandidateList& candidates, const Side& one, const Side& sixtee
   std::size_t left_count = 0;
   const auto rule_out = [&](const auto& near) __attribute__((always_inline)) {
     const auto lanes = [&](std::size_t t) __attribute__((always_inline)) {
-      // Not "where it is less": what overflowed or is no number has to be looked at.
+      // Negated on purpose: overflow and NaN must remain.
       return ~less(simd::Float16(near(t)), squared_distances(t)) & masks[t];
     };
-    // A branch is cheaper while it is never taken, and half as cheap as none when nobody can foretell it.
+    // A branch is cheaper if it is almost never taken. It costs twice as much as no branch if it is unpredictable.
     if (candidates.many_left()) {
       for (std::size_t t = 0; t < candidates.size(); ++t) {
         left[left_count] = {static_cast<std::uint32_t>(t), lanes(t)};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SelfPairTest and CrossPairTest: how pairs that floats cannot rule out are decided, by the primitives or as measured.
+// SelfPairTest and CrossPairTest: decide pairs that floats cannot rule out, exactly or by a measured distance.
 #pragma once
 
 #include "hinge/core/id.hpp"
@@ -9,14 +9,14 @@
 
 namespace hinge::detail {
 
-/// Pairs inside one model, whichever of the two is named first. `admits(i, j)`: does the pair count, i < j?
+/// Pairs inside one model, in either order. `admits(i, j)` with i < j tells whether the pair counts.
 template <Collector C, class Rules, class Admits>
 struct SelfPairTest {
   C& collector;
   const Rules& rules;
   Admits admits;
 
-  /// Was the pair wanted?
+  /// Decides the pair exactly. Returns true if the collector wanted it.
   template <Primitive P>
   [[gnu::always_inline]] bool operator()(PrimitiveId i, PrimitiveId j, const P& p, const P& q) const {
     const bool turned = j < i;
@@ -24,7 +24,7 @@ struct SelfPairTest {
     return test_pair(collector, first, second, turned ? q : p, turned ? p : q, rules.threshold(first, second),
                      [&] { return admits(first, second); });
   }
-  /// By a distance that may be off by `error`; returns how many pairs that leaves undecided.
+  /// Decides by a measured distance with error at most `error`. Returns the number of undecided pairs, 0 or 1.
   [[gnu::always_inline]] unsigned operator()(PrimitiveId i, PrimitiveId j, double measured, double error) const {
     const PrimitiveId first = j < i ? j : i, second = j < i ? i : j;
     return test_measured_pair(collector, rules.options.precision, first, second, measured, error,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ResumePoint: which pairs a query of engine/simd is through with when it goes on in another way.
+// ResumePoint: the pairs that a query of engine/simd has finished before it switches to FallbackBvh.
 #pragma once
 
 #include <algorithm>
@@ -14,27 +14,27 @@
 
 namespace hinge::detail {
 
-/// A query takes entries in order, with each its partners in order, and with each of those some blocks of the entry.
+/// A query takes entries in order, for each entry its partners in order, and for each partner some blocks of the entry.
 class ResumePoint {
  public:
-  /// Entries before u are done.
+  /// All entries before u are finished.
   void reach(std::size_t u) noexcept {
     entry_ = u;
     partner_ = 0;
     blocks_.clear();
   }
-  /// Of the entry reached, partners before w are done, and these blocks of it with w.
+  /// In the entry reached, all partners before w are finished, and `blocks` of the entry against partner w.
   void stop(std::size_t w, std::span<const std::uint32_t> blocks) {
     partner_ = w;
     blocks_.assign(blocks.begin(), blocks.end());
     std::sort(blocks_.begin(), blocks_.end());
   }
 
-  /// Is a pair inside one model done?
+  /// True if a pair inside one model is finished.
   bool passed(const BlockLayout& layout, PrimitiveId i, PrimitiveId j) const noexcept {
     return layout.entry_of(i) < layout.entry_of(j) ? passed(layout, j, layout, i) : passed(layout, i, layout, j);
   }
-  /// Is the pair of i in an entry taken in order and j in a partner done?
+  /// True if the pair is finished, with i in an entry taken in order and j in a partner.
   bool passed(const BlockLayout& mine, PrimitiveId i, const BlockLayout& theirs, PrimitiveId j) const noexcept {
     const std::size_t u = mine.entry_of(i), w = theirs.entry_of(j);
     if (u != entry_) return u < entry_;

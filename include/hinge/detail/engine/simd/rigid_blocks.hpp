@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// RigidBlocks: blocks and trees of large rigid groups in their group's frame, made once and never rebuilt.
+// RigidBlocks: blocks and trees of large rigid groups in the group's frame, made once.
 #pragma once
 
 #include <array>
@@ -17,44 +17,46 @@
 
 namespace hinge::detail {
 
-/// Sixteen boxes as middles and half lengths, relative to the middle of their tree, scaled.
+/// Sixteen boxes as middles and half lengths, scaled, relative to the middle of their group's box.
 struct alignas(64) LocalRow {
   std::array<float, 3 * simd::width> middle{};
   std::array<float, 3 * simd::width> half{};
 };
 
-/// The static boxes over a group's blocks, sixteen wide and implicit: row r of a level holds the boxes of rows (or
+/// Static sixteen-wide boxes over a group's blocks, without child indices: row r of a level holds the boxes of rows (or
 /// blocks) 16 r .. 16 r + 15 of the level below. A group of sixteen blocks or fewer has one row.
 struct BlockTree {
   struct Level {
     std::uint32_t first_row = 0;  ///< in RigidBlocks::rows
-    std::uint32_t boxes = 0;      ///< in all its rows
+    std::uint32_t boxes = 0;      ///< number of boxes in all rows of the level
   };
-  std::vector<Level> levels;  ///< the first is above the blocks, the last has one row
+  std::vector<Level> levels;  ///< the first level is above the blocks; the last level has one row
 };
 
-/// A box in a group's frame: its middle in the model's unit, its half lengths scaled and rounded up.
+/// A box in a group's frame: middle in model units, half lengths scaled and rounded up.
 struct LocalBox {
   std::array<double, 3> middle{};
   std::array<float, 3> half{};
 };
 
+/// The constant float data of all blocks. Scaled lengths are in the unit of the layout.
 template <Primitive P>
 struct RigidBlocks {
   RigidBlocks(const BlockLayout& layout, const SelectedModel<P>& model, const ThresholdClasses& classes);
 
-  std::vector<LocalBox> block;         ///< per block; meaningless for mixed ones
-  std::vector<LocalBox> entry;         ///< per first entry of a rigid group: around the whole group
-  simd::AlignedVector<float> offsets;  ///< per block, where batches turn: from the block's middle, scaled
-  std::vector<float> reach;            ///< per block: largest reach, scaled, rounded up
-  std::vector<float> entry_reach;      ///< per entry: the largest of its group's, or of its block
-  float largest_reach = 0.0F;          ///< over all blocks
-  std::vector<BlockTree> tree;         ///< per entry that has one
-  /// Per first entry of a rigid group without a tree: how many entries, and the first of their rows, in which every box
-  /// has the lane of its entry.
+  std::vector<LocalBox> block;  ///< per block; unused for mixed blocks
+  std::vector<LocalBox> entry;  ///< per first entry of a rigid group: box of the whole group
+  /// per block, if P transforms batches: scaled floats relative to the block's middle
+  simd::AlignedVector<float> offsets;
+  std::vector<float> reach;        ///< per block: largest reach, scaled, rounded up
+  std::vector<float> entry_reach;  ///< per entry: largest reach of its rigid group, or of its mixed block
+  float largest_reach = 0.0F;      ///< over all blocks
+  std::vector<BlockTree> tree;     ///< per entry; empty if the entry has no tree
+  /// Per first entry of a rigid group without a tree: number of its entries, and the first of its rows. In these rows,
+  /// the box of entry u is in lane u % 16.
   std::vector<std::uint32_t> flat_count, flat_row;
-  std::vector<LocalRow> rows;  ///< of all trees, and of groups without
-  float largest_half = 0.0F;   ///< over all blocks
+  std::vector<LocalRow> rows;  ///< rows of all trees, and of all groups without a tree
+  float largest_half = 0.0F;   ///< largest half length over all blocks, scaled
   double largest_local = 0.0;  ///< largest magnitude of a coordinate in its group's frame, model unit
 
  private:
@@ -133,7 +135,7 @@ RigidBlocks<P>::RigidBlocks(const BlockLayout& layout, const SelectedModel<P>& m
 template <Primitive P>
 void RigidBlocks<P>::set(LocalRow& row, std::size_t lane, const Aabb& box, const LocalBox& whole,
                          double scale) noexcept {
-  // A middle turned in float is off by less than this share of its size, counted over its three products and sums.
+  // Bound of the relative error of a middle rotated in float, over its three products and sums.
   constexpr double turning_error = 16 * 0x1p-24;
   const LocalBox local = local_box(box, scale);
   double size = 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SimdSide: one model in one query of engine/simd: its blocks in their present state, and searches through them.
+// SimdSide: one model in a query of engine/simd: its blocks in their present state, and searches through them.
 #pragma once
 
 #include <algorithm>
@@ -22,6 +22,7 @@
 
 namespace hinge::detail {
 
+/// Owns the state of one layout of one model. Extra clearances are kept per block, scaled.
 template <Primitive P>
 class SimdSide {
  public:
@@ -42,14 +43,14 @@ class SimdSide {
   SimdState<P>& state() noexcept { return state_; }
   const SimdState<P>& state() const noexcept { return state_; }
 
-  /// A primitive that the layout holds, in double.
+  /// A primitive of the layout, placed in double.
   const P& exact(PrimitiveId i, Placement<P>& placement) noexcept {
     const std::uint32_t b = layout().block_of[index(i)];
     const std::uint32_t* const first = layout().primitive.data() + b * simd::width;
     return state_.exact(b, placement)[std::find(first, first + simd::width, index(i)) - first];
   }
 
-  /// What the options of a query mean for the entries. Entries are brought up to date one by one after that.
+  /// Starts a query with its options. After this, refresh() updates entries one by one.
   void begin(Placement<P>& placement, bool moved_only, std::span<const double> clearance) {
     state_.begin(placement);
     has_extra_ = !clearance.empty();
@@ -78,20 +79,20 @@ class SimdSide {
       }
   }
 
-  /// Brings an entry up to date; to be called in order, from the first that may have moved.
+  /// Updates an entry. Call it for entries in increasing order, from state().first_entry() on.
   [[gnu::always_inline]] void refresh(std::size_t u, Placement<P>& placement) noexcept {
     state_.refresh(u, placement);
     if (has_extra()) [[unlikely]]
       grow(u);
   }
-  /// Boxes of entries, grown by their reach and by their extra clearance.
+  /// Boxes of entries, inflated by their reach and their extra clearance.
   EntryBoxes& entries() noexcept { return has_extra() ? grown_ : state_.entries(); }
 
-  /// Floats of all blocks, and the threshold classes of the primitives that start there.
+  /// Float coordinates of all blocks, and the threshold class of the primitive that starts at each position.
   const float* packed() const noexcept { return state_.packed(0); }
   const std::uint8_t* position_class() const noexcept { return parts().position_class.data(); }
 
-  /// Extra clearances, scaled: of what has its floats at a position, of a block.
+  /// Extra clearances, scaled: at the position of a primitive's floats, and of a block.
   bool has_extra() const noexcept { return has_extra_; }
   float extra_at(std::uint32_t position) const noexcept { return has_extra_ ? extra_[position] : 0.0F; }
   float extra(std::uint32_t block) const noexcept {
@@ -99,19 +100,20 @@ class SimdSide {
   }
   float largest_extra() const noexcept { return largest_extra_; }
 
-  /// Did the two entries (or the groups inside one) keep their relative placement, in a query that asks for what moved?
+  /// In a moved-only query: true if the two entries (or all groups inside one, if u == w) kept their relative
+  /// placement.
   bool kept_apart(std::size_t u, std::size_t w) const noexcept {
     return !component_.empty() && component_[u] == component_[w] && component_[u] != no_component;
   }
 
-  /// Could the entry have moved in the last update?
+  /// True if the entry may have moved in the last update.
   bool moved(std::size_t u, Placement<P>& placement) const noexcept {
     for (const GroupId g : layout().groups_of(layout().blocks[layout().entries[u].first_block]))
       if (placement.moved(g)) return true;
     return false;
   }
 
-  /// The blocks in an entry's tree whose boxes share a point with `box`, into `blocks`.
+  /// Lists in `blocks` the blocks of entry u's tree whose boxes overlap `box`.
   void descend(std::size_t u, const FloatBox& box, Placement<P>& placement, QueryCounts& counts,
                std::vector<std::uint32_t>& blocks) {
     blocks.clear();
@@ -120,8 +122,8 @@ class SimdSide {
     struct Node {
       std::uint32_t row, level;
     };
-    // Levels hold sixteen times the rows of the one above, so eight are more than a 32-bit index can fill; a level
-    // leaves at most fifteen rows waiting.
+    // A level has up to sixteen times the boxes of the level above it. Eight levels exceed a 32-bit index. Each level
+    // leaves at most fifteen rows on the stack.
     std::array<Node, 8 * simd::width> stack;
     std::size_t waiting = 0;
     stack[waiting++] = {0, static_cast<std::uint32_t>(levels.size() - 1)};
@@ -132,7 +134,7 @@ class SimdSide {
       ++counts.boxes_tested;
       const auto first = static_cast<std::uint32_t>(node.row * simd::width);
       simd::Bits bits = overlapping(boxes, probe);
-      // Said in numbers: an infinite box shares points with the places that hold none.
+      // Mask unused lanes explicitly: an infinite probe overlaps their sentinels.
       if (levels[node.level].boxes - first < simd::width)
         bits &= (simd::Bits{1} << (levels[node.level].boxes - first)) - 1;
       const std::size_t n = simd::append_lanes(bits, first, found.data());
@@ -155,10 +157,10 @@ class SimdSide {
   ThresholdTable table_;
   SimdState<P> state_;
   bool has_extra_ = false;
-  std::vector<float> extra_;  // where the floats of a primitive start; scaled
-  EntryBoxes grown_;          // with extra clearances
+  std::vector<float> extra_;  // per float position of a block; scaled
+  EntryBoxes grown_;          // boxes of entries with extra clearances
   float largest_extra_ = 0.0F;
-  std::vector<std::size_t> component_;  // per entry; empty: every pair of entries counts
+  std::vector<std::size_t> component_;  // per entry; empty: no pair of entries is skipped
 };
 
 }  // namespace hinge::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SimdSides: the sides of one model that engine/simd's queries choose from.
+// SimdSides: the layouts of one model that the queries of engine/simd choose from.
 #pragma once
 
 #include <algorithm>
@@ -22,9 +22,9 @@
 
 namespace hinge::detail {
 
-/// Blocks by rigid groups, and by index for coordinates from elsewhere. Where some primitives are never_collides (they
-/// have no body and no threshold above 0), there is another side of each that holds the others alone, for queries
-/// without a margin. A side is made when it is first present.
+/// One side has blocks by rigid group; another has blocks by index, for coordinates given from outside. If some
+/// primitives never collide (point-like, all thresholds 0), each of the two has a variant without them, for queries
+/// without a margin. A side is made at its first use.
 template <Primitive P>
 class SimdSides {
  public:
@@ -39,8 +39,10 @@ class SimdSides {
     }
   }
 
+  /// True if every primitive is point-like and all thresholds are 0.
   bool all_never_collide() const noexcept { return all_never_collide_; }
 
+  /// Returns the side for the present source of coordinates. without_margin: skip primitives that never collide.
   template <PairFilter F, DistanceMatrix D>
   SimdSide<P>& present(const Placement<P>& placement, const F& filter, const D& matrix, bool without_margin) {
     const bool deform = placement.groups_may_deform(), fewer = without_margin && !never_collides_.empty();
@@ -58,7 +60,7 @@ class SimdSides {
   }
 
  private:
-  std::vector<std::uint8_t> never_collides_;  // per primitive; empty: none is
+  std::vector<std::uint8_t> never_collides_;  // per primitive; empty: every primitive may collide
   bool all_never_collide_ = false;
   std::array<std::optional<SimdSide<P>>, 4> sides_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SimdState: what changes with the configuration: float coordinates of the blocks and boxes, made when first touched.
+// SimdState: float coordinates of blocks and their boxes for the present configuration, computed on first use.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@
 
 namespace hinge::detail {
 
-/// The constant half, shared by copies of an engine.
+/// The constant data of one layout, shared by copies of an engine.
 template <Primitive P>
 struct SimdParts {
   SimdParts(BlockLayout blocks, ThresholdClasses threshold_classes, const SelectedModel<P>& model)
@@ -44,14 +44,14 @@ struct SimdParts {
   BlockLayout layout;
   ThresholdClasses classes;
   RigidBlocks<P> rigid;
-  std::vector<std::uint8_t> position_class;  ///< threshold classes, where the floats of a primitive start
-  std::vector<std::uint32_t> mixed_slot;     ///< per block: where its slots start in the next two, if it is mixed
-  std::vector<P> mixed;                      ///< in their groups' frames
+  std::vector<std::uint8_t> position_class;  ///< threshold class at the position of each primitive's floats
+  std::vector<std::uint32_t> mixed_slot;     ///< per block: start of its slots in the next two vectors, if it is mixed
+  std::vector<P> mixed;                      ///< primitives of mixed blocks, in their groups' frames
   std::vector<std::uint32_t> mixed_group;    ///< their groups
 };
 
-/// Coordinates are (world - origin) * scale in float. Everything is made from the placement when first asked for in an
-/// update, and kept while its groups stand still.
+/// Coordinates are (world - origin) * scale in float. They are computed from the placement on first use after an
+/// update, and kept while their groups do not move.
 template <Primitive P>
 class SimdState {
  public:
@@ -73,7 +73,7 @@ class SimdState {
   const SimdParts<P>& parts() const noexcept { return *parts_; }
   const Vec3& origin() const noexcept { return origin_; }
 
-  /// To be called before the entries of an update are asked for.
+  /// Call this after an update, before refresh().
   void begin(Placement<P>& placement) noexcept {
     extent_ = static_extent_;
     update_ = placement.update_number();
@@ -85,11 +85,11 @@ class SimdState {
     }
   }
 
-  /// Brings the box of an entry up to date, and with it the coordinates of a mixed block. To be called in order.
+  /// Updates the box of an entry and the coordinates of a mixed block. Call it for entries in increasing order.
   void refresh(std::size_t u, Placement<P>& placement) noexcept {
     if (entry_at_[u] != update_) refresh_stale(u, placement);
     if (entry_extent_[u] > extent_) {
-      // Rounded up to a power of two, so that what depends on it changes rarely.
+      // Round up to a power of two, so that dependent values change rarely.
       int exponent = 0;
       std::frexp(std::min(entry_extent_[u], 0x1p126F), &exponent);
       extent_ = std::ldexp(1.0F, exponent);
@@ -100,32 +100,32 @@ class SimdState {
       static_extent_ = extent_;
     }
   }
-  /// The first entry that may have moved since it was last refreshed: static ones are placed once.
+  /// The first entry that refresh() must update. Static entries are placed only once.
   std::size_t first_entry() const noexcept { return static_refreshed_ ? parts_->layout.static_entries : 0; }
 
-  /// Boxes of entries, grown by their reach.
+  /// Boxes of entries, inflated by their reach.
   EntryBoxes& entries() noexcept { return entries_; }
 
-  /// Float coordinates of a block of a refreshed entry, placed when first touched.
+  /// Float coordinates of a block of a refreshed entry, placed on first use.
   const float* block(std::uint32_t b, Placement<P>& placement) noexcept {
     if (block_at_[b] != update_) touch(b, placement);
     return packed(b);
   }
-  /// The sixteen primitives of a block themselves, placed in double when first touched.
+  /// The sixteen primitives of a block, placed in double on first use.
   [[gnu::always_inline]] const P* exact(std::uint32_t b, Placement<P>& placement) noexcept {
     if (exact_at_[b] != update_) place_exact(b, placement);
     return exact_.data() + b * simd::width;
   }
-  /// The same where only some of them are up to date.
+  /// The same, but only the given lanes are placed.
   [[gnu::always_inline]] const P* exact(std::uint32_t b, simd::Bits lanes, Placement<P>& placement) noexcept {
     if (exact_at_[b] != update_) place_exact(b, lanes, placement);
     return exact_.data() + b * simd::width;
   }
   const float* packed(std::uint32_t b) const noexcept { return packed_.data() + b * Batch<P>::floats; }
-  /// Grown by the block's reach; of blocks that were touched.
+  /// The block's box, inflated by its reach. Only for placed blocks.
   const FloatBox& block_box(std::uint32_t b) const noexcept { return block_box_[b]; }
 
-  /// World boxes of a row of an entry's tree, grown by the entry's reach.
+  /// World boxes of a row of an entry's tree, inflated by the entry's reach.
   const BoxRow& tree_row(std::size_t u, std::uint32_t row, Placement<P>& placement) noexcept {
     if (row_at_[row] != update_) {
       const Block& block = parts_->layout.blocks[parts_->layout.entries[u].first_block];
@@ -140,18 +140,18 @@ class SimdState {
     return tree_rows_[row];
   }
 
-  /// Box of a block in the tree of an entry, grown by the entry's reach, whether the block is placed or not.
+  /// Box of a block in an entry's tree, inflated by the entry's reach. The block need not be placed.
   FloatBox tree_box(std::size_t u, std::uint32_t b, Placement<P>& placement) noexcept {
     const std::uint32_t k = b - parts_->layout.entries[u].first_block,
                         row = k / static_cast<std::uint32_t>(simd::width);
     return tree_row(u, parts_->rigid.tree[u].levels.front().first_row + row, placement).get(k % simd::width);
   }
 
-  /// Largest magnitude of a coordinate seen since begin(), scaled, rounded up.
+  /// Largest coordinate magnitude since begin(), scaled, rounded up to a power of two.
   float extent() const noexcept { return extent_; }
 
-  /// How far float distances and boxes may be off, scaled, for things of the size seen since begin(), with thresholds
-  /// and cutoffs up to `largest` (scaled). docs/explanation/float_filter.md derives it.
+  /// Bound of the error of float distances and boxes, scaled, for coordinates up to extent() and for thresholds and
+  /// cutoffs up to `largest` (scaled). Derivation: docs/explanation/float_filter.md.
   double band(double largest) const noexcept {
     constexpr double u = 0x1p-24, v = 0x1p-53, underflow = 0x1p-60;
     const auto extent = static_cast<double>(extent_), half = static_cast<double>(parts_->rigid.largest_half);
@@ -161,16 +161,16 @@ class SimdState {
   }
 
  private:
-  /// How the floats of a rigid block's group are turned.
+  /// The float transform of a rigid block's group.
   FloatTransform turn(const Block& block, Placement<P>& placement) const noexcept {
     return {placement.frame(parts_->layout.groups_of(block).front()), origin_, parts_->layout.scale};
   }
 
-  /// Did the block's groups stand still since an update?
+  /// True if the block's groups have not moved since update `since`.
   bool is_current(const Block& block, std::uint64_t since, Placement<P>& placement) const noexcept {
     if (since == 0) return false;
     const auto groups = parts_->layout.groups_of(block);
-    // Group 0 is the world, wherever coordinates from elsewhere put its primitives in the meantime.
+    // Group 0 is the world. It never moves, even if given coordinates placed its primitives elsewhere in between.
     if (!given_ && groups.size() == 1 && groups.front() == GroupId{0}) return true;
     if (!few_moved_) return false;
     for (const GroupId g : groups)
@@ -199,7 +199,7 @@ class SimdState {
     } else if (entry.block_count > 1) {
       set_entry(u, turn(block, placement)(parts_->rigid.entry[u]).grown(reach));
     } else {
-      // All entries of the group in one go; u is the first.
+      // Update all entries of the group at once; u is the first.
       const FloatTransform turn_group = turn(block, placement);
       const LocalRow* local = &parts_->rigid.rows[parts_->rigid.flat_row[u]];
       const std::size_t end = u + parts_->rigid.flat_count[u];
@@ -280,12 +280,12 @@ class SimdState {
   std::shared_ptr<const SimdParts<P>> parts_;
   simd::AlignedVector<float> packed_;
   std::vector<FloatBox> block_box_;
-  std::vector<std::uint64_t> block_at_;  // per block: the last update its coordinates are known to be of
+  std::vector<std::uint64_t> block_at_;  // per block: the last update for which its coordinates are current
   std::vector<P> exact_;                 // per slot
   std::vector<std::uint64_t> exact_at_;  // per block: the same for its primitives in exact_
   std::vector<std::uint64_t> entry_at_;  // per entry: the same for its box
   EntryBoxes entries_;
-  std::vector<float> entry_extent_;  // per place in entries_: largest magnitude in the box
+  std::vector<float> entry_extent_;  // per lane of entries_: largest magnitude in the box
   std::vector<BoxRow> tree_rows_;
   std::vector<std::uint64_t> row_at_;
   Vec3 origin_;
@@ -294,7 +294,7 @@ class SimdState {
   float static_extent_ = 0.0F;
   bool static_refreshed_ = false;
   bool few_moved_ = false;
-  bool given_ = false;  // coordinates come from elsewhere
+  bool given_ = false;  // coordinates are given from outside
 };
 
 }  // namespace hinge::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ThresholdClasses: the distance matrix as engine/simd's float filter sees it: at most sixteen classes of primitives.
+// ThresholdClasses: the distance matrix reduced to at most sixteen classes of primitives, for the float filter.
 #pragma once
 
 #include <algorithm>
@@ -15,9 +15,9 @@
 
 namespace hinge::detail {
 
-/// A table of thresholds between classes, in the engine's scaled unit and rounded up: what sixteen lanes look up.
+/// Thresholds between classes, scaled, rounded up to float. A row fits one sixteen-lane look-up.
 struct ThresholdTable {
-  std::array<float, simd::width * simd::width> row{};  // class of the one x class of the lanes
+  std::array<float, simd::width * simd::width> row{};  // row: class of the single primitive; column: class of the lane
   float largest = 0.0F;
 
   void set(std::size_t c, std::size_t d, double threshold) noexcept {
@@ -27,8 +27,8 @@ struct ThresholdTable {
   }
 };
 
-/// Primitives whose thresholds are alike share a class; between two classes the table holds the largest threshold of
-/// their members, so it never loses a pair. With sixteen types or fewer, and for one clearance, it is exact.
+/// Primitives with similar thresholds share a class. The table holds the largest threshold between the members of two
+/// classes, so no pair is lost. It is exact for at most sixteen types, and for a uniform clearance.
 class ThresholdClasses {
  public:
   template <DistanceMatrix D>
@@ -40,17 +40,17 @@ class ThresholdClasses {
   }
 
   std::uint8_t class_of(std::size_t primitive) const noexcept { return class_of_[primitive]; }
-  /// Upper bound of reach(i) over the class.
+  /// Upper bound of reach(i) over the class, model unit.
   double reach(std::size_t c) const noexcept { return reach_[c]; }
 
-  /// Within a model: thresholds times `scale`.
+  /// Table within one model: thresholds times `scale`.
   ThresholdTable table(double scale) const noexcept {
     ThresholdTable t;
     for (std::size_t c = 0; c < count_; ++c)
       for (std::size_t d = 0; d < count_; ++d) t.set(c, d, between_[c * simd::width + d] * scale);
     return t;
   }
-  /// Against another model with a compatible matrix.
+  /// Table between this model and another model with a compatible matrix.
   ThresholdTable table(const ThresholdClasses& other, double scale) const noexcept {
     if (typed_) return table(scale);
     ThresholdTable t;
@@ -60,7 +60,7 @@ class ThresholdClasses {
   }
 
  private:
-  /// Values sorted, cut into at most sixteen runs; returns the largest value of each.
+  /// Sorts the values and cuts them into at most sixteen runs. Returns the largest value of each run.
   static std::vector<double> cut(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     values.erase(std::unique(values.begin(), values.end()), values.end());
@@ -73,7 +73,7 @@ class ThresholdClasses {
     return static_cast<std::uint8_t>(std::lower_bound(tops.begin(), tops.end(), value) - tops.begin());
   }
 
-  /// Classes come from the table alone, so that models that share it share the classes.
+  /// Classes depend on the matrix table only, so models that share the table share the classes.
   template <class D>
   void from_types(const D& matrix, std::size_t n) {
     typed_ = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// WorkBudget: what a query of engine/simd has done so far, and when that is too much.
+// WorkBudget: the work that a query of engine/simd has done, and the limit after which it switches to FallbackBvh.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +11,13 @@
 namespace hinge::detail {
 
 struct WorkBudget {
-  QueryCounts counts;           ///< rows of boxes and candidates: sixteen at a time
-  QueryCounts searched;         ///< one by one
-  std::uint64_t hits = 0;       ///< pairs decided in double that were wanted
-  std::uint64_t misses = 0;     ///< and others
-  std::uint64_t blocks_in = 0;  ///< blocks of the models asked
+  QueryCounts counts;           ///< rows of boxes, and candidates: each counts sixteen pairs
+  QueryCounts searched;         ///< work of FallbackBvh, counted pair by pair
+  std::uint64_t hits = 0;       ///< pairs decided in double that the collector wanted
+  std::uint64_t misses = 0;     ///< pairs decided in double that it did not want
+  std::uint64_t blocks_in = 0;  ///< blocks of all models in the query
 
-  /// More than a search through boxes in double would take? What finds hits is never too much.
+  /// Returns true if a search with boxes in double would cost less. Work that finds hits never exceeds the budget.
   bool is_too_much() const noexcept {
     return counts.boxes_tested + counts.pairs_tested + candidates_per_pair * misses >
            candidates_per_block * blocks_in + candidates_per_pair * hits;
@@ -32,11 +32,11 @@ struct WorkBudget {
   }
 
  private:
-  /// What deciding a pair in double costs, in candidates.
+  /// Cost of deciding a pair in double, in candidates.
   static constexpr std::uint64_t candidates_per_pair = 4;
-  /// Candidates, and rows of boxes, per block. Ordinary chains take a tenth of it at most, and FallbackBvh about as
-  /// long as for twice as many: so a query takes at most about half as long again as the better of both.
-  /// (explanation/numerics.md)
+  /// Candidates and rows of boxes allowed per block. Ordinary chains need a tenth of it at most. FallbackBvh costs
+  /// about as much as twice this number, so a query costs at most about 1.5 times the better of the two methods
+  /// (docs/explanation/numerics.md).
   static constexpr std::uint64_t candidates_per_block = 2048;
 };
 

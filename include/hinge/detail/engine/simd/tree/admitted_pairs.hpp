@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// AdmittedPairs: which earlier parts each part is tested with, in memory that grows with what is left out.
+// AdmittedPairs: the earlier tree parts that each tree part is tested with; memory grows with the exclusions only.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,15 @@
 
 namespace hinge::detail {
 
-/// Sixteen parts to a row. Rows in which a part leaves nothing out are not kept.
+/// Bit masks with sixteen parts per row. Rows without exclusions are mostly not stored.
 class AdmittedPairs {
  public:
-  /// The next part is tested with those before part `end`, but for what is left out after this.
+  /// Adds the next part. It is tested with all parts before `end`, except those given to leave_out() next.
   void add(std::size_t end) {
     end_.push_back(static_cast<std::uint32_t>(end));
     first_run_.push_back(static_cast<std::uint32_t>(runs_.size()));
   }
-  /// The part added last is not tested with part q; in increasing order.
+  /// Excludes part q for the part added last. Call it with increasing q.
   void leave_out(std::size_t q) {
     const auto row = static_cast<std::uint32_t>(q / simd::width);
     const bool none = first_run_[end_.size() - 1] == runs_.size();
@@ -30,10 +30,10 @@ class AdmittedPairs {
     first_run_.back() = static_cast<std::uint32_t>(runs_.size());
   }
 
-  /// What one part is tested with.
+  /// The mask of one part.
   class Row;
   Row of(std::size_t p) const noexcept;
-  /// Bits of the parts 16 row ... 16 row + 15 that part p is tested with.
+  /// Mask of the parts 16 row .. 16 row + 15 that part p is tested with.
   simd::Bits get(std::size_t p, std::size_t row) const noexcept;
 
   std::size_t bytes() const noexcept {
@@ -42,16 +42,16 @@ class AdmittedPairs {
   }
 
  private:
-  /// Rows next to each other of which some leave parts out.
+  /// Consecutive stored rows.
   struct Run {
     std::uint32_t first, count;  ///< rows
     std::uint32_t start;         ///< in bits_
   };
-  /// Rows that are kept although they leave nothing out, so that a robot's link has one run: as many bytes as a run.
+  /// Up to this many rows without exclusions are stored to keep one run: they need as much memory as another run.
   static constexpr std::uint32_t longest_gap = 8;
 
   std::vector<std::uint32_t> end_;           // per part
-  std::vector<std::uint32_t> first_run_{0};  // per part, and one more
+  std::vector<std::uint32_t> first_run_{0};  // per part, and one past the last
   std::vector<Run> runs_;
   std::vector<std::uint16_t> bits_;
 };
@@ -64,18 +64,18 @@ class AdmittedPairs::Row {
         last_(all.runs_.data() + all.first_run_[p + 1]),
         bits_(all.bits_.data()) {}
 
-  /// Bits of the parts 16 row ... 16 row + 15.
+  /// Mask of the parts 16 row .. 16 row + 15.
   [[gnu::always_inline]] simd::Bits get(std::size_t row) const noexcept {
     simd::Bits bits = before(row);
     for (const Run* run = first_; run != last_; ++run) {
-      const std::size_t k = row - run->first;  // wraps for rows before the run
+      const std::size_t k = row - run->first;  // wraps to a large number for rows before the run
       if (k < run->count) bits &= bits_[run->start + k];
     }
     return bits;
   }
 
  private:
-  /// All parts before the end.
+  /// Mask of the parts before the end.
   simd::Bits before(std::size_t row) const noexcept {
     const std::size_t first = row * simd::width;
     if (end_ >= first + simd::width) return simd::all_bits;

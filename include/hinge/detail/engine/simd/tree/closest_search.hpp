@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ClosestSearch: the closest pair of two models, or of one: parts by the gap of their boxes, then their trees.
+// ClosestSearch: finds the closest pair of one or two models: tree parts by the gap of their boxes, then their trees.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 
 namespace hinge::detail {
 
-/// Scratch of such searches. A PairTest is a TreePairTest.
+/// Scratch memory of a search. PairTest is a TreePairTest.
 template <Primitive P>
 class ClosestSearch {
  public:
@@ -28,7 +28,7 @@ class ClosestSearch {
   void reserve(std::size_t depth) { finder_.reserve(depth); }
   void reserve_pairs(std::size_t most) { pairs_.reserve(most); }
 
-  /// list(bound) fills a list of pairs with all parts that may hold a pair with d - M <= bound.
+  /// list(bound, pairs) fills `pairs` with all pairs of tree parts that may hold a pair with d - M <= bound.
   template <Collector C, class PairTest, class List>
   void run(const TreeOperand<P>& a, const TreeOperand<P>& b, NearSearch<P>& near, Witnesses<P>& witnesses,
            const PairTest& pair_test, C& collector, QueryCounts& counts, const List& list) {
@@ -40,7 +40,7 @@ class ClosestSearch {
     std::sort(pairs_.begin(), pairs_.end(), [](const PartPair& x, const PartPair& y) {
       return std::tie(x.gap, x.first, x.second) < std::tie(y.gap, y.first, y.second);
     });
-    // No pair can come closer than this.
+    // Lower bound of d - M over all pairs.
     const double least = -std::max(a.state.parts().largest_threshold, b.state.parts().largest_threshold) -
                          a.largest_clearance() - b.largest_clearance();
     candidates_.clear();
@@ -56,7 +56,7 @@ class ClosestSearch {
       bound = std::min(bound, collector.cutoff());
     };
     if (KeepsSmallest<C> && least == 0.0) {
-      // Whether anything collides at all is found sooner than what is closest, and then nothing is closer.
+      // A yes/no search is faster. If it finds a collision, no pair can be closer.
       for (const PartPair& pair : pairs_) {
         if (pair.gap > 0.0F || collector.cutoff() <= least) break;
         near.run(a, a.part(pair.first), b, b.part(pair.second), 0.0, pair_test, collector, counts);
@@ -66,7 +66,7 @@ class ClosestSearch {
     for (const PartPair& pair : pairs_) {
       if (collector.done() || (KeepsSmallest<C> && collector.cutoff() <= least)) break;
       const double extra = a.clearance_at(pair.first) + b.clearance_at(pair.second);
-      // Boxes that overlap say nothing about how deep.
+      // Overlapping boxes give no bound of the penetration depth.
       if (pair.gap > 0.0F && static_cast<double>(pair.gap) / scale - extra > bound) {
         if (extra == 0.0) break;  // nearest first
         continue;
@@ -102,7 +102,7 @@ class ClosestSearch {
  private:
   struct Candidate {
     std::uint32_t slot_a, slot_b;
-    double lower;  // of d - M, model unit
+    double lower;  // lower bound of d - M, model unit
   };
   static constexpr std::size_t most_candidates = 1024;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// CrossOperands: the two models of a query between two, up to date, and where the one's parts are for the other.
+// CrossOperands: both models of a cross query, refreshed, and the boxes of the other model in this model's unit.
 #pragma once
 
 #include <cstddef>
@@ -14,6 +14,7 @@
 
 namespace hinge::detail {
 
+/// Refreshes both states on construction. `mine` is the first model, `others` the second.
 template <Primitive P>
 struct CrossOperands {
   CrossOperands(TreeState<P>& state, Placement<P>& placement, TreeState<P>& their_state, Placement<P>& their_placement,
@@ -25,13 +26,14 @@ struct CrossOperands {
     their_state.refresh(their_placement);
   }
 
+  /// True if the query asks for this pair of tree parts: p of the first model, q of the second.
   template <class PairTest>
   bool wanted(const PairTest& pair_test, std::size_t p, std::size_t q) const noexcept {
     const TreePart &a = mine.part(p), &b = others.part(q);
     return pair_test.admits_links(a.link, b.link) &&
            (!moved_only || mine.placement.moved(id<GroupId>(a.group)) || others.placement.moved(id<GroupId>(b.group)));
   }
-  /// The world box of a part of the other model in this model's unit and origin.
+  /// World box of tree part q of the other model, in this model's unit and origin.
   FloatBox their_box(std::size_t q) const noexcept {
     const auto ratio = static_cast<float>(mine.state.parts().scale / others.state.parts().scale);
     FloatBox box = others.state.world_box(q, others.placement, mine.state.world_origin());

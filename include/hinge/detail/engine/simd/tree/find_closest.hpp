@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ClosestFinder: walks two trees nearest boxes first and collects the pairs that may be the closest.
+// ClosestFinder: traverses two trees nearest boxes first and collects the pairs that may be closest.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,8 @@
 
 namespace hinge::detail {
 
-/// Squared lower bounds of d - M, all parts of a node against a box that `turn` brought there; 0 where boxes overlap.
+/// Squared lower bounds of d - M between the boxes of a node and a box; 0 if boxes overlap. turned: the box after
+/// `turn`.
 [[gnu::always_inline]] inline simd::Float16 squared_gaps(const TreeNode& node, const TreeBox& box,
                                                          const TreeBox& turned, const Turn& turn) noexcept {
   using simd::Float16;
@@ -42,12 +43,12 @@ namespace hinge::detail {
         max(abs(along) - (reach + Float16(turn.ratio * (turn.ratio * box.half[k] + turn.box_error))), zero);
     second = second + gap * gap;
   }
-  // The box's own axes are as long as the ratio of the units.
+  // The rotated axes of the box have the length `ratio`.
   const float unit = 1.0F / (turn.ratio * turn.ratio);
   return max(first, second * Float16(unit)) * Float16(1.0F - 0x1p-20F);
 }
 
-/// Scratch of such walks. `bound` is what is still of interest, d - M without extra clearances, in the unit of tree a.
+/// Scratch memory of a traversal. `bound`: largest d - M of interest, without extra clearances, in the unit of tree a.
 template <Primitive P>
 class ClosestFinder {
  public:
@@ -56,7 +57,7 @@ class ClosestFinder {
     if (room > stack_.size()) stack_.resize(room);
   }
 
-  /// flush(slots of a, slots of b, how many, bounds) -> the new bound.
+  /// Calls flush(slots of a, slots of b, count, bounds) -> new bound, for up to sixteen pairs of primitives at a time.
   template <class Flush>
   float run(const TreeParts<P>& a, const TreePart& part_a, const TreeParts<P>& b, const TreePart& part_b,
             const RelativeTransform& turn, float bound, QueryCounts& counts, const Flush& flush) {
@@ -98,13 +99,13 @@ class ClosestFinder {
     float squared;  // lower bound, unit of a
   };
 
-  /// Children that may hold something within the bound, farthest first, so that the nearest is taken next.
+  /// Pushes the children that may be within the bound, farthest first, so that the nearest is popped next.
   template <class Make>
   [[gnu::always_inline]] std::size_t push(const TreeNode& node, const TreeBox& box, const Turn& turn, float bound,
                                           float to_a, std::size_t left, const Make& make) noexcept {
     const TreeBox turned = turn(box);
     const simd::Float16 squared = squared_gaps(node, box, turned, turn);
-    // A negative bound asks for deeper penetration: boxes must overlap by that much.
+    // A negative bound asks for deeper penetration: the boxes must overlap by this depth.
     simd::Bits lanes = bound < 0.0F ? near_lanes(node, BoxProbe(box, turn, bound), turn)
                                     : ~less(simd::Float16(bound * bound), squared) & node.used;
     alignas(64) std::array<float, simd::width> each;

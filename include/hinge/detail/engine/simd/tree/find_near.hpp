@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// NearFinder: walks two trees side by side and hands over what floats cannot prove to be apart.
+// NearFinder: traverses two trees together and passes on the primitives that floats cannot prove apart.
 #pragma once
 
 #include <algorithm>
@@ -17,11 +17,11 @@
 
 namespace hinge::detail {
 
-/// Scratch of such walks.
+/// Scratch memory of a traversal.
 template <Primitive P>
 class NearFinder {
  public:
-  /// Room for walks through trees of these depths together.
+  /// Reserves memory for trees with this sum of depths.
   void reserve(std::size_t depth) {
     const std::size_t room = (depth + 2) * per_round * simd::width + 2 * simd::width;
     if (room <= a_.size()) return;
@@ -29,8 +29,9 @@ class NearFinder {
     b_.resize(room);
   }
 
-  /// visit(slot, leaf, lanes of that leaf, is the slot in a and the leaf in b?) -> go on? `margin`: what counts as near
-  /// beyond reaches, unit of a. Returns false when stopped. `turn` is completed when the walk gets that far.
+  /// Calls visit(slot, leaf, lanes of the leaf, slot_in_a) -> bool; slot_in_a: the slot is in a, the leaf in b. Stops
+  /// and returns false when visit returns false. `margin`: added to the reaches, unit of a. `turn` is completed on
+  /// demand.
   template <class Visit>
   bool run(const TreeParts<P>& a, const TreePart& part_a, const TreeParts<P>& b, const TreePart& part_b,
            RelativeTransform& turn, float margin, QueryCounts& counts, const Visit& visit) {
@@ -56,7 +57,7 @@ class NearFinder {
                            [&](simd::Bits lanes) { left = push_a(lanes, top, part_b.root, left); });
     }
     while (going && left != 0) {
-      // Several at a time, so that their tests overlap in the processor.
+      // Several pairs at a time, so that their tests overlap in the processor.
       std::array<BoxId, per_round> xs, ys;
       const std::size_t taken = std::min(left, per_round);
       left -= taken;
@@ -91,10 +92,10 @@ class NearFinder {
  private:
   static constexpr std::size_t per_round = 12;
   static constexpr auto width = static_cast<std::uint32_t>(simd::width);
-  /// Up to as many are looked at one by one without asking whether the other way round there are fewer.
+  /// Up to this many lanes are tested without checking whether the other leaf has fewer.
   static constexpr int few = 1;
 
-  /// One of the two trees, the turn that brings the other one to it, and the margin in its unit.
+  /// One of the two trees, the transform from the other tree to it, and the margin in its unit.
   struct Side {
     const TreeParts<P>& tree;
     const Turn& turn;
@@ -108,7 +109,7 @@ class NearFinder {
 
   static bool is_leaf(std::uint32_t child) noexcept { return (child & TreeNode::leaf_bit) != 0; }
 
-  /// Lanes of a node near a box of the other tree.
+  /// Lanes of a node that are near a box of the other tree.
   [[gnu::always_inline]] static simd::Bits open(const Side& side, std::uint32_t node, const TreeBox& box) noexcept {
     return near_lanes(side.tree.store.nodes[node], BoxProbe(box, side.turn, side.margin), side.turn);
   }
@@ -121,8 +122,8 @@ class NearFinder {
     return left + simd::append_lanes(lanes, node * width, b_.data() + left);
   }
 
-  /// A node's box x against a leaf's box y of the other tree. The leaf is turned once, held against the node's box, and
-  /// only if something of it is near against what the node holds. push(lanes that hold nodes).
+  /// Tests box x of a node against box y of a leaf of the other tree. The leaf is transformed once and tested against
+  /// x. The children of x are tested only if a primitive of the leaf is near. push(lanes that hold nodes).
   template <class Visit, class Push>
   [[gnu::always_inline]] static bool open_by_leaf(const Sides& sides, const Side& own, BoxId x, const Side& other,
                                                   BoxId y, QueryCounts& counts, const Visit& visit, const Push& push) {
@@ -139,7 +140,7 @@ class NearFinder {
     return true;
   }
 
-  /// `turned` is what y, of `other`, holds.
+  /// `turned`: the leaf below y, transformed into the frame of `own`.
   template <class Visit>
   [[gnu::always_inline]] static bool run_leaves(const Sides& sides, const Side& own, BoxId x, const Side& other,
                                                 BoxId y, const TransformedLeaf<P>& turned, QueryCounts& counts,
@@ -147,7 +148,7 @@ class NearFinder {
     const LeafPair<P> pair(own.tree, x, turned, own.margin);
     if (pair.ones() == 0) return true;
     if (std::popcount(pair.ones()) > few) {
-      // Small primitives of the one in a large leaf: those of that leaf that are near the one may be fewer.
+      // If the leaf's primitives are small and this leaf is large, fewer primitives of this leaf may be near the other.
       const TransformedLeaf<P> other_way(own.tree, x, other.turn);
       const LeafPair<P> reverse(other.tree, y, other_way, other.margin);
       if (std::popcount(reverse.ones()) < std::popcount(pair.ones()))
@@ -168,7 +169,7 @@ class NearFinder {
     return true;
   }
 
-  std::vector<BoxId> a_, b_;  // pairs of boxes, one of which is to be opened
+  std::vector<BoxId> a_, b_;  // pairs of boxes to be opened
 };
 
 }  // namespace hinge::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// TransformedLeaf: a leaf's primitives brought into another tree's frame. LeafPair: such a leaf and one of that tree.
+// TransformedLeaf: a leaf's primitives in another tree's frame. LeafPair: a TransformedLeaf and a leaf of that tree.
 #pragma once
 
 #include <array>
@@ -15,14 +15,14 @@ namespace hinge::detail {
 template <Primitive P>
 class TransformedLeaf {
  public:
-  /// y: the box of a leaf of `from`; `turn` brings what is in that tree to another one.
+  /// y: the box of a leaf of `from`. turn: transform from that tree to the other tree.
   [[gnu::always_inline]] TransformedLeaf(const TreeParts<P>& from, BoxId y, const Turn& turn) noexcept
       : leaf_(from.store.leaf(y)),
         real_(from.store.real[leaf_]),
         error_(turn.point_error),
         reach_(from.leaf_reach(leaf_)),
         turned_(from.leaf(leaf_), {turn.rotation, turn.size, turn.translation}) {
-    // Reaches are in the unit of the tree they come from.
+    // Convert reaches from the unit of their own tree.
     if (reach_ != nullptr && turn.ratio != 1.0F) {
       for (std::size_t k = 0; k < simd::width; ++k) scaled_[k] = reach_[k] * turn.ratio;
       reach_ = scaled_.data();
@@ -31,7 +31,7 @@ class TransformedLeaf {
   TransformedLeaf(const TransformedLeaf&) = delete;
   TransformedLeaf& operator=(const TransformedLeaf&) = delete;
 
-  /// Lanes that may come within the margin of a box, which holds the reaches of what is inside.
+  /// Lanes that may be within the margin of a box. The box includes the reaches of its contents.
   [[gnu::always_inline]] simd::Bits near_box(const TreeBox& box, float margin) const noexcept {
     return turned_.near_box(box.middle, box.half, Nearness{margin, error_, nullptr, reach_}) & real_;
   }
@@ -46,15 +46,15 @@ class TransformedLeaf {
   simd::Bits real_;
   float error_;
   const float* reach_;
-  alignas(64) std::array<float, simd::width> scaled_;  // unless all reaches are 0 or in the same unit
+  alignas(64) std::array<float, simd::width> scaled_;  // used if reaches are above 0 and the units differ
   typename Leaf<P>::Turned turned_;
 };
 
 template <Primitive P>
 class LeafPair {
  public:
-  /// x is the box of a leaf of `own`, the tree that `other` was brought to. `margin`: what counts as near beyond
-  /// reaches, unit of own.
+  /// x: the box of a leaf of `own`, the tree that `other` was transformed into. margin: added to the reaches, unit of
+  /// own.
   [[gnu::always_inline]] LeafPair(const TreeParts<P>& own, BoxId x, const TransformedLeaf<P>& other,
                                   float margin) noexcept
       : own_(own),
@@ -63,7 +63,7 @@ class LeafPair {
         ones_(other.near_box(own.store.box(x), margin)),
         near_{margin, other.error(), own.leaf_reach(leaf_), other.reach()} {}
 
-  /// Lanes of the other leaf that may be near the own leaf's box.
+  /// Lanes of the other leaf that may be near the box of the own leaf.
   simd::Bits ones() const noexcept { return ones_; }
   std::uint32_t leaf() const noexcept { return leaf_; }
   std::uint32_t other_slot(std::size_t k) const noexcept { return other_.slot(k); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// LearnedOrder: which pairs of parts a yes/no query tries first.
+// LearnedOrder: the order in which a yes/no query tries pairs of tree parts, learned from sample states.
 #pragma once
 
 #include <algorithm>
@@ -11,15 +11,15 @@
 
 namespace hinge::detail {
 
-/// Things to look at are numbered from 0. Learned from states that are like those to come: what collides most often for
-/// the work it takes to find out comes first. Until something is learned there is no order.
+/// Items are numbered from 0. The items with the most collisions per test come first. The sample states should be
+/// similar to later queries. There is no order until add() was called.
 class LearnedOrder {
  public:
   explicit LearnedOrder(std::size_t things) : things_(things) {}
 
   bool is_learned() const noexcept { return !tally_.empty(); }
 
-  /// One look at a thing: did it collide, and how many tests did it take?
+  /// Records one test of an item: whether it collided, and how many tests it took.
   void add(std::size_t thing, bool collides, std::uint64_t tests) {
     if (tally_.empty()) tally_.resize(things_);
     Tally& tally = tally_[thing];
@@ -29,13 +29,14 @@ class LearnedOrder {
     at_.clear();
   }
 
-  /// Forgets what was marked. Allocates in the first call after add().
+  /// Clears all marks. Allocates in the first call after add().
   void start() {
     if (at_.empty()) settle();
     std::fill(marks_.begin(), marks_.end(), 0U);
   }
   void mark(std::size_t thing) noexcept { marks_[rank_[thing] / 64] |= std::uint64_t{1} << rank_[thing] % 64; }
-  /// visit(thing) -> go on? of what was marked, in order: a set of ranks is sorted without a comparison.
+  /// Calls visit(item) -> bool for all marked items in order, until it returns false. Marks are bits by rank: no
+  /// sorting.
   template <class Visit>
   void each(const Visit& visit) const {
     for (std::size_t w = 0; w < marks_.size(); ++w)
@@ -46,8 +47,8 @@ class LearnedOrder {
  private:
   struct Tally {
     float hits = 0.0F, tests = 0.0F, looks = 0.0F;
-    // A look costs about as much as ten tests before the first is made. Half a hit is granted to each, so that what was
-    // never seen to collide is still ordered by what it costs.
+    // A trial costs about ten tests before its first test. Every item gets half a hit in advance, so that items that
+    // never collided are ordered by cost.
     float weight() const noexcept {
       constexpr float per_look = 10.0F, granted = 0.5F;
       const float seen = std::max(looks, 1.0F);
@@ -68,7 +69,7 @@ class LearnedOrder {
 
   std::size_t things_;
   std::vector<Tally> tally_;
-  std::vector<std::uint32_t> rank_, at_;  // of a thing; the thing of a rank, empty when it has to be found again
+  std::vector<std::uint32_t> rank_, at_;  // rank per item, item per rank; at_ is empty when the order is outdated
   std::vector<std::uint64_t> marks_;      // by rank
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// merge_parts: several parts of a group under one root, for queries that need not tell its links apart.
+// merge_parts: puts several tree parts of a group under one root, for queries that need not distinguish links.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 
 namespace hinge::detail {
 
-/// Two to sixteen parts of one group; `store` gets two nodes.
+/// Merges two to sixteen tree parts of one group. Adds two nodes to `store`.
 inline TreePart merge_parts(const std::vector<TreePart>& parts, std::span<const std::uint32_t> members,
                             TreeStore& store) {
   TreePart whole = parts[members[0]];
@@ -56,7 +56,7 @@ inline TreePart merge_parts(const std::vector<TreePart>& parts, std::span<const 
   return whole;
 }
 
-/// The radius of a ball about the middle of `box` around the balls and within the box of some links.
+/// The radius of a ball around the middle of `box` that contains the members: their balls, or all corners of `box`.
 inline float merged_radius(const PartSet& links, std::span<const std::uint32_t> members, const TreeBox& box) {
   double around = 0.0, corner = 0.0;
   for (const std::uint32_t p : members) {
@@ -73,14 +73,14 @@ inline float merged_radius(const PartSet& links, std::span<const std::uint32_t> 
   return float_above(std::min(around, std::sqrt(corner)) * (1 + 0x1p-40));
 }
 
-/// Links of a group that are tested with the same links, up to sixteen as one part; empty where no two are, and for
-/// models of very many links, where finding out takes the square of their number.
+/// Merges links of a group that are tested with the same links, up to sixteen into one tree part. The result is empty
+/// if no links are merged, and for models with very many links: the search takes quadratic time and memory.
 inline PartSet merge_alike(const PartSet& links, TreeStore& store) {
   constexpr std::size_t most_links = 1024;
   const std::size_t n = links.size(), row_count = links.rows.size();
   PartSet alike;
   if (n > most_links) return alike;
-  // Of each link, all it is tested with, not only the earlier ones.
+  // For each link, all links it is tested with, also later ones.
   std::vector<std::uint16_t> tested(n * row_count, 0);
   const auto set = [&](std::size_t p, std::size_t q) {
     std::uint16_t& word = tested[p * row_count + q / simd::width];
@@ -99,7 +99,7 @@ inline PartSet merge_alike(const PartSet& links, TreeStore& store) {
   const auto same = [&](std::uint32_t p, std::uint32_t q) {
     return links.parts[p].group == links.parts[q].group && std::ranges::equal(row(p), row(q));
   };
-  std::vector<std::uint32_t> order(n), first;  // first[m]: one link of part m
+  std::vector<std::uint32_t> order(n), first;  // first[m]: one link of merged part m
   std::iota(order.begin(), order.end(), 0U);
   std::ranges::stable_sort(order, [&](std::uint32_t p, std::uint32_t q) {
     if (links.parts[p].group != links.parts[q].group) return links.parts[p].group < links.parts[q].group;

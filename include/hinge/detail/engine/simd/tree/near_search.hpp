@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// NearSearch: the walk through two parts' trees, with what it leaves placed and judged.
+// NearSearch: traverses the trees of two tree parts, and decides the remaining pairs in double.
 #pragma once
 
 #include <bit>
@@ -15,19 +15,19 @@
 
 namespace hinge::detail {
 
-/// Scratch of such walks. A PairTest is a TreePairTest.
+/// Scratch memory of a traversal. PairTest is a TreePairTest.
 template <Primitive P>
 class NearSearch {
  public:
   void reserve(std::size_t depth) { finder_.reserve(depth); }
 
-  /// All pairs of two parts with d - M below a margin, until the collector wants no more.
+  /// Tests all pairs of two tree parts with d - M <= cutoff (plus clearances), until the collector is done.
   template <Collector C, class PairTest>
   void run(const TreeOperand<P>& a, const TreePart& part_a, const TreeOperand<P>& b, const TreePart& part_b,
            double cutoff, const PairTest& pair_test, C& collector, QueryCounts& counts) {
     if (!asks(collector, part_a.link, part_b.link)) return;
     const double margin = cutoff + a.clearance_at(part_a) + b.clearance_at(part_b);
-    // The tree with the larger root is opened first, by the root of the other.
+    // The tree with the larger root is opened first, against the root of the other tree.
     const bool turned =
         part_a.root_size * static_cast<float>(b.state.parts().scale / a.state.parts().scale) < part_b.root_size;
     const TreeOperand<P>&x = turned ? b : a, &y = turned ? a : b;
@@ -51,7 +51,8 @@ class NearSearch {
   }
 
  private:
-  /// Merged parts have no link of their own: not for collectors that refuse links.
+  /// True if the collector still wants pairs of these links. Merged tree parts have no single link: do not use them
+  /// with collectors that refuse links.
   template <Collector C>
   static bool asks(const C& collector, LinkId a, LinkId b) noexcept {
     if constexpr (RefusesLinks<C>) return collector.wants(a, b);

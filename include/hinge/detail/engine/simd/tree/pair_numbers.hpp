@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PairNumbers: the tested pairs of parts, numbered from 0.
+// PairNumbers: numbers the tested pairs of tree parts from 0.
 #pragma once
 
 #include <array>
@@ -13,6 +13,7 @@
 
 namespace hinge::detail {
 
+/// The pair (q, p), q before p, has a number if q is tested with p.
 class PairNumbers {
  public:
   PairNumbers() = default;
@@ -34,7 +35,7 @@ class PairNumbers {
     const simd::Bits before = (simd::Bits{1} << q % simd::width) - 1;
     return first_[row] + static_cast<std::size_t>(std::popcount(tested_[row] & before));
   }
-  /// q and p.
+  /// The pair {q, p} with this number.
   const std::array<std::uint32_t, 2>& parts(std::size_t number) const noexcept { return parts_[number]; }
 
  private:

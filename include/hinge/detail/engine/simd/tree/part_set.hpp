@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PartSet: trees of a model that are held against one another: their boxes, and which of them are tested.
+// PartSet: the tree parts of a model with their boxes, and the pairs of them that are tested.
 #pragma once
 
 #include <array>
@@ -15,29 +15,30 @@
 
 namespace hinge::detail {
 
-/// The primitives of one link, or of several of one group. Lengths in the unit of the trees.
+/// A tree part: the primitives of one link in a rigid group, or of several links of it. Lengths in tree units.
 struct TreePart {
   BoxId root = 0;
-  std::uint32_t top = 0;  ///< what the root's box holds: a node or a leaf
-  TreeBox root_box{};     ///< the same as in its node, all in one place
+  std::uint32_t top = 0;  ///< the node or leaf below the root's box
+  TreeBox root_box{};     ///< copy of the root node's box, for locality
   float root_size = 0.0F;
   std::uint32_t group = 0;
-  LinkId link{};        ///< the first
+  LinkId link{};        ///< the first link
   float extent = 0.0F;  ///< largest magnitude of a coordinate, without reaches
-  float reach = 0.0F;   ///< the largest
-  LocalBox box;         ///< in the group's frame, around everything, reaches included
+  float reach = 0.0F;   ///< largest reach
+  LocalBox box;         ///< box of the whole tree part in the group's frame, reaches included
 };
 
-/// Sixteen parts' boxes and balls about their middles, relative to their trees' origins.
+/// Boxes of sixteen tree parts, and balls around their middles, relative to their trees' origins.
 struct alignas(64) PartRow {
   std::array<float, 3 * simd::width> middle{};
-  std::array<float, 3 * simd::width> half{};  ///< reaches included, here and below
+  std::array<float, 3 * simd::width> half{};  ///< reaches included, also in the radius
   std::array<float, simd::width> radius{};
 };
 
+/// Tree parts sorted by group, and rows of their boxes for tests in lanes.
 struct PartSet {
   std::size_t size() const noexcept { return parts.size(); }
-  /// Bits of the parts 16 row ... 16 row + 15 that there are.
+  /// Mask of the parts 16 row .. 16 row + 15 that exist.
   simd::Bits used(std::size_t row) const noexcept {
     const std::size_t left = parts.size() - row * simd::width;
     return left >= simd::width ? simd::all_bits : (simd::Bits{1} << left) - 1;
@@ -54,9 +55,9 @@ struct PartSet {
     parts.push_back(part);
   }
 
-  std::vector<TreePart> parts;  ///< by group
+  std::vector<TreePart> parts;  ///< sorted by group
   simd::AlignedVector<PartRow> rows;
-  AdmittedPairs tested;  ///< parts of one group are not
+  AdmittedPairs tested;  ///< parts of the same group are never tested
 };
 
 }  // namespace hinge::detail

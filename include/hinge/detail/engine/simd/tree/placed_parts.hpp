@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PlacedParts: the world boxes of a set of parts, and the sweep for pairs of them that may be near.
+// PlacedParts: the world boxes of a set of tree parts, and the sweep for pairs that may be near.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 
 namespace hinge::detail {
 
-/// Two parts and a lower bound of the gap between them, tree unit.
+/// Two tree parts and a lower bound of the gap between their boxes, tree unit.
 struct PartPair {
   float gap;
   std::uint32_t first, second;
@@ -35,7 +35,7 @@ class PlacedParts {
   const PartSet& set() const noexcept { return *set_; }
   std::size_t row_count() const noexcept { return rows_.size(); }
 
-  /// Brings the boxes up to date. Per group: its frame, and the update that last changed it; `update` is the present.
+  /// Updates the boxes. Per group: its frame, and the update that last changed it. `update`: the present update.
   void refresh(std::span<const PlacedRow::FloatFrame> frames, std::span<const std::uint64_t> changed_at,
                std::uint64_t update) noexcept {
     if (at_ == update) return;
@@ -53,8 +53,8 @@ class PlacedParts {
     at_ = update;
   }
 
-  /// visit(q, p) -> go on? for the tested pairs, q before p, whose boxes and balls come within margin(p) (tree unit).
-  /// Many are listed before any is visited: how many each p has cannot be foretold.
+  /// Calls visit(q, p) -> bool for the tested pairs, q before p, whose boxes and balls come within margin(p) (tree
+  /// unit). Many pairs are listed before any is visited: the number per p is unpredictable.
   template <class Margin, class Visit>
   void sweep(const Margin& margin, const Visit& visit) {
     std::size_t n = 0;
@@ -78,7 +78,7 @@ class PlacedParts {
     }
     hand_over();
   }
-  /// All parts whose boxes meet a box.
+  /// All tree parts whose boxes overlap `box`. Valid until the next sweep or call.
   std::span<const std::uint32_t> meeting(const FloatBox& box) noexcept {
     const BoxLanes probe(box);
     std::size_t n = 0;
@@ -88,13 +88,13 @@ class PlacedParts {
     return {found_.data(), n};
   }
 
-  /// Appends the parts before p that are tested with it, if their boxes are at most `bound` apart.
+  /// Appends the parts before p that are tested with p, if their boxes are at most `bound` apart.
   void append_before(std::size_t p, float bound, std::vector<PartPair>& to) const {
     const FloatBox box = rows_[p / simd::width].box.get(p % simd::width);
     const AdmittedPairs::Row earlier = set_->tested.of(p);
     for (std::size_t r = 0; r * simd::width < p; ++r) append_near(r, earlier.get(r), box, bound, p, to);
   }
-  /// Appends all parts at most `bound` from a box; `second` is what they are paired with.
+  /// Appends all parts at most `bound` from `box`, each paired with `second`.
   void append_near(const FloatBox& box, float bound, std::size_t second, std::vector<PartPair>& to) const {
     for (std::size_t r = 0; r < rows_.size(); ++r) append_near(r, set_->used(r), box, bound, second, to);
   }
@@ -124,7 +124,7 @@ class PlacedParts {
 
   const PartSet* set_;
   std::vector<PlacedRow> rows_;
-  std::vector<std::uint32_t> found_, partner_;  // scratch: parts of pairs
+  std::vector<std::uint32_t> found_, partner_;  // scratch: tree parts of pairs
   std::uint64_t at_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PlacedRow: sixteen parts in the world, in float: their boxes, the balls around them, and one part held against them.
+// PlacedRow: boxes and balls of sixteen tree parts in the world, in float, and the test of one of them against a row.
 #pragma once
 
 #include <algorithm>
@@ -13,25 +13,26 @@
 
 namespace hinge::detail {
 
+/// Lengths in tree units, relative to the world origin of TreeState.
 struct alignas(64) PlacedRow {
-  /// Three columns of the rotation, then the tree's origin in the world; each with a spare.
+  /// Three columns of the rotation, then the tree's origin in the world; each column has a spare entry.
   struct alignas(64) FloatFrame : std::array<float, 16> {};
 
   BoxRow box;  ///< reaches included
   std::array<float, 3 * simd::width> middle{};
-  std::array<float, simd::width> radius{};      ///< of the ball, grown by twice the error of a coordinate
-  std::array<float, 12 * simd::width> frame{};  ///< entry by entry
+  std::array<float, simd::width> radius{};      ///< radius of the ball, plus twice the error of a coordinate
+  std::array<float, 12 * simd::width> frame{};  ///< frames of the lanes, entry by entry
 
   [[gnu::always_inline]] void set_frame(std::size_t lane, const FloatFrame& from) noexcept {
     for (std::size_t c = 0; c < 4; ++c)
       for (std::size_t k = 0; k < 3; ++k) frame[(3 * c + k) * simd::width + lane] = from[4 * c + k];
   }
 
-  /// Boxes and balls, of the frames. Lanes without a part hold something.
+  /// Computes boxes and balls from the frames. Lanes without a tree part get arbitrary values.
   void place(const PartRow& local) noexcept {
     using simd::Float16;
     constexpr std::size_t n = simd::width;
-    // What rounding of the rotation, its products and sums loses, as a share of the numbers involved.
+    // Relative error of the rotation's rounding, its products and sums.
     constexpr float rounding = 32 * 0x1p-24F;
     const auto entry = [&](std::size_t k) { return Float16(frame.data() + k * n); };
     std::array<Float16, 3> at, half;
@@ -58,8 +59,8 @@ struct alignas(64) PlacedRow {
       if ((sane_lanes >> lane & 1U) == 0) box.set(lane, FloatBox::everything());
   }
 
-  /// One part of a row, grown by a margin, ready to be held against others. (Without branches: what is near cannot be
-  /// foretold.)
+  /// One tree part of a row, inflated by a margin, prepared for tests against rows. Branch-free: the outcome is
+  /// unpredictable.
   class Probe {
    public:
     [[gnu::always_inline]] Probe(const PlacedRow& row, std::size_t lane, float margin) noexcept {
@@ -71,13 +72,13 @@ struct alignas(64) PlacedRow {
       }
       radius_ = simd::Float16(row.radius[lane] + std::max(margin, 0.0F));
     }
-    /// Lanes whose boxes meet, unless their balls are surely apart.
+    /// Lanes whose boxes overlap and whose balls are not surely apart.
     [[gnu::always_inline]] simd::Bits near(const PlacedRow& row) const noexcept {
       using simd::Float16;
       constexpr std::size_t n = simd::width;
       std::array<Float16, 3> d;
       for (std::size_t k = 0; k < 3; ++k) d[k] = Float16(row.middle.data() + k * n) - middle_[k];
-      // An error along each axis, and the sums' own rounding.
+      // Covers the rounding of the sums.
       const Float16 reach = (Float16(row.radius.data()) + radius_) * Float16(1.0F + 0x1p-20F);
       const auto apart = less(reach * reach, d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
       const auto meets = [&](std::size_t k) __attribute__((always_inline)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// RelativeTransform: two trees' frames as floats see them, each in the other's, and how far that may be off.
+// RelativeTransform: the float transforms between the frames of two trees, with error bounds.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace hinge::detail {
 /// A tree's frame in the world: x_world = R x / scale + middle.
 struct TreeFrame {
   TreeFrame() = default;
-  /// `local`: the tree's origin in the frame of its group.
+  /// local: the tree's origin in the frame of its group.
   TreeFrame(const Frame& frame, const Vec3& local) noexcept : turn(frame) {
     const simd::Double4 origin = FrameColumns(frame).place(local[0], local[1], local[2]);
     origin.store(middle.data());
@@ -28,10 +28,10 @@ struct TreeFrame {
 
   Frame turn;
   alignas(32) std::array<double, 4> middle{};
-  double magnitude = 0.0;  ///< of what its world coordinates were computed from, model unit
+  double magnitude = 0.0;  ///< largest magnitude of the coordinates it was computed from, model unit
 };
 
-/// R^T v for a frame's R.
+/// v -> R^T v for the rotation R of a frame.
 class BackTurn {
  public:
   explicit BackTurn(const Frame& frame) noexcept : x_(row(frame, 0)), y_(row(frame, 1)), z_(row(frame, 2)) {}
@@ -46,16 +46,17 @@ class BackTurn {
   simd::Double4 x_, y_, z_;
 };
 
-/// x -> rotation x + translation in float, from one tree's unit to another's; the rotation holds the ratio of units.
+/// x -> rotation x + translation in float, from one tree's unit to the other's. The rotation includes the ratio of
+/// units.
 struct Turn {
   alignas(16) std::array<float, 12> rotation;  ///< column by column, each with a spare entry
-  alignas(16) std::array<float, 12> size;      ///< its magnitudes, rounded up
+  alignas(16) std::array<float, 12> size;      ///< absolute values of rotation, rounded up
   alignas(16) std::array<float, 4> translation;
-  float ratio = 1.0F;        ///< of the units
-  float box_error = 0.0F;    ///< of turned boxes, in the unit of the result
-  float point_error = 0.0F;  ///< of turned points, and twice the rounding of a projection of such a point
+  float ratio = 1.0F;        ///< unit of the result per unit of the argument
+  float box_error = 0.0F;    ///< error of transformed boxes, in the unit of the result
+  float point_error = 0.0F;  ///< error of transformed points, plus twice the rounding of a projection of such a point
 
-  /// The box around the turned box, up to box_error.
+  /// The box around the transformed box; the caller must add box_error.
   [[gnu::always_inline]] TreeBox operator()(const TreeBox& box) const noexcept {
     using simd::Float4;
     alignas(16) std::array<float, 4> middle, half;
@@ -69,10 +70,10 @@ struct Turn {
   }
 };
 
-/// docs/explanation/float_filter.md derives the errors.
+/// Derivation of the errors: docs/explanation/float_filter.md.
 struct RelativeTransform {
-  /// extents: largest magnitudes of the trees' coordinates, each in its own unit (scales: per model unit). The way from
-  /// a to b is left to complete(): most pairs of trees are found to be apart without it. Refers to b.
+  /// extents: largest magnitudes of the trees' coordinates, each in its tree's unit; scales: tree units per model unit.
+  /// The constructor computes b_to_a only. complete() adds a_to_b: most trees are found apart without it. Refers to b.
   RelativeTransform(const TreeFrame& a, double scale_a, float extent_a, const TreeFrame& b, double scale_b,
                     float extent_b) noexcept
       : frame_b_(b.turn), scale_b_(scale_b) {
@@ -101,11 +102,11 @@ struct RelativeTransform {
     sane = reach <= 1e6;
   }
 
-  /// Fills a_to_b, unless that is done.
+  /// Computes a_to_b at the first call.
   RelativeTransform& complete() noexcept {
     if (completed_) return *this;
     completed_ = true;
-    // Ratios are powers of two: the transpose holds the same roundings.
+    // Ratios are powers of two: the transpose has the same rounding errors.
     const float back = 1.0F / b_to_a.ratio, square = back * back;
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t r = 0; r < 3; ++r) {
@@ -121,18 +122,19 @@ struct RelativeTransform {
   }
 
   Turn b_to_a, a_to_b;
-  bool sane = false;  ///< within what products of four floats can hold; else nothing is proved apart by points
+  /// false: products of four floats may overflow, and points must not be used to prove anything apart
+  bool sane = false;
 
  private:
   bool completed_ = false;
   const Frame& frame_b_;
   double scale_b_;
-  alignas(32) std::array<double, 4> apart_;  // from b's middle to a's
+  alignas(32) std::array<double, 4> apart_;  // from b's middle to a's middle
 };
 
-/// A box of one tree in the frame of another, ready to be held against nodes there.
+/// A box of one tree in the frame of another tree, prepared for tests against nodes there.
 struct BoxProbe {
-  /// `turn` brings the box there. What comes within `margin` of it counts as near.
+  /// turn: transform from the box's tree to the other tree. margin: distance below which boxes are near.
   [[gnu::always_inline]] BoxProbe(const TreeBox& box, const Turn& turn, float margin) noexcept {
     const TreeBox turned = turn(box);
     const float slack = margin + turn.box_error;
@@ -147,8 +149,8 @@ struct BoxProbe {
   std::array<float, 3> own_reach;  ///< along the box's own axes
 };
 
-/// Which children of a node may come near a box: six face axes. Lanes that are surely farther are left out. `turn` is
-/// the one that the box was turned by.
+/// Children of a node that may be near a box, tested along six face axes. Excluded lanes are surely farther. turn: the
+/// transform that the box was made with.
 [[gnu::always_inline]] inline simd::Bits near_lanes(const TreeNode& node, const BoxProbe& box,
                                                     const Turn& turn) noexcept {
   using simd::Float16;
@@ -161,7 +163,7 @@ struct BoxProbe {
     reach[k] = half[k] + Float16(box.reach[k]);
     apart[k] = abs(d[k]);
   }
-  // The box's own axes are the rotation's columns, as long as the ratio.
+  // The box's own axes are the rotation's columns, of length `ratio`.
   for (std::size_t k = 0; k < 3; ++k) {
     apart[3 + k] = abs(d[0] * Float16(turn.rotation[4 * k]) + d[1] * Float16(turn.rotation[4 * k + 1]) +
                        d[2] * Float16(turn.rotation[4 * k + 2]));

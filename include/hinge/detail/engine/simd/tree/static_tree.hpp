@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// StaticTree: sixteen-wide box trees over primitives that stay together, in their own frame, made once.
+// Static sixteen-wide box trees over primitives in their group's frame: TreeBuilder builds them, TreeStore holds them.
 #pragma once
 
 #include <algorithm>
@@ -17,24 +17,24 @@
 
 namespace hinge::detail {
 
-/// A box of a tree: lane + 16 * node. Every box but the topmost holds a node's or a leaf's contents.
+/// A box of a tree: lane + 16 * node. Every box is around a node or a leaf.
 using BoxId = std::uint32_t;
 
-/// One box as traversals hold it.
+/// One box, outside a node.
 struct TreeBox {
   std::array<float, 3> middle{}, half{};
 };
 
-/// Sixteen boxes or fewer, each around a node or a leaf.
+/// At most sixteen boxes, each around a node or a leaf.
 struct alignas(64) TreeNode {
   static constexpr std::uint32_t leaf_bit = 0x80000000U;
 
   std::array<float, 3 * simd::width> middle{};
-  std::array<float, 3 * simd::width> half{};  ///< rounded up, grown by the reach of what is inside
+  std::array<float, 3 * simd::width> half{};  ///< rounded up, inflated by the reach of the contents
   std::array<std::uint32_t, simd::width> child{};
-  std::array<float, simd::width> size{};  ///< the longest half length
+  std::array<float, simd::width> size{};  ///< longest half length of each box
   simd::Bits used = 0;                    ///< lanes that hold boxes
-  simd::Bits inner = 0;                   ///< of these, lanes that hold nodes; the others hold leaves
+  simd::Bits inner = 0;                   ///< lanes whose box holds a node; the other used lanes hold leaves
 
   void set(std::size_t lane, const TreeBox& box) noexcept {
     used |= simd::Bits{1} << lane;
@@ -50,7 +50,7 @@ struct alignas(64) TreeNode {
   }
 };
 
-/// What a tree is built from: the outward rounded box of a primitive, relative to the tree's origin, scaled.
+/// Input of a tree: the box of a primitive relative to the tree's origin, scaled, rounded outward.
 struct BuildItem {
   std::array<float, 3> lower, upper;
   std::uint32_t primitive;
@@ -58,11 +58,11 @@ struct BuildItem {
   float twice_middle(std::size_t axis) const noexcept { return lower[axis] + upper[axis]; }
 };
 
-/// Nodes and leaves of all trees of one model. Leaf l holds the primitives of slots 16 l ... 16 l + 15.
+/// Nodes and leaves of all trees of one model. Leaf l holds the primitives of slots 16 l .. 16 l + 15.
 struct TreeStore {
   simd::AlignedVector<TreeNode> nodes;
-  std::vector<std::uint32_t> slots;  ///< primitives; padding repeats the leaf's first
-  std::vector<simd::Bits> real;      ///< per leaf: lanes that are no padding
+  std::vector<std::uint32_t> slots;  ///< primitives; padding repeats the leaf's first primitive
+  std::vector<simd::Bits> real;      ///< per leaf: lanes that are not padding
 
   TreeBox box(BoxId id) const noexcept {
     const TreeNode& node = nodes[id / simd::width];
@@ -80,17 +80,17 @@ struct TreeStore {
   float size(BoxId id) const noexcept { return nodes[id / simd::width].size[id % simd::width]; }
 };
 
-/// Builds trees one after the other into a store. A node takes its children by splitting the one of the largest
-/// surface again and again; a split minimises surface times leaves over sixteen bins along the widest axes, few leaves
-/// by trying every cut; cuts fall on multiples of sixteen, so that leaves are full. O(n log n), no recursion.
+/// Builds trees one after the other into a store. A node splits its child of largest surface until it has sixteen
+/// children. A split minimises surface times leaves: over sixteen bins along the widest axes, or over all cuts for few
+/// leaves. Cuts fall on multiples of sixteen, so leaves are full. O(n log n), no recursion.
 class TreeBuilder {
  public:
   struct Tree {
-    BoxId root = 0;  ///< the one box of its node
+    BoxId root = 0;  ///< the only box of its node
     std::size_t depth = 0;
   };
 
-  /// items: at least one; reordered.
+  /// Builds a tree over at least one item. Reorders the items.
   Tree build(std::span<BuildItem> items, TreeStore& store) {
     const auto top = static_cast<std::uint32_t>(store.nodes.size());
     store.nodes.emplace_back();
@@ -127,7 +127,7 @@ class TreeBuilder {
     std::size_t depth;
   };
   static constexpr std::size_t bins = 16;
-  static constexpr std::size_t few = 8 * simd::width;  // primitives, up to which every cut is tried
+  static constexpr std::size_t few = 8 * simd::width;  // up to this many primitives, every cut is tried
 
   static void extend(FloatBox& box, const BuildItem& item) noexcept {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -154,7 +154,7 @@ class TreeBuilder {
     for (std::size_t k = 0; k < 3; ++k) {
       const float low = part.box.lower[k], high = part.box.upper[k];
       box.middle[k] = low / 2 + high / 2;
-      // Differences of floats, rounded once, and so is the middle.
+      // One rounding of the difference and one of the middle.
       box.half[k] = std::max(high - box.middle[k], box.middle[k] - low) * (1.0F + 0x1p-22F);
     }
     store.nodes[n].set(lane, box);
@@ -168,7 +168,7 @@ class TreeBuilder {
     return leaf;
   }
 
-  /// CrossModelTransform parts_, at most sixteen.
+  /// Splits the items into parts_, at most sixteen.
   void split(std::span<BuildItem> items) {
     parts_.assign(1, {items, hull(items)});
     while (parts_.size() < simd::width) {
@@ -177,7 +177,7 @@ class TreeBuilder {
       for (std::size_t p = 0; p < parts_.size(); ++p) {
         const float area = surface(parts_[p].box);
         if (parts_[p].items.size() <= simd::width || area < most) continue;
-        // On a line or in a point all surfaces are 0.
+        // All surfaces are 0 if the items lie on a line or in a point: take the largest set.
         if (area == most && parts_[p].items.size() <= parts_[largest].items.size()) continue;
         most = area;
         largest = p;
@@ -191,14 +191,14 @@ class TreeBuilder {
   }
 
   static auto along(std::size_t axis) noexcept {
-    // Ties by index: the tree is the same whatever order the items come in.
+    // Break ties by index: the tree does not depend on the order of the items.
     return [axis](const BuildItem& a, const BuildItem& b) {
       const float x = a.twice_middle(axis), y = b.twice_middle(axis);
       return x != y ? x < y : a.primitive < b.primitive;
     };
   }
 
-  /// Sorts along each axis and tries all cuts at multiples of sixteen; leaves the items sorted along the best.
+  /// Sorts along each axis and tries all cuts at multiples of sixteen. Leaves the items partitioned at the best cut.
   static std::size_t try_every_cut(std::span<BuildItem> items) noexcept {
     std::size_t best_axis = 0, best_cut = simd::width;
     float least = std::numeric_limits<float>::infinity();
@@ -248,7 +248,7 @@ class TreeBuilder {
     const float widest = middles.upper[best_axis] - middles.lower[best_axis];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const float low = middles.lower[axis], width = middles.upper[axis] - low;
-      // Axes along which there is little to cut are not worth the look.
+      // Skip short axes.
       if (!(width > widest / 4) || !(width > 0.0F)) continue;
       const float per_unit = static_cast<float>(bins) / width;
       if (!std::isfinite(per_unit)) continue;
@@ -275,7 +275,7 @@ class TreeBuilder {
         }
       }
     }
-    // Never less than a sixteenth to a side, so that no input makes building quadratic.
+    // Each side gets at least a sixteenth of the leaves, so that no input makes building quadratic.
     const std::size_t leaves = (items.size() + simd::width - 1) / simd::width, least_leaves = leaves / 16 + 1;
     const std::size_t cut =
         std::clamp((best_count + simd::width / 2) / simd::width, least_leaves, leaves - least_leaves) * simd::width;

@@ -18,14 +18,14 @@
 
 namespace hinge::detail {
 
-/// One of two models in a query, as far as it is asked: trees, coordinates and extra clearance of its groups.
+/// Trees, coordinates and extra clearances of one model in a query. Refers to the caller's objects.
 template <Primitive P>
 struct TreeOperand {
   TreeState<P>& state;
   Placement<P>& placement;
   std::span<const double> clearance;
 
-  /// A link's.
+  /// The tree part of a link.
   const TreePart& part(std::size_t p) const noexcept { return state.parts().links.parts[p]; }
   double clearance_at(const TreePart& part) const noexcept { return clearance_of(clearance, id<GroupId>(part.group)); }
   double clearance_at(std::size_t p) const noexcept { return clearance_at(part(p)); }
@@ -39,7 +39,7 @@ struct TreeOperand {
     return {state.frame(a.group),       state.parts().scale,       a.extent,
             other.state.frame(b.group), other.state.parts().scale, b.extent};
   }
-  /// A length in the trees' unit, with room for the rounding of sums of a few such numbers.
+  /// A length in tree units, rounded up, with room for the rounding of a few sums.
   float scaled(double length) const noexcept {
     const double there = length * state.parts().scale;
     return float_above(there + std::abs(there) * 0x1p-20);

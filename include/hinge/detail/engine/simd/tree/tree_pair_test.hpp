@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// TreePairTest: what walks through trees have to ask about pairs, and the judges of one model and of two.
+// TreePairTest: the functions that traversals of trees call for pairs, for one model and for two.
 #pragma once
 
 #include "hinge/core/id.hpp"
@@ -12,8 +12,8 @@
 
 namespace hinge::detail {
 
-/// For i of the one model and j of the other: test_pair(i, j, p, q) for a pair that floats could not rule out, placed;
-/// threshold(i, j); admits(i, j); admits_links(a, b), which may refuse all pairs of two links.
+/// For i of the first model and j of the second: test_pair(i, j, p, q) decides a placed pair that floats could not rule
+/// out; threshold(i, j); admits(i, j); admits_links(a, b) is false if all pairs of the two links are excluded.
 template <class TestPair, class Threshold, class Admits, class AdmitsPairs>
 struct TreePairTest {
   TestPair test_pair;
@@ -24,7 +24,7 @@ struct TreePairTest {
 template <class TestPair, class Threshold, class Admits, class AdmitsPairs>
 TreePairTest(TestPair, Threshold, Admits, AdmitsPairs) -> TreePairTest<TestPair, Threshold, Admits, AdmitsPairs>;
 
-/// What it decides goes to the collector. Views both.
+/// Decisions go to the collector. The result refers to both arguments.
 template <Collector C, Primitive P, PairFilter F, DistanceMatrix D>
 auto tree_pair_test(C& collector, const SelfRules<P, F, D>& rules) {
   const auto in_order = [](PrimitiveId i, PrimitiveId j, const auto& say) { return j < i ? say(j, i) : say(i, j); };

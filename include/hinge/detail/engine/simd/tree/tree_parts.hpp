@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// TreeParts: one static tree per link of a rigid group, all in the group's frame, and which of them are tested.
+// TreeParts: one static tree per link of each rigid group, in the group's frame, and the pairs of them that are tested.
 #pragma once
 
 #include <algorithm>
@@ -31,33 +31,34 @@
 
 namespace hinge::detail {
 
-/// Computed once when the DOF are selected; shared by copies of an engine.
+/// Computed once when the DOF are selected; shared by copies of an engine. Lengths in tree units unless stated
+/// otherwise.
 template <Primitive P>
 struct TreeParts {
   template <PairFilter F, DistanceMatrix D>
   TreeParts(const SelectedModel<P>& model, const F& filter, const D& matrix);
 
-  /// What is held against one another where links need not be told apart.
+  /// The tree parts for queries that need not distinguish links.
   const PartSet& merged() const noexcept { return alike.parts.empty() ? links : alike; }
 
   const float* leaf(std::uint32_t l) const noexcept { return leaves.data() + std::size_t{l} * Leaf<P>::floats; }
-  /// Null where all reaches are 0.
+  /// Null if all reaches are 0.
   const float* leaf_reach(std::uint32_t l) const noexcept {
     return reaches.empty() ? nullptr : reaches.data() + std::size_t{l} * simd::width;
   }
 
-  PartSet links;  ///< a part per link of a group
-  PartSet alike;  ///< links of a group that are tested with the same links are one part; empty where there are none
-  /// Per group: all its links under one root; only where there are two to sixteen, else its size is 0.
+  PartSet links;  ///< one tree part per link and group
+  PartSet alike;  ///< links of a group with the same partners are merged into one tree part; empty if none are merged
+  /// Per group: all its links under one root, if it has 2 to 16 links; otherwise the root size is 0.
   std::vector<TreePart> whole;
-  std::vector<Vec3> origin;  ///< per group: of its trees, in its frame
+  std::vector<Vec3> origin;  ///< per group: origin of its trees, in the group's frame, model unit
   double scale = 1.0;        ///< power of two that brings the largest group to a size where float products are safe
-  Vec3 world_origin = Vec3::Zero();  ///< about where the model is at the reference
+  Vec3 world_origin = Vec3::Zero();  ///< middle of the model at the reference, world frame
   TreeStore store;
   simd::AlignedVector<float> leaves;
   simd::AlignedVector<float> reaches;
-  double largest_threshold = 0.0;  ///< no pair has a larger one, model unit
-  std::size_t depth = 0;           ///< of the deepest tree, merged ones included
+  double largest_threshold = 0.0;  ///< upper bound of all thresholds, model unit
+  std::size_t depth = 0;           ///< depth of the deepest tree, merged trees included
 
  private:
   void add_link(const TreePart& part, const Aabb& box, std::span<const BuildItem> items, const Vec3& o);
@@ -73,7 +74,7 @@ TreeParts<P>::TreeParts(const SelectedModel<P>& model, const F& filter, const D&
   for (std::size_t i = 0; i < model.size(); ++i) boxes[i] = model.primitives()[i].bounds();
   measure(model, boxes);
   build(model, matrix, boxes);
-  // Parts of one group stand together.
+  // Tree parts of one group are consecutive and never tested with each other.
   const std::vector<TreePart>& parts = links.parts;
   for (std::size_t p = 0, group = 0; p < parts.size(); ++p) {
     if (parts[group].group != parts[p].group) group = p;
@@ -154,11 +155,11 @@ void TreeParts<P>::build(const SelectedModel<P>& model, const D& matrix, const s
     return std::pair(model.group_of(id<PrimitiveId>(i)), model.model().links()[i]);
   };
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) { return key(i) < key(j); });
-  // A float, its neighbour's distance outward, and what subtracting and scaling in double lose.
+  // Next float outward, after the rounding of subtraction and scaling in double.
   const auto above = [](double x) { return float_above(x + std::abs(x) * 0x1p-50); };
   std::vector<BuildItem> items;
   std::vector<float> reach;
-  // A reach above 0 stays so: without it no gap would be below 0.
+  // A positive reach must stay positive, or no gap would be below 0.
   const auto scaled_reach = [&](PrimitiveId i) {
     constexpr double smallest = std::numeric_limits<float>::denorm_min();
     const double length = matrix.reach(i);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// TreeSide: one model in the tree half of engine/simd, and the queries that walk its trees.
+// TreeSide: the tree half of engine/simd for one model, and its queries.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@
 
 namespace hinge::detail {
 
-/// One model and its scratch. Counts are of sixteen lanes each. A query's PairTest is a TreePairTest.
+/// One model and its scratch memory. Each count stands for sixteen lanes. PairTest is a TreePairTest.
 template <Primitive P>
 class TreeSide {
  public:
@@ -36,7 +36,7 @@ class TreeSide {
       : state_(std::move(parts)), cross_order_(state_.parts().links.size()), asked_(state_.parts().links.size()) {
     near_.reserve(2 * state_.parts().depth);
     closest_.reserve(2 * state_.parts().depth);
-    // So that queries of usual models never allocate.
+    // Reserve memory so that queries of usual models never allocate.
     const std::size_t n = state_.parts().links.size();
     closest_.reserve_pairs(std::min<std::size_t>(n * n / 2, 1U << 16U));
   }
@@ -84,7 +84,7 @@ class TreeSide {
     }
   }
 
-  /// Adds the present state to what the order of yes/no queries is learned from; `any` is the pair_test's collector.
+  /// Adds the present state to the learned order of yes/no queries. `any` is the collector of pair_test.
   template <Collector C, class PairTest>
   void learn(Placement<P>& placement, const PairTest& pair_test, C& any) {
     const PartSet& set = state_.parts().merged();
@@ -104,7 +104,7 @@ class TreeSide {
                             return true;
                           });
   }
-  /// The same for queries against other models: in which order the parts of this one are tried.
+  /// The same for queries against other models: the order of this model's tree parts.
   template <Collector C, class PairTest>
   void learn(Placement<P>& placement, TreeSide& theirs, Placement<P>& their_placement, const PairTest& pair_test,
              C& any) {
@@ -120,13 +120,13 @@ class TreeSide {
       });
   }
 
-  /// Are the units of the two alike enough for floats to hold both?
+  /// True if the units of both models are similar enough for floats.
   bool fits(const TreeSide& theirs) const noexcept {
     const double ratio = state_.parts().scale / theirs.state_.parts().scale;
     return ratio >= 0x1p-60 && ratio <= 0x1p60;
   }
 
-  /// Between two models.
+  /// A query between two models.
   template <Collector C, class PairTest>
   void query(Placement<P>& placement, TreeSide& theirs, Placement<P>& their_placement, const PairTest& pair_test,
              C& collector, const QueryOptions& options, QueryCounts& counts) {
@@ -175,9 +175,9 @@ class TreeSide {
   }
 
  private:
-  /// visit(p, part) -> go on? for the parts whose boxes come within `margin` of that of part q of the other model.
-  /// Where there are several of one group, and nothing asks for links one by one, they are visited once, as one: the
-  /// first.
+  /// Calls visit(p, part) -> bool for the tree parts whose boxes come within `margin` of tree part q of the other
+  /// model. If several of one group are near, and the collector need not distinguish links, the whole group is visited
+  /// once, with p the first of them.
   template <Collector C, class PairTest, class Visit>
   void each_meeting(const CrossOperands<P>& cross, const PairTest& pair_test, std::size_t q, float margin,
                     const Visit& visit) {
@@ -204,21 +204,21 @@ class TreeSide {
     }
   }
 
-  /// Parts: the order of pairs takes the square of it in memory.
+  /// Maximum number of tree parts: the order of pairs needs the square of it in memory.
   static constexpr std::size_t most_ordered = 1024;
 
   TreeState<P> state_;
   NearSearch<P> near_;
   ClosestSearch<P> closest_;
-  PairNumbers numbers_;                 // once an order is learned
+  PairNumbers numbers_;                 // set when an order is learned
   LearnedOrder order_{0};               // of tested pairs
-  LearnedOrder cross_order_;            // of parts
-  std::vector<const TreePart*> asked_;  // scratch: for a part, itself or all of its group
+  LearnedOrder cross_order_;            // of tree parts
+  std::vector<const TreePart*> asked_;  // scratch: for a tree part, the part itself or its whole group
   Witnesses<P> witnesses_, cross_witnesses_;
-  std::weak_ptr<const TreeParts<P>> witnessed_;  // whose pairs cross_witnesses_ holds
+  std::weak_ptr<const TreeParts<P>> witnessed_;  // the model whose pairs cross_witnesses_ holds
 };
 
-/// Nothing of the trees is compiled for primitives that are never kept in them.
+/// Avoids compiling the tree code for primitives that are never kept in trees.
 template <Primitive P>
 using OptionalTreeSide = std::optional<std::conditional_t<UsesStaticBvh<P>, TreeSide<P>, std::monostate>>;
 

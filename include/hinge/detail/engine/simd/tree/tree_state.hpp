@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// TreeState: where the trees are now: their frames and world boxes.
+// TreeState: the frames and world boxes of the trees in the present state.
 #pragma once
 
 #include <cstddef>
@@ -20,6 +20,7 @@
 
 namespace hinge::detail {
 
+/// Copies share the parts; each copy has its own state.
 template <Primitive P>
 class TreeState {
  public:
@@ -38,7 +39,7 @@ class TreeState {
   const TreeFrame& frame(std::uint32_t group) const noexcept { return frames_[group]; }
   const Vec3& world_origin() const noexcept { return world_origin_; }
 
-  /// Brings frames up to date.
+  /// Updates the frames.
   void refresh(Placement<P>& placement) noexcept {
     if (update_ == placement.update_number()) return;
     const bool few = placement.few_moved();
@@ -55,21 +56,21 @@ class TreeState {
       place(group, placement.frame(g));
     }
   }
-  /// Each link as of the last refresh().
+  /// The tree parts of single links, as of the last refresh().
   PlacedParts& links() noexcept {
     links_.refresh(float_frames_, changed_at_, update_);
     return links_;
   }
-  /// The same where links need not be told apart.
+  /// The same for merged tree parts.
   PlacedParts& merged() noexcept {
     if (parts_->alike.parts.empty()) return links();
     merged_.refresh(float_frames_, changed_at_, update_);
     return merged_;
   }
 
-  /// The world box of a part, reaches included, relative to some origin, in this model's tree unit.
+  /// World box of tree part p, reaches included, relative to `origin`, in this model's tree unit.
   FloatBox world_box(std::size_t p, Placement<P>& placement, const Vec3& origin) const noexcept {
-    // What turning, adding and rounding lose, as a share of the numbers involved.
+    // Relative error of rotation, sums and rounding.
     constexpr float rounding = 8 * 0x1p-24F;
     const TreePart& part = parts_->links.parts[p];
     const FloatBox box = FloatTransform(placement.frame(id<GroupId>(part.group)), origin, parts_->scale)(part.box);
@@ -79,7 +80,7 @@ class TreeState {
 
  private:
   void place(std::uint32_t group, const Frame& frame) noexcept {
-    // In place: an assignment would read it wider than it was just written.
+    // Construct in place: assignment would read memory wider than the previous stores and stall.
     std::construct_at(&frames_[group], frame, parts_->origin[group]);
     float* to = float_frames_[group].data();
     for (std::size_t k = 0; k < 3; ++k) simd::Double4(frame.column.data() + 4 * k).store_rounded(to + 4 * k);
@@ -92,8 +93,8 @@ class TreeState {
   std::shared_ptr<const TreeParts<P>> parts_;
   std::vector<TreeFrame> frames_;
   std::vector<PlacedRow::FloatFrame> float_frames_;
-  std::vector<std::uint64_t> frame_at_;    // per group: the update its frame is of; 0: none
-  std::vector<std::uint64_t> changed_at_;  // and the update that last changed it
+  std::vector<std::uint64_t> frame_at_;    // per group: the update of its frame; 0: never placed
+  std::vector<std::uint64_t> changed_at_;  // per group: the update that last changed its frame
   PlacedParts links_, merged_;
   Vec3 world_origin_;
   std::uint64_t update_ = 0;

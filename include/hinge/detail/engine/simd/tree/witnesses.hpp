@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Witnesses: pairs that were closest lately; where they are now bounds the answer before anything is searched.
+// Witnesses: the closest pairs of recent queries. Their present distance is an upper bound for the next answer.
 #pragma once
 
 #include <algorithm>
@@ -17,15 +17,15 @@
 
 namespace hinge::detail {
 
-/// Remembers the two points of each pair in the frames of their groups; the distance of the points now is an upper
-/// bound. Primitives that cannot name such points are not remembered.
+/// Stores the two closest points of each pair in the frames of their groups. The present distance of the points is an
+/// upper bound. Primitives without closest_points are not stored.
 template <Primitive P>
 class Witnesses {
  public:
   Witnesses() { list_.reserve(most); }
   void clear() noexcept { list_.clear(); }
 
-  /// An upper bound of the smallest d - M; infinite when nothing is remembered.
+  /// Upper bound of the smallest d - M, model unit; infinite if nothing is stored.
   template <class PairTest>
   double bound(Placement<P>& a, Placement<P>& b, const PairTest& pair_test) const noexcept {
     double least = std::numeric_limits<double>::infinity();
@@ -34,7 +34,7 @@ class Witnesses {
       double size = 0.0;
       for (int k = 0; k < 3; ++k)
         size = std::max({size, std::abs(p[k]), std::abs(q[k]), std::abs(w.p[k]), std::abs(w.q[k])});
-      // Points are off their primitives by a few roundings of coordinates.
+      // The points are off their primitives by a few roundings of coordinates.
       const double upper =
           std::sqrt(squared_norm(Vec3(q - p))) * (1 + 0x1p-40) + 0x1p-40 * size - pair_test.threshold(w.i, w.j);
       if (upper < least && pair_test.admits(w.i, w.j)) least = upper;
