@@ -62,6 +62,14 @@ TEST(PublicFace, IsAllThatUsersAreShown) {
 
 TEST(Conventions, EveryFileKeepsThem) { EXPECT_EQ(joined(architecture::convention_violations(library())), ""); }
 
+TEST(Conventions, EveryConceptHasANonModel) {
+  EXPECT_EQ(joined(architecture::untested_concepts(library(), architecture::read_sources(root, {"tests/static"}))), "");
+  EXPECT_EQ(architecture::untested_concepts({{"x.hpp", {"concept A = true;", "concept B = true;"}}},
+                                            {{"y.cpp", {"static_assert(A<int> && !detail::B<int>);"}}})
+                .size(),
+            1U);
+}
+
 TEST(Conventions, TopLevelHoldsNothingElse) { EXPECT_EQ(joined(architecture::strangers_at_top(root)), ""); }
 
 /// Presets that share a build folder take each other's programs away.

@@ -48,6 +48,22 @@ inline std::vector<std::string> convention_violations(const SourceTree& tree) {
   return violations;
 }
 
+/// Concepts of the library that tests/static does not show a non-model of, "!Concept<...>".
+inline std::vector<std::string> untested_concepts(const SourceTree& library, const SourceTree& tests) {
+  static const std::regex concept_name(R"re(^\s*concept\s+(\w+))re");
+  std::string text;
+  for (const auto& [path, lines] : tests)
+    for (const std::string& line : lines) text += line + "\n";
+  std::vector<std::string> untested;
+  for (const auto& [path, lines] : library)
+    for (const std::string& line : lines)
+      if (std::smatch match; std::regex_search(line, match, concept_name))
+        if (const std::string name = match[1].str() + "<";
+            text.find("!" + name) == std::string::npos && text.find("!detail::" + name) == std::string::npos)
+          untested.push_back(path + ": concept " + match[1].str() + " has no non-model in tests/static");
+  return untested;
+}
+
 /// Includes of libraries that serve as oracles, outside the folders made for them.
 inline std::vector<std::string> oracle_violations(const SourceTree& tree) {
   std::vector<std::string> violations;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Models and non-models of every concept; to compile is to pass.
+#include <array>
 #include <type_traits>
+#include <vector>
 
 #include "hinge/engine/brute.hpp"
 #include "hinge/engine/lazy.hpp"
@@ -11,6 +13,7 @@
 #include "hinge/primitive/point.hpp"
 #include "hinge/primitive/sphere.hpp"
 #include "hinge/primitive/triangle.hpp"
+#include "hinge/query/link_pair_hits.hpp"
 
 namespace hinge::static_test {
 
@@ -47,6 +50,40 @@ struct NoCopy {
 };
 static_assert(!Primitive<NoCopy>);
 
+/// A plain primitive; classes derived from it get one refinement almost right.
+struct Plain {
+  Plain placed(const Pose&) const noexcept { return *this; }
+  Aabb bounds() const noexcept { return {}; }
+  friend double squared_distance(const Plain&, const Plain&) noexcept { return 0.0; }
+};
+template <class P>
+concept RefinesNothing = Primitive<P> && !HasClosestPoints<P> && !HasHull<P> && !Certifiable<P> &&
+                         !HasAxisInvariance<P> && !ChecksItself<P> && !IsPointLike<P>;
+static_assert(!Primitive<int> && RefinesNothing<Plain> && !RefinesNothing<Point>);
+
+struct OnePoint {
+  OnePoint placed(const Pose&) const noexcept { return *this; }
+  Aabb bounds() const noexcept { return {}; }
+  friend double squared_distance(const OnePoint&, const OnePoint&) noexcept { return 0.0; }
+  friend Vec3 closest_points(const OnePoint&, const OnePoint&) noexcept { return {}; }  // one point instead of two
+  std::array<Vec3, 2> hull() const noexcept { return {}; }                              // without hull_radius
+  bool fixed_on_axis(const Vec3&) const noexcept { return true; }                       // without the axis
+  int is_valid() const noexcept { return 1; }                                           // not a bool
+  static constexpr bool is_point_like = false;
+};
+static_assert(RefinesNothing<OnePoint>);
+static_assert(HasClosestPoints<Point> && HasClosestPoints<Triangle> && HasHull<Sphere> && HasHull<Triangle>);
+static_assert(HasAxisInvariance<Point> && ChecksItself<Sphere> && IsPointLike<Point> && !IsPointLike<Sphere>);
+static_assert(Certifiable<Point> && Certifiable<Sphere> && Certifiable<Capsule> && Certifiable<Triangle>);
+/// The motion of a segment can be bounded only along the direction of its closest points.
+struct Segment : Plain {
+  Segment placed(const Pose&) const noexcept { return *this; }
+  std::array<Vec3, 2> hull() const noexcept { return {}; }
+  double hull_radius() const noexcept { return 0.0; }
+  friend double squared_distance(const Segment&, const Segment&) noexcept { return 0.0; }
+};
+static_assert(HasHull<Segment> && !HasClosestPoints<Segment> && !Certifiable<Segment>);
+
 static_assert(PairFilter<AdmitAll> && PairFilter<DifferentLinks> && !ListsExclusions<DifferentLinks>);
 /// Declares admits anew, which hides all of its base's.
 template <class Stock>
@@ -64,6 +101,16 @@ struct AnswersInt {
 struct Mutates {
   bool admits(PrimitiveId, PrimitiveId) noexcept { return true; }
 };
+struct WordyFilter {
+  bool admits(PrimitiveId, PrimitiveId) const noexcept { return true; }
+  std::vector<int> excluded(PrimitiveId) const noexcept { return {}; }  // numbers are no primitives
+  int admits(LinkId, LinkId) const noexcept { return 1; }               // not a bool
+  int size() const noexcept { return 0; }                               // not a std::size_t
+  std::vector<int> links() const noexcept { return {}; }
+};
+static_assert(PairFilter<WordyFilter> && !ListsExclusions<WordyFilter> && !AdmitsLinks<WordyFilter>);
+static_assert(!KnowsSize<WordyFilter> && !KnowsLinks<WordyFilter>);
+static_assert(AdmitsLinks<DifferentLinks> && KnowsSize<DifferentLinks> && KnowsLinks<DifferentLinks>);
 static_assert(!PairFilter<TakesNumbers> && !PairFilter<AnswersInt> && !PairFilter<Mutates> && !PairFilter<Point>);
 
 static_assert(DistanceMatrix<UniformClearance> && CrossMatrix<TypedThresholds> && KnowsSize<TypedThresholds>);
@@ -75,6 +122,14 @@ struct OwnOnly : NoReach {
 };
 static_assert(!DistanceMatrix<NoReach> && DistanceMatrix<OwnOnly> && !CrossMatrix<OwnOnly> && !KnowsSize<OwnOnly>);
 
+struct RoundsSums : OwnOnly {
+  double sum(PrimitiveId, PrimitiveId) const noexcept { return 1.0; }  // rounded: the terms are asked for
+};
+struct SumsRadii : OwnOnly {
+  RadiusSum sum(PrimitiveId, PrimitiveId) const noexcept { return {}; }
+};
+static_assert(!AdditiveRadii<RoundsSums> && AdditiveRadii<SumsRadii>);
+
 static_assert(Collector<AnyHit> && Collector<HitsWithin> && Collector<Closest>);
 struct NeverDone {
   static constexpr bool ranks = false;
@@ -82,6 +137,19 @@ struct NeverDone {
   double cutoff() const noexcept { return 0.0; }
 };
 static_assert(!Collector<NeverDone>);
+struct Plainest : NeverDone {
+  bool done() const noexcept { return false; }
+  static constexpr bool stops_at_first = false, keeps_smallest = true;  // keeps_smallest without ranks
+  void add_measured(const Hit&) {}                                      // without the error
+  int wants(LinkId, LinkId) const noexcept { return 1; }                // not a bool
+};
+static_assert(Collector<Plainest> && !StopsAtFirst<Plainest> && !KeepsSmallest<Plainest>);
+static_assert(!TakesErrors<Plainest> && !RefusesLinks<Plainest>);
+static_assert(StopsAtFirst<AnyHit> && KeepsSmallest<Closest> && RefusesLinks<LinkPairHits>);
+struct Measured : Plainest {
+  void add_measured(const Hit&, double) {}
+};
+static_assert(TakesErrors<Measured>);
 
 template <class E, class P>
 concept EngineFor = Engine<E, P, AdmitAll, UniformClearance>;
@@ -90,7 +158,7 @@ static_assert(EngineFor<Lazy<Triangle, AdmitAll, UniformClearance>, Triangle>);
 static_assert(!EngineFor<Lazy<Point, AdmitAll, UniformClearance>, Sphere>);
 static_assert(EngineFor<Simd<Point, AdmitAll, UniformClearance>, Point>);
 static_assert(EngineFor<Simd<Triangle, AdmitAll, UniformClearance>, Triangle>);
-static_assert(!EngineFor<detail::LazyTree, Point>);
+static_assert(!EngineFor<detail::LazyTree, Point> && !Engine<Model<Point>, Point, AdmitAll, UniformClearance>);
 static_assert(CrossEngine<Lazy<Point, AdmitAll, UniformClearance>, Point, AdmitAll, UniformClearance, AdmitAll>);
 static_assert(!CrossEngine<Lazy<Point, AdmitAll, OwnOnly>, Point, AdmitAll, OwnOnly, AdmitAll>);
 static_assert(CrossEngine<Simd<Point, AdmitAll, TypedThresholds>, Point, AdmitAll, TypedThresholds, AdmitAll>);
@@ -113,6 +181,7 @@ static_assert(TypedThresholdMatrix<TypedThresholds> && !TypedThresholdMatrix<Uni
 static_assert(!AdditiveRadii<TypedThresholds> && !AdditiveRadii<UniformClearance>);
 static_assert(detail::TransformsBatch<Point> && !detail::TransformsBatch<Sphere>);
 static_assert(detail::TurnsOne<Point> && !detail::TurnsOne<Sphere>);
+static_assert(detail::MeasuresDistances<Point> && !detail::MeasuresDistances<Sphere>);
 
 static_assert(Id<PrimitiveId> && !Id<int> && !std::is_convertible_v<LinkId, PrimitiveId>);
 
