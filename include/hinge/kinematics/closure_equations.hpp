@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ClosureEquations: the residuals of a tree's closures as functions of the selected DOF, and their derivatives.
+// ClosureEquations: the closure residuals of a tree as functions of the selected DOF, with their derivatives.
 #pragma once
 
 #include <algorithm>
@@ -24,81 +24,92 @@
 
 namespace hinge {
 
-/// Positions of all closures of a tree.
+/// Returns the indices of all closures of a tree.
 inline std::vector<std::size_t> all_closures(const KinematicTree& tree) {
   std::vector<std::size_t> closures(tree.closures().size());
   std::iota(closures.begin(), closures.end(), std::size_t{0});
   return closures;
 }
 
-/// A closure gives six rows (two points, first link's minus second's) or, with lengths, three. A column is a selected
-/// DOF on the cycle of some closure: one between its links and where their ways to the world meet. Forward kinematics
-/// in the order of operations of Pose; only groups some closure needs are placed.
+/// Residuals and Jacobian of some closures. A closure gives six rows (two points, first link minus second link) or,
+/// with lengths, three. A column is a selected DOF on the cycle of a closure: on the path between its two links.
+/// Forward kinematics uses the order of operations of Pose and computes only the groups that closures need. Not
+/// thread-safe.
 class ClosureEquations {
  public:
-  /// Those of all closures of the tree. ModelError: a selection made for another tree.
+  /// Equations of all closures of the tree at the reference. ModelError: a selection for another tree.
   ClosureEquations(const KinematicTree& tree, const DofSelection& selection)
       : ClosureEquations(tree, selection, all_closures(tree)) {}
-  /// Those of some closures, positions in tree.closures(); they are numbered as given here.
+  /// Equations of the closures with these indices in tree.closures(), renumbered 0, 1, ... in the given order.
+  /// ModelError: also an index that does not exist.
   ClosureEquations(const KinematicTree& tree, const DofSelection& selection, std::span<const std::size_t> closures);
 
-  /// Places everything at q, one value per selected DOF. ConfigurationError: wrong length, a value that is not finite.
+  /// Evaluates the residuals at q, one value per selected DOF. ConfigurationError: wrong length, or a value that is not
+  /// finite.
   void set(std::span<const double> q);
-  /// Fills jacobian() at the q of set().
+  /// Computes jacobian() at the q of the last set().
   void compute_jacobian() noexcept;
 
+  /// Returns the number of equations.
   std::size_t rows() const noexcept { return residuals_.size(); }
+  /// Returns the number of columns.
   std::size_t columns() const noexcept { return column_dof_.size(); }
+  /// Returns the number of selected DOF: the length of q.
   std::size_t dof_count() const noexcept { return dof_count_; }
-  /// Position of a column's DOF in the configuration.
+  /// Returns the index in q of a column's DOF.
   std::size_t position(std::size_t column) const noexcept { return column_dof_[column]; }
-  /// Row by row, model length unit.
+  /// Returns the residuals, rows() values, model length unit.
   const std::vector<double>& residuals() const noexcept { return residuals_; }
-  /// d(row)/d(column) at [row * columns() + column].
+  /// Returns d(row)/d(column) at [row * columns() + column], per rad or per model length unit.
   const std::vector<double>& jacobian() const noexcept { return jacobian_; }
-  /// Half the sum of squared residuals.
+  /// Returns half the sum of squared residuals.
   double cost() const noexcept { return cost_; }
-  /// The largest residual of a closure as closure_residual() has it.
+  /// Returns the largest closure_residual() of all closures, model length unit.
   double worst() const noexcept { return worst_; }
 
+  /// Returns the number of closures.
   std::size_t closure_count() const noexcept { return cycles_.size(); }
-  /// A closure's residual as closure_residual() has it.
+  /// Returns the closure_residual() of one closure, model length unit.
   double residual(std::size_t closure) const noexcept {
     const Cycle& cycle = cycles_[closure];
     return closure_residual(cycle.closure, poses_[cycle.first], poses_[cycle.second]);
   }
-  /// First row of a closure, and the columns of its cycle.
+  /// Returns the first row of a closure.
   std::size_t first_row(std::size_t closure) const noexcept { return cycles_[closure].first_row; }
+  /// Returns the number of rows of a closure.
   std::size_t row_count(std::size_t closure) const noexcept { return keeps_lengths(closure) ? 3 : 6; }
+  /// Returns true when the closure fixes lengths instead of points.
   bool keeps_lengths(std::size_t closure) const noexcept { return cycles_[closure].closure.lengths.has_value(); }
+  /// Returns the columns on the cycle of a closure, sorted.
   std::vector<std::size_t> columns_of(std::size_t closure) const;
-  /// The farthest a closure's point of this row is from the axis point of this column's joint, model length unit.
+  /// Returns the largest distance between a point of the closure and the axis point of the column's joint, model length
+  /// unit; 0 when the column is not on the cycle.
   double lever(std::size_t closure, std::size_t column) const noexcept;
 
-  /// The shortest length a closure with lengths keeps.
+  /// Returns the smallest fixed length of a closure with lengths, model length unit.
   double shortest_length(std::size_t closure) const noexcept {
     return std::ranges::min(*cycles_[closure].closure.lengths);
   }
 
-  /// The largest change of a turn in a step given by columns, rad.
+  /// Returns the largest magnitude of a revolute joint's change in a step (columns() values), rad.
   double longest_turn(std::span<const double> step) const noexcept;
-  /// q += scale * step.
+  /// q += scale * step. step: columns() values; q: dof_count() values.
   void add(std::span<const double> step, double scale, std::span<double> q) const noexcept;
-  /// Brings turns of these DOF to [-pi, pi].
+  /// Reduces the angles of the revolute columns to [-pi, pi]. q: dof_count() values.
   void wrap(std::span<double> q) const noexcept;
 
  private:
-  struct Mover {  // a joint on one side of a cycle
+  struct Mover {  // a joint on the cycle; moves_first: on the side of the first link
     std::size_t column, group;
     bool moves_first;
   };
   struct Cycle {
-    Closure closure;  // points in the frames of the rigid groups
+    Closure closure;  // points in the frames of their rigid groups
     std::size_t first, second, first_row;
     std::vector<Mover> movers{};
   };
   struct Axis {
-    Vec3 direction, point;  // world
+    Vec3 direction, point;  // world frame
   };
 
   static Vec3 derivative(bool turns, const Axis& axis, const Vec3& at) noexcept {
@@ -113,9 +124,9 @@ class ClosureEquations {
   RigidGroups groups_;
   std::size_t dof_count_;
   std::vector<Cycle> cycles_;
-  std::vector<std::size_t> needed_;  // groups some closure hangs on, parents first
-  std::vector<Pose> poses_;          // by group; of those needed
-  std::vector<Axis> axes_;           // by group
+  std::vector<std::size_t> needed_;  // groups on the path from a closure to the world, parents first
+  std::vector<Pose> poses_;          // per group; only needed_ is computed
+  std::vector<Axis> axes_;           // per group
   std::vector<std::size_t> column_dof_, column_group_;
   std::vector<double> residuals_, jacobian_;
   double cost_ = 0.0, worst_ = 0.0;
@@ -141,7 +152,7 @@ inline ClosureEquations::ClosureEquations(const KinematicTree& tree, const DofSe
     }
     std::size_t a = cycle.first, b = cycle.second;
     while (a != b) {
-      const bool first = a > b;  // parents come first
+      const bool first = a > b;  // parents have smaller indices
       std::size_t& g = first ? a : b;
       if (column_of[g] == none) {
         column_of[g] = column_dof_.size();

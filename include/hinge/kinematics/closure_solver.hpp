@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ClosureSolver: moves a configuration onto the set where every closure of a tree holds.
+// ClosureSolver: changes a configuration so that the closures of a tree hold.
 #pragma once
 
 #include <algorithm>
@@ -19,24 +19,27 @@
 
 namespace hinge {
 
+/// Settings of ClosureSolver.
 struct ClosureOptions {
-  /// Closed: no closure's residual is larger (model length unit). Steps converge quadratically, so the next decimals
-  /// cost one step at most; positions of a chain 10^4 units long are known to 1e-11.
+  /// Largest accepted residual of a closure (model length unit). Convergence is quadratic, so further decimals cost at
+  /// most one step. Positions in a chain of 10^4 units are accurate to 1e-11.
   double tolerance = 1e-9;
-  /// Steps after which a start is given up; what closes at all needs a tenth (docs/explanation/closures.md).
+  /// Maximum number of steps, >= 0. Solvable starts need about a tenth of it (docs/explanation/closures.md).
   int most_steps = 200;
 };
 
-/// Levenberg and Marquardt's damped least squares on all closures together: each step is the smallest change of the
-/// selected DOF that closes the linearised cycles (J. More, "The Levenberg-Marquardt algorithm: implementation and
-/// theory", 1978), so the result stays near the start. One per thread. The result is a function of the start alone, the
-/// same bits on every CPU.
+/// Damped least squares of Levenberg and Marquardt on all closures together (J. More, "The Levenberg-Marquardt
+/// algorithm: implementation and theory", 1978). Each step is the smallest change of the selected DOF that closes the
+/// linearised cycles, so the result stays near the start. The result depends on the start alone and has the same bits
+/// on every CPU. Not thread-safe: use one object per thread.
 class ClosureSolver {
  public:
-  /// ModelError: a selection made for another tree; numbers out of range.
+  /// Closes all closures. ModelError: a selection for another tree, a tolerance that is not a length above 0, or
+  /// negative most_steps.
   ClosureSolver(const KinematicTree& tree, const DofSelection& selection, const ClosureOptions& options = {})
       : ClosureSolver(tree, selection, all_closures(tree), options) {}
-  /// Closes some closures of the tree, positions in tree.closures(), and leaves the others as they come.
+  /// Closes the closures with these indices in tree.closures() and ignores the others. ModelError: also an unknown
+  /// index.
   ClosureSolver(const KinematicTree& tree, const DofSelection& selection, std::span<const std::size_t> closures,
                 const ClosureOptions& options = {})
       : equations_(tree, selection, closures), options_(options) {
@@ -46,17 +49,19 @@ class ClosureSolver {
       throw ModelError("closure steps " + std::to_string(options.most_steps) + ": expected at least 0");
   }
 
-  /// q: one value per selected DOF (rad or model length unit), changed in place; turns come back in [-pi, pi]. True
-  /// when all closures hold within the tolerance; q is then closed, otherwise as near as the solver came.
-  /// ConfigurationError: wrong length or a value that is not finite.
+  /// Changes q in place. q: one value per selected DOF, rad or model length unit. Angles on cycles are reduced to [-pi,
+  /// pi]. Returns true when all closures hold within the tolerance; otherwise q is the best configuration found.
+  /// ConfigurationError: wrong length, or a value that is not finite.
   bool close(std::span<double> q);
 
-  /// The worst residual of the last close(), model length unit.
+  /// Returns the largest residual after the last close(), model length unit.
   double residual() const noexcept { return equations_.worst(); }
+  /// Returns the number of steps of the last close().
   int steps() const noexcept { return steps_; }
-  /// The residual of one closure after the last close(), model length unit. `k` counts the closures it was made for.
+  /// Returns the residual of closure k after the last close(), model length unit. k counts the closures of the
+  /// constructor.
   double residual(std::size_t k) const noexcept { return equations_.residual(k); }
-  /// Which values of q it may change: true for a DOF in the cycle of some closure. One entry per selected DOF.
+  /// Returns one entry per selected DOF: true when it is on the cycle of a closure, so close() may change it.
   std::vector<bool> dofs_in_cycles() const {
     std::vector<bool> in_cycle(equations_.dof_count(), false);
     for (std::size_t column = 0; column < equations_.columns(); ++column) in_cycle[equations_.position(column)] = true;
@@ -72,12 +77,12 @@ class ClosureSolver {
   int steps_ = 0;
 };
 
-/// Turns are limited to this a step (rad): linearised cycles say nothing about turns of a radian.
+/// Largest joint rotation per step (rad). The linearisation is useless for rotations near one radian.
 inline constexpr double largest_closing_turn = 0.6;
 
 inline bool ClosureSolver::close(std::span<double> q) {
-  // A start is given up when ten steps in a row have not taken a hundredth off the residual: a minimum that is not
-  // closed, which is where starts end that never close.
+  // Stop when ten steps in a row reduce the residual by less than 1 percent. The search is then near a local minimum
+  // that is not closed.
   constexpr int patience = 10;
   constexpr double progress = 0.99;
   equations_.set(q);
@@ -115,8 +120,8 @@ inline bool ClosureSolver::close(std::span<double> q) {
   return equations_.worst() <= options_.tolerance;
 }
 
-/// The damped step (0 where numbers overflow), by the smaller of the two systems: J^T (J J^T + d I)^-1 r or (J^T J + d
-/// I)^-1 J^T r.
+/// Computes the damped step from the smaller of two equivalent systems: J^T (J J^T + d I)^-1 r or (J^T J + d I)^-1 J^T
+/// r. The step is 0 when numbers overflow.
 inline void ClosureSolver::solve(double damping) noexcept {
   const std::size_t m = equations_.rows(), n = equations_.columns();
   const std::vector<double>&j = equations_.jacobian(), &r = equations_.residuals();
@@ -144,11 +149,12 @@ inline void ClosureSolver::solve(double damping) noexcept {
   }
   double largest = 0.0;
   for (std::size_t a = 0; a < size; ++a) largest = std::max(largest, matrix_[a * size + a]);
-  // Redundant equations (a hinge is six of which one follows) leave the matrix singular; this much always holds.
+  // Redundant equations make the matrix singular (of the six equations of a hinge, one depends on the others). This
+  // minimum damping keeps it positive definite.
   double extra = std::max(damping, 0x1p-40) * largest;
   step_.assign(n, 0.0);
   for (bool factored = false; !factored; extra *= 16.0) {
-    if (!(extra > 0.0) || !is_finite(extra)) return;  // no DOF moves any closure, or products overflow
+    if (!(extra > 0.0) || !is_finite(extra)) return;  // no DOF moves a closure, or products overflow
     factor_ = matrix_;
     for (std::size_t a = 0; a < size; ++a) factor_[a * size + a] += extra;
     factored = detail::factor_cholesky(factor_, size);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// DofSelection: which degrees of freedom change from query to query; all others keep their reference value 0.
+// DofSelection: the degrees of freedom (DOF) that change between queries. All others keep their reference value 0.
 #pragma once
 
 #include <algorithm>
@@ -15,16 +15,17 @@
 
 namespace hinge {
 
-/// A sorted set of DOF of one tree. A configuration under a selection has one value per selected DOF, in that order.
+/// A sorted set of DOF of one tree. A configuration under a selection has size() values, in increasing DofId order.
 class DofSelection {
  public:
+  /// Selects every DOF of the tree.
   static DofSelection all(const KinematicTree& tree) {
     std::vector<DofId> free;
     for (std::size_t k = 0; k < tree.dof_count(); ++k) free.push_back(id<DofId>(k));
     return {tree, std::move(free)};
   }
 
-  /// ModelError: a DOF the tree does not have, or one named twice.
+  /// free: the selected DOF, in any order. ModelError: a DOF that the tree does not have, or a duplicate.
   DofSelection(const KinematicTree& tree, std::vector<DofId> free) : free_(std::move(free)) {
     std::sort(free_.begin(), free_.end());
     for (std::size_t k = 0; k < free_.size(); ++k) {
@@ -36,7 +37,9 @@ class DofSelection {
     }
   }
 
+  /// Returns the number of selected DOF.
   std::size_t size() const noexcept { return free_.size(); }
+  /// Returns the selected DOF in increasing order, valid while this object lives.
   std::span<const DofId> dofs() const noexcept { return free_; }
 
  private:

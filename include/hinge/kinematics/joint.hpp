@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joints: what connects a link to its parent, and the motion one value of its coordinate makes.
+// Joints: the connection of a link to its parent, and the motion for a given joint value.
 #pragma once
 
 #include <array>
@@ -12,47 +12,49 @@
 
 namespace hinge {
 
-/// The child does not move against the parent.
+/// A rigid connection of child and parent.
 struct Fixed {
   Pose origin{};  ///< child frame in the parent frame
 };
 
-/// The child turns by q radians about the line through `point` along `axis`.
+/// The child rotates by q radians about the line through `point` along `axis`.
 struct Revolute {
-  Vec3 axis = Vec3::UnitZ();  ///< any length but zero, child frame
-  Vec3 point = Vec3::Zero();  ///< any point of the line, child frame
+  Vec3 axis = Vec3::UnitZ();  ///< any length except 0, child frame
+  Vec3 point = Vec3::Zero();  ///< any point of the line, child frame, model length unit
   Pose origin{};              ///< child frame in the parent frame at q = 0
-  std::string name{};
+  std::string name{};         ///< for error messages and output; may be empty
 };
 
-/// The child slides by q (model length unit) along `axis`.
+/// The child translates by q (model length unit) along `axis`.
 struct Prismatic {
-  Vec3 axis = Vec3::UnitZ();  ///< any length but zero, child frame
+  Vec3 axis = Vec3::UnitZ();  ///< any length except 0, child frame
   Pose origin{};              ///< child frame in the parent frame at q = 0
-  std::string name{};
+  std::string name{};         ///< for error messages and output; may be empty
 };
 
 enum class JointKind : unsigned char { fixed, revolute, prismatic };
 
-/// Any of the three: T(child) = T(parent) * origin * motion(q).
+/// Any of the three kinds. The world pose of the child is T(child) = T(parent) * origin * motion(q).
 struct Joint {
   JointKind kind = JointKind::fixed;
-  Pose origin{};
-  Vec3 axis = Vec3::UnitZ();  ///< unit length once in a tree
-  Vec3 point = Vec3::Zero();
-  std::string name{};
+  Pose origin{};              ///< child frame in the parent frame at q = 0
+  Vec3 axis = Vec3::UnitZ();  ///< child frame; the tree normalises it to unit length
+  Vec3 point = Vec3::Zero();  ///< a point of a revolute axis, child frame, model length unit
+  std::string name{};         ///< for error messages and output; may be empty
 
+  /// A fixed joint with the identity as origin.
   Joint() = default;
   Joint(Fixed j) : origin(std::move(j.origin)) {}
   Joint(Revolute j)
       : kind(JointKind::revolute), origin(j.origin), axis(j.axis), point(j.point), name(std::move(j.name)) {}
   Joint(Prismatic j) : kind(JointKind::prismatic), origin(j.origin), axis(j.axis), name(std::move(j.name)) {}
 
+  /// Returns true for revolute and prismatic joints.
   bool has_dof() const noexcept { return kind != JointKind::fixed; }
 };
 
-/// The rotation about the unit axis (x, y, z) by the angle of this sine and cosine (Rodrigues), column by column, in a
-/// fixed order of operations. T: double, or lanes of it.
+/// Returns the rotation matrix about the unit axis (x, y, z) for an angle with this sine and cosine (Rodrigues), column
+/// by column, in a fixed order of operations. T: double, or SIMD lanes of double.
 template <class T>
 [[gnu::always_inline]] inline std::array<T, 9> rotation_columns(const T& x, const T& y, const T& z, const T& sine,
                                                                 const T& cosine) noexcept {
@@ -63,14 +65,15 @@ template <class T>
           x * z * v + ys,     y * z * v - xs,     cosine + z * z * v};
 }
 
-/// The rotation by `angle` (rad) about a unit axis; exactly the identity at 0.
+/// Returns the rotation by `angle` (rad) about a unit axis. It is exactly the identity for angle 0.
 inline Mat3 rotation_about(const Vec3& axis, double angle) noexcept {
   const detail::SinCos sc = detail::sincos(angle);
   const auto columns = rotation_columns(axis[0], axis[1], axis[2], sc.sin, sc.cos);
   return Eigen::Map<const Mat3>(columns.data());
 }
 
-/// The motion a joint with a unit axis makes at q (rad or model length unit). Exactly the identity at q = 0.
+/// Returns the motion of a joint with a unit axis at q (rad or model length unit), in the child frame at q = 0. It is
+/// exactly the identity for q = 0.
 inline Pose motion(const Joint& joint, double q) noexcept {
   Pose pose;
   if (joint.kind == JointKind::revolute) {

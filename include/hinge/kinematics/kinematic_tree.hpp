@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// KinematicTree: links joined by joints as a spanning tree, plus the closures that turn it into cycles.
+// KinematicTree: links and joints as a spanning tree, and closures that close cycles.
 #pragma once
 
 #include <algorithm>
@@ -21,44 +21,52 @@
 
 namespace hinge {
 
-/// A cycle of the mechanism: two links that the spanning tree does not join must agree on two points of a line (the
-/// hinge or bond that closes the cycle). Points in the frames of the two links, model length unit.
-/// With `lengths`, less is asked: points 0 are the ends of a bond and points 1 their neighbours, and only the distances
-/// 0-0, 0-1 and 1-0 (first link - second link) are kept: the bond's length and its two angles, none of its torsions.
+/// Closes a cycle of the mechanism: two points on a line (a hinge or a bond) must coincide on two links that have no
+/// joint in the spanning tree. Points in the frames of the two links, model length unit. With `lengths` the condition
+/// is weaker: points 0 are the ends of a bond and points 1 their neighbours, and only the distances 0-0, 0-1 and 1-0
+/// (first link - second link) are fixed. These are the bond length and its two bond angles; torsions stay free.
 struct Closure {
-  LinkId first{};
-  LinkId second{};
-  std::array<Vec3, 2> in_first{};
-  std::array<Vec3, 2> in_second{};
-  std::string name{};
-  std::optional<std::array<double, 3>> lengths{};
+  LinkId first{};                                  ///< first link
+  LinkId second{};                                 ///< second link
+  std::array<Vec3, 2> in_first{};                  ///< points 0 and 1 in the frame of the first link
+  std::array<Vec3, 2> in_second{};                 ///< points 0 and 1 in the frame of the second link
+  std::string name{};                              ///< for error messages; may be empty
+  std::optional<std::array<double, 3>> lengths{};  ///< distances 0-0, 0-1, 1-0, each > 0
 };
 
-/// The points whose distances a closure with lengths keeps: of the first link and of the second.
+/// Point indices (first link, second link) of the three distances that a closure with lengths fixes.
 inline constexpr std::array<std::array<std::size_t, 2>, 3> kept_lengths{{{0, 0}, {0, 1}, {1, 0}}};
 
-/// Link 0 is the world; every other link hangs on an earlier one by one joint. Degrees of freedom are numbered in the
-/// order their links were added. A configuration is one value per DOF: rad (revolute) or model length unit (prismatic).
+/// Link 0 is the world. Every other link has one joint to a parent with a smaller index. DOF are numbered in the order
+/// in which their links were added. A configuration has one value per DOF: rad (revolute) or model length unit
+/// (prismatic). Const access is thread-safe. References and spans are valid until the next change of the tree.
 class KinematicTree {
  public:
+  /// A tree with the world link only.
   KinematicTree() : parent_{world}, joint_(1), dof_of_link_(1) {}
 
-  /// Adds a link. ModelError: unknown parent, an axis that is zero or not finite, an axis point that is no length, an
-  /// origin that is no rigid placement. What is refused, here and below, leaves the tree as it was.
+  /// Adds a link and returns its id. ModelError: unknown parent, an axis that is zero or not finite, an axis point that
+  /// is not a length, or an origin that is not rigid (is_rigid). The tree does not change on error, here and below.
   LinkId add_link(LinkId parent, Joint joint);
-  /// The link add_link would add, with its axis at unit length; the same refusals.
+  /// Returns the joint as add_link would store it: with a unit axis. ModelError: as add_link.
   Joint checked(LinkId parent, Joint joint) const;
 
-  /// Adds a closure. ModelError: unknown or equal links, points that are no lengths, lengths not above 0.
+  /// Adds a closure. ModelError: unknown or equal links, points that are not lengths, or lengths that are not above 0.
   void add_closure(Closure closure);
 
+  /// Returns the number of links, including the world.
   std::size_t link_count() const noexcept { return parent_.size(); }
+  /// Returns the number of DOF.
   std::size_t dof_count() const noexcept { return link_of_dof_.size(); }
+  /// Returns the parent of a link. The world is its own parent.
   LinkId parent(LinkId link) const noexcept { return parent_[index(link)]; }
+  /// Returns the joint between a link and its parent.
   const Joint& joint(LinkId link) const noexcept { return joint_[index(link)]; }
+  /// Returns the link that a DOF moves.
   LinkId link_of(DofId dof) const noexcept { return link_of_dof_[index(dof)]; }
-  /// The DOF of a link's own joint; only for links whose joint has one.
+  /// Returns the DOF of a link's joint. Only valid when the joint has a DOF.
   DofId dof_of(LinkId link) const noexcept { return dof_of_link_[index(link)]; }
+  /// Returns all closures in the order in which they were added.
   std::span<const Closure> closures() const noexcept { return closures_; }
 
  private:
@@ -69,8 +77,8 @@ class KinematicTree {
   std::vector<Closure> closures_;
 };
 
-/// Largest distance (model length unit) between the two positions a closure's points have, given the poses of its
-/// links; of a closure with lengths, the largest departure from one of them.
+/// Returns the residual of a closure for the given world poses of its links (model length unit): the largest distance
+/// between its paired points or, with lengths, the largest deviation of a distance.
 inline double closure_residual(const Closure& closure, const Pose& first, const Pose& second) noexcept {
   double worst = 0.0;
   if (closure.lengths) {
@@ -96,7 +104,7 @@ inline Joint KinematicTree::checked(LinkId parent, Joint joint) const {
   if (!is_finite(joint.axis)) throw ModelError(who + ": the axis is not finite");
   if (!is_length(joint.point)) throw ModelError(who + ": the axis point is not finite, or beyond 2^1000");
   if (!joint.has_dof()) return joint;
-  // By a power of two first, which rounds nothing: the squares of a tiny or huge axis leave the range of doubles.
+  // Scale by a power of two first, which is exact: squares of a tiny or huge axis would underflow or overflow.
   double largest = 0.0;
   for (const double x : joint.axis) largest = std::max(largest, std::abs(x));
   if (largest == 0.0) throw ModelError(who + ": the axis has length 0, expected any other");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// RigidGroups: links that cannot move against each other under a DOF selection, merged; a tree of groups remains.
+// RigidGroups: merges links that cannot move relative to each other under a DOF selection, and keeps the tree of
+// groups.
 #pragma once
 
 #include <cstddef>
@@ -17,21 +18,22 @@
 
 namespace hinge {
 
-/// One maximal set of links whose mutual placement is constant. Its frame is that of its topmost link.
+/// One maximal set of links with constant relative poses. Its frame is the frame of its topmost link.
 struct RigidGroup {
-  GroupId parent{};     ///< an earlier group; group 0, which holds the world, is its own parent
-  Joint joint{};        ///< free joint to the parent; origin is relative to the parent group's frame
-  std::size_t dof = 0;  ///< position of the joint's value in the selected configuration
+  GroupId parent{};     ///< a group with a smaller index; group 0 (the world) is its own parent
+  Joint joint{};        ///< joint to the parent group; origin: group frame in the parent group's frame
+  std::size_t dof = 0;  ///< index of the joint's value in the selected configuration
 };
 
 namespace detail {
 class PoseSource;
 }
 
-/// Groups in topological order (parents first). Group 0 is the one of the world and never moves.
+/// Groups in topological order (parents first). Group 0 contains the world and never moves. Constant after
+/// construction.
 class RigidGroups {
  public:
-  /// ModelError: a selection made for another tree, with a DOF that this one has not.
+  /// ModelError: the selection has a DOF that the tree does not have (it belongs to another tree).
   RigidGroups(const KinematicTree& tree, const DofSelection& selection) {
     if (selection.size() > 0 && index(selection.dofs().back()) >= tree.dof_count())
       throw ModelError("selected DOF " + std::to_string(index(selection.dofs().back())) + ": the model's tree has " +
@@ -65,16 +67,19 @@ class RigidGroups {
     }
   }
 
+  /// Returns the number of groups.
   std::size_t size() const noexcept { return groups_.size(); }
+  /// Returns a group. The reference is valid while this object lives.
   const RigidGroup& operator[](GroupId group) const noexcept { return groups_[index(group)]; }
+  /// Returns the group of a link.
   GroupId group_of(LinkId link) const noexcept { return group_of_[index(link)]; }
-  /// The link's frame in its group's frame (constant).
+  /// Returns the constant pose of a link's frame in the frame of its group.
   const Pose& link_in_group(LinkId link) const noexcept { return link_in_group_[index(link)]; }
 
  private:
   friend class detail::PoseSource;
 
-  /// The joints of groups 1 .. size() - 1, eight by eight.
+  /// Returns the joints of groups 1 .. size() - 1 in batches of eight.
   std::span<const detail::JointBatch> joint_batches() const noexcept { return batches_; }
 
   std::vector<RigidGroup> groups_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FloatBox and BoxRow: boxes in float, one and sixteen side by side, and the test of one against sixteen.
+// FloatBox and BoxRow: a single float box and sixteen float boxes in SIMD layout, and the overlap test between them.
 #pragma once
 
 #include <algorithm>
@@ -12,9 +12,9 @@
 
 namespace hinge::detail {
 
-/// A float that was just rounded, as a double. Where g++ 12 puts two conversions into one register (from -O2 on,
-/// without any flag about floating point) it takes the double of float(x) for x; so it must not see where the float
-/// came from.
+/// Converts a freshly rounded float to double. When g++ 12 combines two conversions in one register (from -O2 on,
+/// without any floating-point flag), it uses x for the double of float(x). The asm statement hides the origin of the
+/// float.
 [[gnu::always_inline]] inline double widened(float x) noexcept {
 #if defined(__GNUC__) && !defined(__clang__)
 #if defined(__x86_64__)
@@ -26,13 +26,13 @@ namespace hinge::detail {
   return static_cast<double>(x);
 }
 
-/// The smallest float not below x.
+/// Returns the smallest float that is not below x.
 inline float float_above(double x) noexcept {
   const auto f = static_cast<float>(x);
   return widened(f) < x ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
 }
 
-/// A closed axis-aligned box in float. The default is empty.
+/// A closed axis-aligned box in float. The default box is empty.
 struct FloatBox {
   std::array<float, 3> lower{std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity(),
                              std::numeric_limits<float>::infinity()};
@@ -42,13 +42,13 @@ struct FloatBox {
   FloatBox() = default;
   FloatBox(const std::array<float, 3>& low, const std::array<float, 3>& high) noexcept : lower(low), upper(high) {}
 
-  /// All of space.
+  /// Returns the box that contains all of space.
   static FloatBox everything() noexcept {
     constexpr float inf = std::numeric_limits<float>::infinity();
     return {{-inf, -inf, -inf}, {inf, inf, inf}};
   }
-  /// Grown by r on every side, up to rounding. (Coordinate by coordinate, here and below: loops over arrays keep small
-  /// boxes in memory, where what was just stored is slow to load again in other portions.)
+  /// Returns the box enlarged by r on every side, up to rounding. The coordinates are written one by one, here and
+  /// below: a loop would keep small boxes in memory, and loads of another width soon after a store are slow.
   [[gnu::always_inline]] FloatBox grown(float r) const noexcept {
     return {{lower[0] - r, lower[1] - r, lower[2] - r}, {upper[0] + r, upper[1] + r, upper[2] + r}};
   }
@@ -59,14 +59,14 @@ struct FloatBox {
     }
     return *this;
   }
-  /// Largest magnitude of a coordinate of a box that is not empty.
+  /// Returns the largest magnitude of a coordinate. The box must not be empty.
   [[gnu::always_inline]] float extent() const noexcept {
     const float low = std::max(std::max(-lower[0], -lower[1]), -lower[2]);
     return std::max(low, std::max(std::max(upper[0], upper[1]), upper[2]));
   }
 };
 
-/// Sixteen boxes, coordinate by coordinate: all lower x, all lower y, ... Unused places hold the empty box.
+/// Sixteen boxes in SIMD layout: all lower x, all lower y, and so on. Unused lanes hold the empty box.
 struct alignas(64) BoxRow {
   static constexpr std::size_t size = simd::width;
   std::array<float, 3 * size> lower;
@@ -90,7 +90,7 @@ struct alignas(64) BoxRow {
     }
     return box;
   }
-  /// The box around all of them.
+  /// Returns the box around all sixteen boxes.
   FloatBox hull() const noexcept {
     FloatBox box;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -101,11 +101,11 @@ struct alignas(64) BoxRow {
   }
 };
 
-/// One box, ready to be held against many rows.
+/// One box, broadcast to all lanes for tests against many rows.
 struct BoxLanes {
   explicit BoxLanes(const FloatBox& box) noexcept
       : lower{box.lower[0], box.lower[1], box.lower[2]}, upper{box.upper[0], box.upper[1], box.upper[2]} {}
-  /// Grown by r on every side, up to rounding.
+  /// Returns the box enlarged by r on every side, up to rounding.
   [[gnu::always_inline]] BoxLanes grown(float r) const noexcept {
     BoxLanes box = *this;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -117,7 +117,7 @@ struct BoxLanes {
   std::array<simd::Float16, 3> lower, upper;
 };
 
-/// Which of the sixteen share a point with the box. NaN counts as apart: coordinates are checked to be finite before.
+/// Returns the lanes whose box shares a point with `box`. A NaN counts as disjoint; coordinates were checked earlier.
 [[gnu::always_inline]] inline simd::Bits overlapping(const BoxRow& row, const BoxLanes& box) noexcept {
   using simd::Float16;
   constexpr std::size_t n = BoxRow::size;

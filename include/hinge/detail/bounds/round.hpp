@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The neighbouring doubles, for bounds that may only grow. Branch-light: called for every box.
+// next_up, next_down: the neighbouring doubles, for bounds that may only grow. Branch-light, since every box uses them.
 #pragma once
 
 #include <bit>
@@ -7,14 +7,14 @@
 
 namespace hinge::detail {
 
-/// The next double above a finite x.
+/// Returns the smallest double above a finite x.
 inline double next_up(double x) noexcept {
   if (x == 0.0) return std::bit_cast<double>(std::uint64_t{1});
   const auto bits = std::bit_cast<std::int64_t>(x);
   return std::bit_cast<double>(bits + (bits >= 0 ? 1 : -1));
 }
 
-/// The next double below a finite x.
+/// Returns the largest double below a finite x.
 inline double next_down(double x) noexcept { return -next_up(-x); }
 
 }  // namespace hinge::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// HINGE_ASSERT: internal invariants, checked in debug builds only. Never used for input.
+// HINGE_ASSERT: checks internal invariants in debug builds. It never validates input.
 #pragma once
 
 #include <cassert>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sine and cosine of our own: the same bits on every CPU and compiler, which libm does not promise.
+// Sine and cosine with the same bits on every CPU and compiler, which libm does not promise.
 #pragma once
 
 #include <array>
@@ -9,28 +9,30 @@
 
 namespace hinge::detail {
 
+/// Sine and cosine of one angle.
 struct SinCos {
   double sin = 0.0;
   double cos = 1.0;
 };
 
-/// sin and cos of a finite angle in radians, within 1.5 ulp for every finite argument; sincos(0) is exactly {0, 1}.
-/// Uses only + - * and integers, so the result depends on nothing but the argument (given -ffp-contract=off).
+/// Returns sin and cos of a finite angle (rad), within 1.5 ulp for every finite argument. sincos(0) is exactly {0, 1}.
+/// It uses only + - * and integers, so the result depends on the argument alone (with -ffp-contract=off).
 SinCos sincos(double angle) noexcept;
 
-/// An angle as quadrant * pi/2 + (high + low), |high| <= pi/4 up to rounding.
+/// An angle reduced to quadrant * pi/2 + (high + low), with |high| <= pi/4 up to rounding.
 struct Reduced {
   unsigned quadrant = 0;
   double high = 0.0;
   double low = 0.0;
 };
 
-/// Below this a quadrant number has 20 bits and its products with the 33-bit parts of pi/2 are exact (Cody & Waite).
+/// Limit of the Cody & Waite reduction (rad). Below it the quadrant number has at most 20 bits, so its products with
+/// the 33-bit parts of pi/2 are exact.
 inline constexpr double cody_waite_limit = 0x1p20;
 
-inline constexpr double rounder = 0x1.8p52;  // adding it leaves no bits for a fraction
+inline constexpr double rounder = 0x1.8p52;  // adding and subtracting it rounds a double to an integer
 
-/// n * pi/2 + (high + low), n the nearest whole number. T: double, or lanes of it.
+/// An angle reduced to n * pi/2 + (high + low), where n is the nearest integer. T: double, or SIMD lanes of double.
 template <class T>
 struct ReducedParts {
   T n, high, low;
@@ -54,10 +56,10 @@ inline Reduced reduce_small(double x) noexcept {
   return {static_cast<unsigned>(static_cast<std::int64_t>(r.n)) & 3U, r.high, r.low};
 }
 
-/// Payne & Hanek: the bits of 2/pi that matter for this exponent, times the 53-bit mantissa, modulo 4.
+/// Reduction of Payne & Hanek for large angles: multiplies the 53-bit mantissa by the relevant bits of 2/pi, modulo 4.
 inline Reduced reduce_large(double x) noexcept {
   __extension__ using Wide = unsigned __int128;
-  // 2/pi = 0.word0 word1 ..., enough for the largest exponent plus 192 bits.
+  // 2/pi = 0.word0 word1 ...: enough words for the largest exponent plus 192 bits.
   constexpr std::array<std::uint64_t, 20> two_over_pi = {
       0xa2f9836e4e441529ULL, 0xfc2757d1f534ddc0ULL, 0xdb6295993c439041ULL, 0xfe5163abdebbc561ULL,
       0xb7246e3a424dd2e0ULL, 0x06492eea09d1921cULL, 0xfe1deb1cb129a73eULL, 0xe88235f52ebb4484ULL,
@@ -67,7 +69,7 @@ inline Reduced reduce_large(double x) noexcept {
   const auto bits = std::bit_cast<std::uint64_t>(x);
   const int exponent = static_cast<int>((bits >> 52) & 0x7ffU) - 1075;  // x = +- mantissa * 2^exponent
   const std::uint64_t mantissa = (bits & 0xf'ffff'ffff'ffffULL) | 0x10'0000'0000'0000ULL;
-  const auto word = [&](int offset) noexcept {  // 64 bits of 2/pi from this bit on; zeros before the binary point
+  const auto word = [&](int offset) noexcept {  // 64 bits of 2/pi from this bit; 0 before the binary point
     std::uint64_t value = 0;
     for (int k = 0; k < 2; ++k) {
       const int position = (offset >= 0 ? offset / 64 : -((63 - offset) / 64)) + k;
@@ -79,22 +81,21 @@ inline Reduced reduce_large(double x) noexcept {
     }
     return value;
   };
-  // Bits worth 4 or more drop out modulo 4: the window starts at weight 2.
+  // Bits of weight 4 or more vanish modulo 4, so the window starts at weight 2.
   const int start = exponent - 2;
   const Wide p2 = Wide{word(start + 128)} * mantissa;
   const Wide p1 = Wide{word(start + 64)} * mantissa + static_cast<std::uint64_t>(p2 >> 64);
   const std::uint64_t top = word(start) * mantissa + static_cast<std::uint64_t>(p1 >> 64);
   auto quadrant = static_cast<unsigned>(top >> 62);
   Wide fraction = (Wide{top} << 66) | (Wide{static_cast<std::uint64_t>(p1)} << 2) |
-                  (static_cast<std::uint64_t>(p2) >> 62);  // of a quadrant, 128 bits
+                  (static_cast<std::uint64_t>(p2) >> 62);  // fraction of a quadrant, 128 bits
   const bool upper_half = (fraction >> 127) != 0;
   if (upper_half) {
     ++quadrant;
     fraction = -fraction;
   }
-  // The fraction as a sum of two doubles, times pi/2 in the same form.
-  const double first =
-      static_cast<double>(static_cast<std::uint64_t>(fraction >> 75)) * 0x1p-53;  // its leading 53 bits
+  // Split the fraction into two doubles and multiply by pi/2, also split.
+  const double first = static_cast<double>(static_cast<std::uint64_t>(fraction >> 75)) * 0x1p-53;  // leading 53 bits
   const Wide rest = fraction & ((Wide{1} << 75) - 1);
   const double second = static_cast<double>(static_cast<std::uint64_t>(rest >> 11)) * 0x1p-117;
   constexpr double pio2_a = 0x1.921fb5p+0, pio2_b = 0x1.110b46p-26, pio2_c = 0x1.1a62633145c07p-54;
@@ -111,11 +112,11 @@ inline Reduced reduce_large(double x) noexcept {
   return reduced;
 }
 
-/// Sine and cosine of high + low, |high| <= pi/4 up to rounding. T: double, or lanes of it.
+/// Computes the sine and cosine of x + low, |x| <= pi/4 up to rounding. T: double, or SIMD lanes of double.
 template <class T>
 [[gnu::always_inline]] inline void sincos_of_reduced(const T& x, const T& low, T& s, T& c) noexcept {
   const T z = x * x, one = T(1.0);
-  // Taylor polynomials, highest power first: on |x| <= pi/4 the first omitted terms are below 3e-18.
+  // Taylor polynomials, highest power first. For |x| <= pi/4 the first omitted terms are below 3e-18.
   const auto horner = [&z](const auto& coefficients) {
     T sum = T(coefficients[0]);
     for (std::size_t k = 1; k < coefficients.size(); ++k) sum = T(coefficients[k]) + z * sum;

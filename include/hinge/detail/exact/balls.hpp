@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two closed balls, or two points, in whole numbers: the verdict and the gap for the real numbers that the doubles are.
+// Two closed balls, or two points, in exact integer arithmetic: the collision decision and the gap.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace hinge::detail::exact {
 
-/// |p - q|^2 and the reach in one unit, a power of two.
+/// |p - q|^2 and the radius sum in units of a power of two.
 struct WholeBalls {
   WholeBalls(const Vec3& p, const Vec3& q, const RadiusSum& r) noexcept {
     const std::array<Vec3, 2> centres{p, q};
@@ -27,7 +27,7 @@ struct WholeBalls {
   Integer squared, reach;
 };
 
-/// Strictly |p - q| < m. Finite p and q, any m.
+/// Returns true when strictly |p - q| < m. p and q finite, any m.
 [[gnu::cold, gnu::noinline]] inline bool points_closer_than(const Vec3& p, const Vec3& q, double m) noexcept {
   if (!(m > 0.0)) return false;
   if (!is_finite(m)) return true;
@@ -35,7 +35,8 @@ struct WholeBalls {
   return whole.squared < whole.reach * whole.reach;
 }
 
-/// |p - q| < the reach, or |p - q| <= the radii where there is no clearance. Finite p, q and radii.
+/// Returns true when |p - q| < reach or, without a clearance, |p - q| <= the sum of the radii. p, q and the radii
+/// finite.
 [[gnu::cold, gnu::noinline]] inline bool balls_closer_than(const Vec3& p, const Vec3& q,
                                                            const RadiusSum& reach) noexcept {
   if (!is_finite(reach.clearance)) return true;
@@ -43,8 +44,8 @@ struct WholeBalls {
   return within(whole.squared, Integer::of(1.0, 0), whole.reach, reach.counts_touching());
 }
 
-/// (|p - q| - reach)^2, 0 exactly when the balls meet; right to 16 half ulps where it is a normal double, infinite
-/// above the largest.
+/// Returns (|p - q| - reach)^2, exactly 0 when the balls share a point. The relative error is at most 16 u (u = 2^-53)
+/// where the result is a normal double. It is infinite above the largest double.
 [[gnu::cold, gnu::noinline]] inline double squared_gap_of_balls(const Vec3& p, const Vec3& q,
                                                                 const RadiusSum& reach) noexcept {
   const WholeBalls whole(p, q, reach);

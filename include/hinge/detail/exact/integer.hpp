@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Integer: a whole number of up to 12,800 bits on the stack, and doubles as whole multiples of a power of two.
+// Integer: an integer of up to 12,800 bits on the stack. Finite doubles are integers times a power of two.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace hinge::detail::exact {
 
-/// mantissa * 2^exponent, for magnitudes outside the range of doubles; |mantissa| in [0.5, 1), or 0.
+/// The number mantissa * 2^exponent, for magnitudes outside the range of doubles. |mantissa| is 0 or in [0.5, 1).
 struct Scaled {
   double mantissa = 0.0;
   int exponent = 0;
@@ -24,27 +24,27 @@ struct Scaled {
     s.mantissa = std::frexp(x, &s.exponent);
     return s;
   }
-  /// a / b for b != 0, rounded once.
+  /// Returns a / b, rounded once. b must not be 0.
   friend Scaled operator/(const Scaled& a, const Scaled& b) noexcept {
     Scaled s = of(a.mantissa / b.mantissa);
     s.exponent += a.exponent - b.exponent;
     return s;
   }
-  /// For numbers >= 0, rounded once.
+  /// Returns the square root of a number >= 0, rounded once.
   friend Scaled sqrt(const Scaled& a) noexcept {
-    const int odd = a.exponent & 1;  // made even, the exponent can be halved
+    const int odd = a.exponent & 1;  // makes the exponent even, so that it can be halved
     return {std::sqrt(std::ldexp(a.mantissa, odd)), (a.exponent - odd) / 2};
   }
-  /// For numbers >= 0.
+  /// Compares numbers >= 0.
   friend bool operator<(const Scaled& a, const Scaled& b) noexcept {
     if (a.mantissa == 0.0 || b.mantissa == 0.0 || a.exponent == b.exponent) return a.mantissa < b.mantissa;
     return a.exponent < b.exponent;
   }
-  /// Times 2^shift as a double: rounded, 0 or infinite where doubles end.
+  /// Returns the number times 2^shift as a double: rounded, and 0 or infinite outside the range of doubles.
   double value(int shift = 0) const noexcept { return std::ldexp(mantissa, exponent + shift); }
 };
 
-/// The largest e such that finite x is a whole multiple of 2^e; `none` for 0, which is a multiple of them all.
+/// Returns the largest e for which the finite x is a multiple of 2^e, or `none` for x = 0.
 inline int unit_exponent(double x, int none) noexcept {
   const auto bits = std::bit_cast<std::uint64_t>(x);
   const std::uint64_t fraction = bits & 0xf'ffff'ffff'ffffULL;
@@ -53,8 +53,8 @@ inline int unit_exponent(double x, int none) noexcept {
   return biased - 1075 + std::countr_zero(fraction | 0x10'0000'0000'0000ULL);
 }
 
-/// Sign and magnitude. Exact: no operation rounds. Six differences of doubles multiplied, each below 2^2100, and their
-/// sums fit; nothing here needs more. Copies touch only the limbs in use.
+/// An exact integer as sign and magnitude; no operation rounds. The capacity suffices for sums of products of six
+/// differences of doubles (each below 2^2100); callers need no more. Copies touch only the limbs in use.
 class Integer {
  public:
   static constexpr std::size_t capacity = 200;  // limbs of 64 bits
@@ -69,7 +69,7 @@ class Integer {
     return *this;
   }
 
-  /// Finite x in units of 2^exponent, of which it must be a whole multiple.
+  /// Returns the finite x in units of 2^exponent. x must be a multiple of that unit.
   static Integer of(double x, int exponent) noexcept {
     Integer n;
     const auto bits = std::bit_cast<std::uint64_t>(x);
@@ -93,7 +93,7 @@ class Integer {
 
   int sign() const noexcept { return size_ == 0 ? 0 : negative_ ? -1 : 1; }
 
-  /// Nearest double and exponent, within 2^-63 of a rounding.
+  /// Returns the nearest Scaled value; its error is one rounding plus a relative 2^-63.
   Scaled scaled() const noexcept {
     if (size_ == 0) return {};
     const int zeros = std::countl_zero(limbs_[size_ - 1]);
@@ -136,7 +136,7 @@ class Integer {
     return a.negative_ ? order > 0 : order < 0;
   }
   friend bool operator<=(const Integer& a, const Integer& b) noexcept { return !(b < a); }
-  /// part / of for of != 0, rounded.
+  /// Returns part / of, rounded. `of` must not be 0.
   friend double ratio(const Integer& part, const Integer& of) noexcept {
     return part.sign() == 0 ? 0.0 : (part.scaled() / of.scaled()).value();
   }
@@ -155,7 +155,7 @@ class Integer {
     return 0;
   }
 
-  /// a + |b| with the sign given for b.
+  /// Returns a + b, where b has the given sign and its own magnitude.
   static Integer sum(const Integer& a, const Integer& b, bool b_negative) noexcept {
     Integer n;
     if (a.negative_ == b_negative) {
@@ -186,9 +186,9 @@ class Integer {
     return n;
   }
 
-  std::size_t size_ = 0;  // limbs in use; the last is not 0
+  std::size_t size_ = 0;  // limbs in use; the highest is not 0
   bool negative_ = false;
-  std::array<std::uint64_t, capacity> limbs_;  // least significant first
+  std::array<std::uint64_t, capacity> limbs_;  // least significant limb first
 };
 
 }  // namespace hinge::detail::exact

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// orient2d, orient3d: on which side of a line or plane does a point lie? The exact sign for every finite double.
+// orient2d, orient3d: the exact side of a point relative to a line or a plane, for all finite doubles.
 #pragma once
 
 #include <algorithm>
@@ -17,19 +17,19 @@ namespace hinge::detail::exact {
 
 inline int sign_of(double x) noexcept { return (x > 0.0 ? 1 : 0) - (x < 0.0 ? 1 : 0); }
 
-/// Coordinates of points as whole multiples of one power of two.
+/// A point with integer coordinates in units of one power of two.
 using WholePoint = std::array<Integer, 3>;
 
-inline constexpr int no_unit = std::numeric_limits<int>::max();  // all zero: any unit will do
+inline constexpr int no_unit = std::numeric_limits<int>::max();  // all coordinates are 0: any unit is valid
 
-/// The largest e of which every coordinate is a whole multiple of 2^e; never above `unit`.
+/// Returns the largest e <= unit for which every coordinate is a multiple of 2^e.
 inline int common_unit(std::span<const Vec3> points, int unit = no_unit) noexcept {
   for (const Vec3& p : points)
     for (int k = 0; k < 3; ++k) unit = std::min(unit, unit_exponent(p[k], no_unit));
   return unit;
 }
 
-/// a - b in units of 2^unit.
+/// Returns a - b in units of 2^unit.
 [[gnu::noinline]] inline WholePoint whole_difference(const Vec3& a, const Vec3& b, int unit) noexcept {
   return {Integer::of(a[0], unit) - Integer::of(b[0], unit), Integer::of(a[1], unit) - Integer::of(b[1], unit),
           Integer::of(a[2], unit) - Integer::of(b[2], unit)};
@@ -47,13 +47,13 @@ inline WholePoint operator-(const WholePoint& a, const WholePoint& b) noexcept {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// (a x b) . c. Out of line, like what follows: whole numbers take 1.6 KiB each, and a caller has no use for those in
-/// between.
+/// Returns (a x b) . c. It is out of line, like the functions below: an Integer takes 1.6 KiB, and the temporaries
+/// would enlarge the caller's stack frame.
 [[gnu::noinline]] inline Integer triple(const WholePoint& a, const WholePoint& b, const WholePoint& c) noexcept {
   return dot(cross(a, b), c);
 }
 
-/// The last rung: whole numbers. Measured faster than expansions (0.24 against 0.33 us) and without their limits on
+/// The exact stage, in integers. It measured faster than expansions (0.24 against 0.33 us), and it has no limits on
 /// exponents.
 [[gnu::cold, gnu::noinline]] inline int orient3d_in_integers(const Vec3& a, const Vec3& b, const Vec3& c,
                                                              const Vec3& d) noexcept {
@@ -63,9 +63,9 @@ inline WholePoint operator-(const WholePoint& a, const WholePoint& b) noexcept {
   return dot(whole_difference(a, d, unit), cross(whole_difference(b, d, unit), whole_difference(c, d, unit))).sign();
 }
 
-/// The sign of (a - d) . ((b - d) x (c - d)): 0 when the four points lie in one plane, 1 when a, b, c turn clockwise
-/// seen from d. Filter: Shewchuk 1997, fig. 21, with room for its own rounding and for products that underflow; what
-/// overflows is infinite or NaN there and fails the comparison.
+/// Returns the sign of (a - d) . ((b - d) x (c - d)): 0 when the four points are coplanar, 1 when a, b, c appear
+/// clockwise from d. The filter is that of Shewchuk 1997, fig. 21, with margins for its own rounding and for underflow.
+/// Overflow gives infinity or NaN, which fails the comparison.
 inline int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) noexcept {
   constexpr double relative = 8 * half_ulp, absolute = 0x1p-1070;
   const double ax = a[0] - d[0], ay = a[1] - d[1], az = a[2] - d[2];
@@ -89,10 +89,10 @@ inline int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) 
   return cross(whole_difference(a, c, unit), whole_difference(b, c, unit))[k].sign();
 }
 
-/// Of the three points seen along `axis`, whose coordinate is left out: 1 when they turn counterclockwise, 0 when they
-/// are on one line. The other coordinates count in cyclic order, so that the three signs are those of the normal.
+/// Returns the orientation of three points projected along `axis`: 1 for counterclockwise, 0 for collinear, -1 for
+/// clockwise. The other two coordinates are taken in cyclic order, so the three signs are those of the normal.
 inline int orient2d(const Vec3& a, const Vec3& b, const Vec3& c, int axis) noexcept {
-  constexpr double relative = 4 * half_ulp, absolute = 0x1p-1070;  // as above
+  constexpr double relative = 4 * half_ulp, absolute = 0x1p-1070;  // as in orient3d
   const int x = (axis + 1) % 3, y = (axis + 2) % 3;
   const double left = (a[x] - c[x]) * (b[y] - c[y]), right = (a[y] - c[y]) * (b[x] - c[x]);
   const double det = left - right;

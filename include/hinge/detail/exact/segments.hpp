@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two segments with radii in whole numbers: the verdict, the gap and the nearest places.
+// Two segments with radii in exact integer arithmetic: the collision decision, the gap and the nearest points.
 #pragma once
 
 #include <array>
@@ -14,9 +14,9 @@
 
 namespace hinge::detail::exact {
 
-/// Segments ab and cd, degenerate ones included. They are nearest at two ends, at an end and the inside of the other
-/// segment, or at the insides of both; the squared distance of each is a fraction of whole numbers. With the reach,
-/// numbers have at most 12,600 bits.
+/// Segments ab and cd, which may be degenerate. Their nearest points are two ends, or an end and an interior point, or
+/// two interior points. The squared distance of each candidate is a fraction of integers. With the radius sum, the
+/// integers have at most 12,600 bits.
 class WholeSegments {
  public:
   WholeSegments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const RadiusSum& reach) noexcept
@@ -26,6 +26,7 @@ class WholeSegments {
     reach_ = whole(reach, unit_);
   }
 
+  /// Returns true when the distance is below the radius sum, or equal to it when touching counts.
   bool closer_than_reach() const noexcept {
     bool closer = false;
     visit([&](const Integer& numerator, const Integer& denominator, const auto&) noexcept {
@@ -36,8 +37,8 @@ class WholeSegments {
   }
 
   struct Nearest {
-    double squared_gap = 0.0;  ///< right to 20 half ulps where normal; 0 exactly when they are within reach
-    double s = 0.0, t = 0.0;   ///< shares of the way from a to b and from c to d
+    double squared_gap = 0.0;  ///< relative error at most 20 u; exactly 0 within the radius sum
+    double s = 0.0, t = 0.0;   ///< parameters of the nearest points: fractions of ab and of cd
   };
 
   Nearest nearest() const noexcept {
@@ -47,7 +48,7 @@ class WholeSegments {
     visit([&](const Integer& numerator, const Integer& denominator, const auto& places) noexcept {
       const Scaled squared = numerator.scaled() / denominator.scaled();
       const Scaled gap = squared_gap(numerator, denominator, reach_);
-      // Places within the reach all have no gap, and differ in their distance.
+      // All candidates within the radius sum have gap 0, so their distances decide.
       const bool meets = gap.mantissa == 0.0, least_meets = least_gap.mantissa == 0.0;
       const bool closer = meets ? !least_meets || squared < least : !least_meets && gap < least_gap;
       if (!first && !closer) return false;
@@ -64,7 +65,8 @@ class WholeSegments {
  private:
   WholePoint between(const Vec3& from, const Vec3& to) const noexcept { return whole_difference(to, from, unit_); }
 
-  /// f(numerator, denominator, places) for every place; places(Nearest&) writes the shares. f ends it with true.
+  /// Calls f(numerator, denominator, places) for every candidate pair of points; places(Nearest&) writes the
+  /// parameters. A true result of f ends the visit.
   template <class Visitor>
   void visit(const Visitor& f) const noexcept {
     if (two_ends(f)) return;
@@ -89,7 +91,7 @@ class WholeSegments {
     return false;
   }
 
-  /// End k of a segment and the inside of the other: |w x u|^2 / u^2.
+  /// End k of one segment and the interior of the other: |w x u|^2 / u^2.
   template <class Visitor>
   [[gnu::noinline]] bool inside_of_other(const Visitor& f, std::size_t side, std::size_t k) const noexcept {
     const auto& other = ends_[1 - side];
@@ -103,7 +105,7 @@ class WholeSegments {
     });
   }
 
-  /// (w . n)^2 / n^2, n the common normal, where its feet are inside both.
+  /// The interiors of both segments: (w . n)^2 / n^2, where n is the common normal. Only when both feet are interior.
   template <class Visitor>
   [[gnu::noinline]] void insides(const Visitor& f) const noexcept {
     const WholePoint u = between(ends_[0][0], ends_[0][1]), v = between(ends_[1][0], ends_[1][1]);
@@ -120,7 +122,7 @@ class WholeSegments {
     });
   }
 
-  std::array<std::array<Vec3, 2>, 2> ends_;  // by segment
+  std::array<std::array<Vec3, 2>, 2> ends_;  // per segment
   int unit_ = 0;
   Integer reach_;
   bool counts_touching_ = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cholesky decomposition in a fixed order of operations: the same bits on every CPU, which Eigen's does not promise.
+// Cholesky decomposition in a fixed order of operations. Unlike Eigen's, it has the same bits on every CPU.
 #pragma once
 
 #include <cmath>
@@ -8,8 +8,8 @@
 
 namespace hinge::detail {
 
-/// The lower triangle of a symmetric matrix (size x size, row by row) is replaced by its factor L, L L^T the matrix.
-/// False, and the matrix half done, when it is not positive definite (NaN included).
+/// Replaces the lower triangle of a symmetric matrix (size x size, row-major) by its factor L, where L L^T is the
+/// matrix. Returns false when the matrix is not positive definite or contains NaN; it is then partly overwritten.
 inline bool factor_cholesky(std::vector<double>& matrix, std::size_t size) noexcept {
   for (std::size_t a = 0; a < size; ++a)
     for (std::size_t b = 0; b <= a; ++b) {

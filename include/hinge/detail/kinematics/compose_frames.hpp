@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A frame applied to points, and frames composed, four doubles at a time.
+// Applies frames to points and composes frames, four doubles at a time.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace hinge::detail {
 
-/// What is turned and moved by a frame, entry by entry: R v (+ t).
+/// The columns of a frame in registers. turn: R v. place: R v + t.
 class FrameColumns {
  public:
   explicit FrameColumns(const Frame& frame) noexcept
@@ -29,7 +29,8 @@ class FrameColumns {
   simd::Double4 x_, y_, z_, t_;
 };
 
-/// a, then (in a's frame) the motion whose twelve entries, column by column, lie `stride` doubles apart.
+/// Computes a * motion. The twelve entries of motion (rotation column by column, then translation) are `stride` doubles
+/// apart.
 [[gnu::always_inline]] inline void compose(const Frame& a, const double* motion, std::size_t stride,
                                            Frame& result) noexcept {
   const FrameColumns columns(a);

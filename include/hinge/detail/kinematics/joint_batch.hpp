@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// JointBatch: the constants of eight joints side by side, and their motions computed together.
+// JointBatch: the constants of eight joints in SIMD layout, and their motions computed together.
 #pragma once
 
 #include <array>
@@ -12,11 +12,11 @@
 
 namespace hinge::detail {
 
-/// Joints of eight consecutive rigid groups. What unused places compute is never read.
+/// Joints of eight consecutive rigid groups. Results in unused slots are never read.
 struct alignas(64) JointBatch {
   static constexpr std::size_t size = 8;
-  std::array<double, 3 * size> axis{};   // x of all, y of all, z of all
-  std::array<double, 3 * size> point{};  // the same
+  std::array<double, 3 * size> axis{};   // x of all joints, then y, then z
+  std::array<double, 3 * size> point{};  // same layout
   std::array<std::uint32_t, size> dof{};
   std::uint8_t sliding = 0;     // bit k: joint k is prismatic
   std::uint8_t has_origin = 0;  // bit k: joint k has an origin other than the identity
@@ -33,10 +33,10 @@ struct alignas(64) JointBatch {
   }
 };
 
-/// Entry e (rotation column by column, then translation) of joint k at [e * JointBatch::size + k].
+/// Entry e (rotation column by column, then translation) of joint k is at [e * JointBatch::size + k].
 using JointMotions = std::array<double, 12 * JointBatch::size>;
 
-/// What motion(joint, q) gives for each of the eight, with its bits.
+/// Computes motion(joint, q) for the eight joints, with the same bits.
 inline void compute_motions(const JointBatch& batch, const double* q, JointMotions& motions) noexcept {
   constexpr std::size_t n = JointBatch::size;
   std::array<double, n> angle;

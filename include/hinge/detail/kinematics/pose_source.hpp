@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PoseSource: where engines get group poses from, all or one at a time, and which of them moved.
+// PoseSource: world poses of rigid groups, computed on demand, and the groups that the last update moved.
 #pragma once
 
 #include <algorithm>
@@ -24,11 +24,11 @@
 
 namespace hinge::detail {
 
-/// Holds the current configuration (or poses computed elsewhere) of one set of rigid groups. Forward kinematics always
-/// starts from the reference, so a pose depends on the configuration alone and not on what was asked before.
+/// Holds the current configuration, or poses computed by the caller, for one set of rigid groups. Forward kinematics
+/// starts from the reference, so a pose depends on the configuration alone and not on earlier calls.
 class PoseSource {
  public:
-  /// Starts at the reference configuration, every value 0.
+  /// Starts at the reference configuration: every value 0.
   explicit PoseSource(std::shared_ptr<const RigidGroups> groups, std::size_t dof_count)
       : groups_(std::move(groups)),
         q_(dof_count, 0.0),
@@ -44,41 +44,43 @@ class PoseSource {
   }
 
   /// q: one value per selected DOF, rad or model length unit. ConfigurationError: wrong length, a value that is not
-  /// finite or a slide beyond largest_length, naming the position; the previous state is kept.
+  /// finite, or a prismatic value beyond largest_length; the text names the index. The previous state is then kept.
   void set_configuration(std::span<const double> q);
 
-  /// One world pose per group; group 0 must keep the identity, it is the world. ConfigurationError: wrong number or no
-  /// rigid placement, naming the group; the previous state is kept.
+  /// poses: one world pose per group; group 0 is the world and must be the identity. ConfigurationError: wrong length,
+  /// or a pose that is not rigid; the text names the group. The previous state is then kept.
   void set_poses(std::span<const Pose> poses);
 
-  /// World frame of a group; computes what is missing on the way to it, groups in order.
+  /// Returns the world frame of a group. Computes the missing frames up to this index.
   const Frame& frame(GroupId group) noexcept {
     if (computed_ <= index(group)) compute_through(index(group));
     return frames_[index(group)];
   }
   Pose pose(GroupId group) noexcept { return frame(group).pose(); }
-  /// World frames of all groups up to this one, by group.
+  /// Returns the world frames of groups 0 to at least `last`, by index.
   std::span<const Frame> frames_through(GroupId last) noexcept {
     frame(last);
     return std::span(frames_).first(computed_);
   }
 
-  /// Did the group's pose change in the last set_...()? All but the world count as moved after the first.
+  /// Returns true when the group's pose changed in the last set_...(). After the first set_...() this is true for all
+  /// groups but the world.
   bool moved(GroupId group) noexcept {
     settle();
     return moved_[index(group)];
   }
 
-  /// Two groups of the same component kept their relative placement in the last set_...(); all differ after the first.
+  /// Groups with equal component kept their relative pose in the last set_...(). After the first set_...() all
+  /// components differ.
   std::size_t component(GroupId group) noexcept {
     settle();
     return component_[index(group)];
   }
 
-  /// Did so few values change in the last set_...() that it pays to find out what stood still?
+  /// Returns true when so few values changed in the last set_...() that a search for groups at rest pays off.
   bool few_changed() const noexcept { return few_changed_; }
 
-  /// Makes everything count as moved in the next set_...(): what engines hold was not placed by these poses.
+  /// Marks every group as moved in the next set_...(): the engines hold coordinates that do not come from these poses.
   void forget() noexcept {
     given_ = true;
     forgotten_ = true;
@@ -92,29 +94,29 @@ class PoseSource {
 
   std::shared_ptr<const RigidGroups> groups_;
   std::vector<double> q_;
-  std::vector<double> before_;  // the configuration before it
+  std::vector<double> before_;  // the previous configuration
   std::vector<Frame> frames_;
   std::size_t computed_ = 1;  // frames_[0, computed_) are up to date
-  std::size_t reusable_ = 1;  // frames_[computed_, reusable_) are those of the configuration before
-  bool given_ = true;         // the last poses were set, not computed (or there were none)
-  bool forgotten_ = true;     // nothing that was placed before counts
-  bool all_changed_ = true;   // the last set_...() made everything move
+  std::size_t reusable_ = 1;  // frames_[computed_, reusable_) hold the previous configuration
+  bool given_ = true;         // the last poses were given by the caller, or there are none yet
+  bool forgotten_ = true;     // the next set_...() moves every group
+  bool all_changed_ = true;   // the last set_...() moved every group
   bool few_changed_ = false;
-  bool settled_ = false;  // moved_ and component_ belong to the last set_...()
+  bool settled_ = false;  // moved_ and component_ describe the last set_...()
   std::vector<std::uint8_t> moved_;
   std::vector<std::size_t> component_;
-  std::vector<std::size_t> slides_;  // positions in q_ of prismatic joints
+  std::vector<std::size_t> slides_;  // indices in q_ of prismatic joints
   JointMotions motions_{};
 };
 
-/// One in this many values or fewer changed: few.
+/// "Few" means at most one in this many values.
 inline constexpr std::size_t few_changes_divisor = 4;
 
 inline void PoseSource::set_configuration(std::span<const double> q) {
   if (q.size() != q_.size())
     throw ConfigurationError("configuration has " + std::to_string(q.size()) + " values, expected " +
                              std::to_string(q_.size()));
-  // Without branches, so that compilers vectorise them.
+  // Branch-free, so that compilers vectorise the loop.
   bool finite = true;
   for (const double value : q) finite &= is_finite(value);
   for (std::size_t k = 0; !finite && k < q.size(); ++k)
@@ -143,7 +145,7 @@ inline void PoseSource::set_configuration(std::span<const double> q) {
   if (few_changed_) settle();
 }
 
-/// Finds out which groups the last set_configuration() moved.
+/// Finds the groups that the last set_configuration() moved.
 inline void PoseSource::settle() noexcept {
   if (settled_) return;
   settled_ = true;
@@ -161,7 +163,7 @@ inline void PoseSource::settle() noexcept {
 inline void PoseSource::compute_through(std::size_t last) noexcept {
   const auto batches = groups_->joint_batches();
   while (computed_ <= last) {
-    // Batches start at group 1; a batch is computed whole.
+    // Batches start at group 1. A batch is always computed completely.
     const std::size_t batch = (computed_ - 1) / JointBatch::size;
     const std::size_t end = std::min(1 + (batch + 1) * JointBatch::size, groups_->size());
     bool ready = false;
@@ -195,7 +197,7 @@ inline void PoseSource::set_poses(std::span<const Pose> poses) {
   for (std::size_t g = 1; g < poses.size(); ++g) {
     moved_[g] = forgotten_ || !frames_[g].is(poses[g]);
     component_[g] = moved_[g] != 0 ? g : 0;
-    std::construct_at(&frames_[g], poses[g]);  // in place: an assignment would read it wider than it was just written
+    std::construct_at(&frames_[g], poses[g]);  // assignment would load wider than the recent stores: slow
   }
   moved_[0] = false;
   component_[0] = 0;

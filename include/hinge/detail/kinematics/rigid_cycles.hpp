@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which of the selected DOF the closures of a tree hold at their reference values: rings that cannot move.
+// Finds the selected DOF that closures hold at their reference values, for example the torsions of rigid rings.
 #pragma once
 
 #include <algorithm>
@@ -15,14 +15,14 @@
 
 namespace hinge::detail {
 
-/// How far the reference geometry may be off.
+/// Error bounds of the reference geometry.
 struct GeometryTolerance {
-  double point = 0.0;  ///< of a joint's or closure's point, model length unit
-  double axis = 0.0;   ///< of a joint's axis, rad
+  double point = 0.0;  ///< position of a joint point or closure point, model length unit
+  double axis = 0.0;   ///< direction of a joint axis, rad
 };
 
-/// Is the smallest singular value of some closures' equations in some columns above what errors could have made of 0?
-/// So it is when J^T J less the square of that has a Cholesky decomposition.
+/// Returns true when the equations of the closures have full column rank in these columns, allowing for `error`: the
+/// smallest singular value exceeds the error bound. Test: J^T J minus the squared bound has a Cholesky decomposition.
 inline bool has_full_rank(const ClosureEquations& equations, const std::vector<std::size_t>& closures,
                           const std::vector<std::size_t>& columns, const GeometryTolerance& error) {
   const std::size_t n = columns.size();
@@ -40,29 +40,30 @@ inline bool has_full_rank(const ClosureEquations& equations, const std::vector<s
         for (std::size_t b = 0; row[a] != 0.0 && b <= a; ++b) squared[a * n + b] += row[a] * row[b];
     }
     for (std::size_t k = 0; k < n; ++k) {
-      // A derivative is axis x lever, both ends of the lever off by `point`; with lengths its part along a line whose
-      // own direction is off as well.
+      // A derivative is axis x lever, and both ends of the lever have the error `point`. With lengths, it is projected
+      // on a line whose direction also has an error.
       const double lever = equations.lever(c, columns[k]);
       if (lever == 0.0) continue;
       double off = error.axis * lever + 2.0 * error.point;
       if (equations.keeps_lengths(c)) off += lever * 2.0 * error.point / equations.shortest_length(c);
-      squared_bound += static_cast<double>(count) * off * off;  // at most `off` in each row
+      squared_bound += static_cast<double>(count) * off * off;  // at most `off` per row
     }
   }
   for (std::size_t k = 0; k < n; ++k) trace += squared[k * n + k];
-  // Kinematics, products and decomposition round by less than 2^-40 of the trace, for a thousand columns too.
+  // Kinematics, products and decomposition together round by less than 2^-40 of the trace, even for 1000 columns.
   const double shift = squared_bound + 0x1p-40 * trace;
   for (std::size_t k = 0; k < n; ++k) squared[k * n + k] -= shift;
   return factor_cholesky(squared, n);
 }
 
-/// DOF of the selection that cannot leave the reference while all closures hold. A set of them is held when the
-/// derivatives of some closures by all free DOF in their cycles have full column rank there: by the inverse function
-/// theorem the reference is then an isolated solution, for every geometry within `error` (Weyl: no singular value moves
-/// by more than the error's Frobenius norm). Looked at are each closure alone and all that share DOF, again and again
-/// as DOF are found held: never a DOF too many, for a mechanism that moves does not have full rank; some may be missed.
-/// Other assemblies of the same ring are not reached by moving and stay unknown. Empty when the reference itself is not
-/// closed within 8 times error.point. Sorted. `kept`: the closures that hold, positions in tree.closures().
+/// Returns the DOF of the selection that cannot leave the reference while all closures hold, sorted. A set of DOF is
+/// held when the derivatives of some closures with respect to all free DOF on their cycles have full column rank. By
+/// the inverse function theorem the reference is then an isolated solution, for every geometry within `error` (Weyl: a
+/// singular value changes by at most the Frobenius norm of the error). The search tests each closure alone and each
+/// cluster of closures that share DOF, and repeats while it finds held DOF. It never returns a movable DOF, because a
+/// mechanism that moves has no full rank; it may miss held DOF. Other assemblies of the same ring are not considered,
+/// since motion does not reach them. The result is empty when the reference is not closed within 8 * error.point +
+/// 2^-30. kept: the closures that hold, as indices in tree.closures().
 inline std::vector<DofId> rigid_cycle_dofs(const KinematicTree& tree, const DofSelection& selection,
                                            const GeometryTolerance& error, std::span<const std::size_t> kept) {
   ClosureEquations equations(tree, selection, kept);
@@ -81,7 +82,7 @@ inline std::vector<DofId> rigid_cycle_dofs(const KinematicTree& tree, const DofS
   };
   for (bool found = true; found;) {
     found = false;
-    std::vector<std::size_t> cluster(equations.closure_count());  // closures that share free columns
+    std::vector<std::size_t> cluster(equations.closure_count());  // per closure: smallest connected closure
     std::iota(cluster.begin(), cluster.end(), std::size_t{0});
     std::vector<std::size_t> owner(equations.columns(), equations.closure_count());
     for (std::size_t c = 0; c < equations.closure_count(); ++c) {
@@ -116,7 +117,7 @@ inline std::vector<DofId> rigid_cycle_dofs(const KinematicTree& tree, const DofS
   return dofs;
 }
 
-/// The same with all closures of the tree.
+/// The same for all closures of the tree.
 inline std::vector<DofId> rigid_cycle_dofs(const KinematicTree& tree, const DofSelection& selection,
                                            const GeometryTolerance& error = {}) {
   return rigid_cycle_dofs(tree, selection, error, all_closures(tree));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SweptBall: where a ball can be while the joints of a chain move within intervals; sets of Minkowski sums that only
-// grow.
+// SweptBall: a set that contains all positions of a ball while the joints of a chain move within intervals.
 #pragma once
 
 #include <algorithm>
@@ -14,16 +13,16 @@
 
 namespace hinge::detail {
 
-/// A joint's axis placed where it is at the middle of an interval of its value, and the interval's half width.
+/// A joint axis at the midpoint of an interval of joint values, and the half width of the interval.
 struct AxisInterval {
   JointKind kind = JointKind::revolute;
   Vec3 axis = Vec3::UnitZ();  ///< unit length
-  Vec3 point = Vec3::Zero();  ///< of the line; of no matter to prismatic joints
+  Vec3 point = Vec3::Zero();  ///< a point of the line; unused for prismatic joints
   double half = 0.0;          ///< rad or model length unit, >= 0
-  double sine = 0.0;          ///< largest of |sin| over the interval around its middle
-  double cosine = 1.0;        ///< smallest cos there, but at least 0
-  double chord = 0.0;         ///< 2 sin(half / 2): how far a unit vector turns
-  std::size_t joint = 0;      ///< label for whoever asks what the growth comes from
+  double sine = 0.0;          ///< largest |sin| of the deviation from the midpoint
+  double cosine = 1.0;        ///< smallest cos of the deviation, at least 0
+  double chord = 0.0;         ///< 2 sin(half / 2): largest change of a unit vector
+  std::size_t joint = 0;      ///< label of the joint in add_shares()
 
   void set_half(double value) noexcept {
     constexpr double quarter = 1.5707963267948966, half_turn = 3.141592653589793;
@@ -35,16 +34,16 @@ struct AxisInterval {
   }
 };
 
-/// The points centre + sum of s_k generator_k + ball of `growth`, |s_k| <= 1, hold every position that a point takes.
-/// Each step below takes one such set to one that holds what a joint makes of it, in real arithmetic; whoever compares
-/// adds the rounding (docs/explanation/collision_matrix.md derives both).
+/// The set of points centre + sum of s_k generator_k + a ball of radius `growth`, with |s_k| <= 1 (a Minkowski sum). It
+/// contains every position of a point. Each sweep below replaces the set by one that contains all its images under a
+/// joint, in real arithmetic. Callers add the rounding error. docs/explanation/collision_matrix.md derives both.
 class SweptBall {
  public:
-  static constexpr std::size_t most_generators = 12;  // more are added to the growth
+  static constexpr std::size_t most_generators = 12;  // further generators are added to the growth
 
   explicit SweptBall(const Vec3& middle = Vec3::Zero()) noexcept : centre_(middle) {}
 
-  /// Lets everything move with a joint over its interval; joints nearest to the ball first.
+  /// Sweeps the set over the interval of one joint. Apply the joints in order, nearest to the ball first.
   void sweep(const AxisInterval& by) noexcept {
     if (by.half == 0.0) return;
     if (by.kind == JointKind::prismatic) return add(by.axis * by.half, by.joint);
@@ -54,12 +53,12 @@ class SweptBall {
     turn_generators(by);
     turned_ += by.chord;
     if (by.half > widest_arc) {
-      // The arc lies in the ball around the middle of its chord, a wide one in the ball around the axis.
+      // A wide arc lies in a ball around the middle of its chord, or around the axis when it is a half turn or more.
       const double length = std::sqrt(squared_norm(arm));
       centre_ = foot + arm * by.cosine;
       grow(length * by.sine, by.joint);
     } else {
-      // arm cos t + (axis x arm) sin t, cos t between `cosine` and 1.
+      // The position is arm cos t + (axis x arm) sin t, with cos t between `cosine` and 1.
       const double sagitta = 0.5 * (1.0 - by.cosine);
       centre_ = foot + arm * (1.0 - sagitta);
       grow(std::sqrt(squared_norm(arm)) * sagitta, by.joint);
@@ -69,21 +68,21 @@ class SweptBall {
 
   const Vec3& centre() const noexcept { return centre_; }
   double growth() const noexcept { return growth_; }
-  /// How far a unit vector carried along can turn, at most.
+  /// Upper bound on the change of a unit vector carried along.
   double turned() const noexcept { return std::min(turned_, 2.0); }
-  /// Half the extent of the sum of generators along n.
+  /// Half the extent of the generators' sum along n.
   double generators_along(const Vec3& n) const noexcept {
     double sum = 0.0;
     for (std::size_t k = 0; k < count_; ++k) sum += std::abs(dot(n, generator_[k]));
     return sum;
   }
-  /// Half the extent in the direction in which it is largest, at most.
+  /// Upper bound of half the largest extent in any direction.
   double extent() const noexcept {
     double sum = growth_;
     for (std::size_t k = 0; k < count_; ++k) sum += std::sqrt(squared_norm(generator_[k]));
     return sum;
   }
-  /// Adds what each joint contributes to the extent along n to `shares`, by label.
+  /// Adds the contribution of each joint to the extent along n, to shares[label].
   template <class Shares>
   void add_shares(const Vec3& n, Shares& shares) const noexcept {
     for (std::size_t k = 0; k < count_; ++k) shares[label_[k]] += std::abs(dot(n, generator_[k]));
@@ -91,8 +90,8 @@ class SweptBall {
   }
 
  private:
-  // Above it (rad) the arc is taken for a ball around its chord's middle: its sagitta gets as large as what a segment
-  // along the chord would save. Sound for any value up to pi / 2.
+  // Half width (rad) above which the arc is replaced by a ball around the middle of its chord. Above it the sagitta is
+  // as large as the saving of a segment along the chord. The bound holds for any value up to pi / 2.
   static constexpr double widest_arc = 0.8;
 
   void turn_generators(const AxisInterval& by) noexcept {
@@ -102,7 +101,7 @@ class SweptBall {
       const Vec3 along = by.axis * dot(by.axis, generator_[k]);
       const double across = std::sqrt(squared_norm(Vec3(generator_[k] - along)));
       if (by.half > widest_arc) {
-        // What lies across the axis may point anywhere.
+        // The component across the axis may point in any direction.
         more += across;
         generator_[kept] = along;
       } else {
@@ -137,7 +136,7 @@ class SweptBall {
   std::size_t count_ = 0;
   std::array<Vec3, most_generators> generator_;
   std::array<std::size_t, most_generators> label_{};
-  std::size_t grown_ = 0;  // joints that made it grow, in order
+  std::size_t grown_ = 0;  // number of joints in grown_by_, in order of growth
   std::array<std::size_t, most_generators> grown_by_{};
   std::array<double, most_generators> grown_length_{};
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All ways to close a chain that turns about six axes meeting in pairs at three pivots: tripeptide loop closure.
+// Tripeptide loop closure: all solutions for a chain that rotates about six axes, which meet in pairs at three pivots.
 #pragma once
 
 #include <algorithm>
@@ -14,25 +14,26 @@
 
 namespace hinge::detail {
 
-/// Turns (rad) to add about before-at and at-behind of the first pivot, of the second, and before-at of the third; the
-/// sixth turn, about the last bond, follows.
+/// Angles (rad) to add about the bonds before-at and at-behind of the first pivot, the same of the second pivot, and
+/// before-at of the third pivot. The sixth angle, about the last bond, follows from them.
 using PivotTurns = std::array<double, 5>;
 
-/// Every real solution, sorted by the first turn, at most 16: E. Coutsias, C. Seok, M. Jacobson and K. Dill, "A
-/// kinematic view of loop closure", J. Comput. Chem. 25, 2004. Lengths of the three sides of the pivots' triangle are
-/// fixed, and a turn of each rigid part about its side is left. The angle between the two bonds at each pivot ties two
-/// of these turns; two of them eliminated, a trigonometric polynomial of degree 8 in the third is left (16 in the
-/// tangent of half of it). Its roots are isolated by bounds on its derivatives and finished by Newton's method on the
-/// three equations. None when the sides make no triangle, or the pivots lie on a line. Two solutions nearer than about
-/// 1e-4 rad may come as one.
+/// Returns every real solution, at most 16, sorted by the first angle (E. Coutsias, C. Seok, M. Jacobson and K. Dill,
+/// "A kinematic view of loop closure", J. Comput. Chem. 25, 2004). The three pivots form a triangle with fixed side
+/// lengths. Each rigid segment can rotate about its side. The bond angle at each pivot relates two of these three
+/// rotations. Elimination of two rotations leaves a trigonometric polynomial of degree 8 in the third (degree 16 in the
+/// tangent of the half angle). Its roots are isolated by bounds on its derivatives and refined by Newton's method on
+/// the three equations. There is no solution when the sides do not form a triangle or the pivots are collinear. Two
+/// solutions closer than about 1e-4 rad may be merged.
 inline std::vector<PivotTurns> solve_tripeptide_closure(const OpenChain& chain);
 
-/// A trigonometric polynomial of degree 8, sum of c[k] cos kt + s[k] sin kt, and where it may be zero.
+/// A trigonometric polynomial of degree 8, sum of c[k] cos kt + s[k] sin kt, and a search for its zeros.
 class TrigonometricRoots {
  public:
   static constexpr std::size_t degree = 8;
 
-  /// From its values at 32 equal steps of a turn; more than the 17 it takes, so that rounding averages out.
+  /// Interpolates the function at 32 equal steps of a full turn. 17 samples would suffice; more of them average out
+  /// rounding.
   template <class F>
   explicit TrigonometricRoots(const F& value) {
     constexpr std::size_t samples = 32;
@@ -53,8 +54,8 @@ class TrigonometricRoots {
     }
   }
 
-  /// Roots, each isolated by its neighbourhood's derivatives, and middles of intervals of 1e-7 rad in which a double
-  /// root could not be ruled out.
+  /// Returns the roots (rad). A root is isolated by derivative bounds, or is the midpoint of an interval of 1e-7 rad
+  /// that may contain a double root.
   std::vector<double> find() {
     constexpr std::size_t pieces = 32;
     constexpr double half = std::numbers::pi / pieces;
@@ -64,7 +65,7 @@ class TrigonometricRoots {
   }
 
  private:
-  /// Value and first two derivatives.
+  /// Returns the value and the first two derivatives at t.
   std::array<double, 3> at(double t) const noexcept {
     const SinCos one = sincos(t);
     std::array<double, 3> f{cosine_[0], 0.0, 0.0};
@@ -89,7 +90,7 @@ class TrigonometricRoots {
       bisect(middle - half, middle + half);
       return;
     }
-    // Where values are below what the samples' rounding may add up to, Newton's method decides, from a few places.
+    // Here the values are below the accumulated rounding of the samples. Stop early; Newton's method decides later.
     const double noise = 1e-11 * bound_[0];
     const bool flat = std::abs(f[0]) + std::abs(f[1]) * half + 0.5 * bound_[2] * half * half < noise;
     if (half < (flat ? 5e-3 : std::abs(f[0]) < noise ? 1e-4 : 1e-7)) {
@@ -100,11 +101,12 @@ class TrigonometricRoots {
     search(middle + half / 2, half / 2);
   }
 
-  /// At most one root, as the polynomial is monotone here. Newton's method on the eliminated equations goes on from it.
+  /// Finds the only possible root of an interval on which the polynomial is monotone. Newton's method on the original
+  /// equations refines it later.
   void bisect(double low, double high) {
     const double below = at(low)[0];
     if ((below > 0.0) == (at(high)[0] > 0.0)) {
-      // Rounding may hide a root at the border; what is none is sorted out later.
+      // Rounding may hide a root at an end of the interval. False roots are discarded later.
       const double border = 1e-12 * bound_[0];
       if (std::abs(below) < border) roots_.push_back(low);
       if (std::abs(at(high)[0]) < border) roots_.push_back(high);
@@ -118,7 +120,7 @@ class TrigonometricRoots {
   }
 
   std::array<double, degree + 1> cosine_{}, sine_{};
-  std::array<double, 4> bound_{};  // of the absolute value of the polynomial and its first three derivatives
+  std::array<double, 4> bound_{};  // bounds of the absolute value of the polynomial and its first three derivatives
   std::vector<double> roots_;
 };
 
@@ -141,7 +143,7 @@ inline std::vector<PivotTurns> solve_tripeptide_closure(const OpenChain& chain) 
   TrigonometricRoots eliminant([&](const SinCos& t) { return equations.eliminant(t); });
   for (const double root : eliminant.find())
     for (std::array<double, 3>& t : equations.starts(root)) {
-      // A start that runs away belongs to another root, or to none.
+      // A start that moves far away converged to another root, or to none.
       constexpr double near = 1e-2;
       if (!equations.refine(t) || std::abs(t[0] - root) > near) continue;
       PivotTurns turns = dihedrals(equations.placed(t));

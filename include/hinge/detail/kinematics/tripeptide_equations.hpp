@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PivotEquations: the three angles that tie the rigid parts of a chain between three pivots, and their eliminant.
+// PivotEquations: the three bond angles that couple the rigid segments between three pivots, and their eliminant.
 #pragma once
 
 #include <algorithm>
@@ -15,26 +15,27 @@
 
 namespace hinge::detail {
 
-/// A point of the chain with a turning bond on either side: N, C-alpha and C of a residue.
+/// An atom of the chain with a rotatable bond on each side, for example the N, C-alpha and C of a residue.
 struct Pivot {
   Vec3 before, at, behind;
 };
 
-/// The chain as it is, open or closed: what lies between two pivots is rigid (other torsions keep their values). before
-/// and at of the first pivot stand still; the last pivot has to come to end_at, its `behind` to end_behind.
+/// The chain in its current state, open or closed. The segments between two pivots are rigid: other torsions keep their
+/// values. `before` and `at` of the first pivot are fixed. The closed chain has `at` of the last pivot at end_at and
+/// its `behind` at end_behind.
 struct OpenChain {
   std::array<Pivot, 3> pivots;
   Vec3 end_at, end_behind;
 };
 
-/// The angle of (cosine, sine) up to a common factor, rad in [-pi, pi], the same bits on every CPU: Newton's steps on
-/// our own sine and cosine from a rational start that is off by 0.07 at most.
+/// Returns the angle (rad, in [-pi, pi]) with cosine c and sine s, up to a common positive factor. It has the same bits
+/// on every CPU: Newton steps with our sine and cosine, from a rational start with an error of at most 0.07.
 inline double turn_of(double c, double s) noexcept {
   const double length = std::sqrt(c * c + s * s);
   if (!(length > 0.0)) return 0.0;
   c /= length;
   s /= length;
-  const double t = s / (1.0 + std::abs(c));  // tangent of half the angle to the nearer half axis
+  const double t = s / (1.0 + std::abs(c));  // tangent of half the angle to the nearer half of the x axis
   double angle = 2.0 * t * (std::numbers::pi / 4.0 + 0.273 * (1.0 - std::abs(t)));
   if (c < 0.0) angle = (s < 0.0 ? -std::numbers::pi : std::numbers::pi) - angle;
   for (int k = 0; k < 4; ++k) {
@@ -50,18 +51,19 @@ inline double dihedral_turn(const Vec3& a, const Vec3& b, const Vec3& c, const V
   return turn_of(dot(m, n), norm(v) * dot(Vec3(b - a), n));
 }
 
-/// A direction that turns about a side: c + a cos t + b sin t.
+/// A direction that rotates about a side: c + a cos t + b sin t.
 struct TurningDirection {
   Vec3 c, a, b;
   Vec3 at(const SinCos& t) const noexcept { return c + a * t.cos + b * t.sin; }
   Vec3 slope(const SinCos& t) const noexcept { return b * t.cos - a * t.sin; }
 };
 
-/// How a direction of a rigid part turns about a side of the triangle: `side` as it lies now and as it lies in the
-/// frame of the triangle, in the plane z = 0. Zero is the same for all directions of a part.
+/// Describes the rotation of a segment's direction about a side of the triangle. side: in the current chain.
+/// side_there: in the frame of the triangle, in the plane z = 0. All directions of one segment have the same zero
+/// angle.
 inline TurningDirection turning(const Vec3& direction, const Vec3& side, const Vec3& side_there) noexcept {
   const Vec3 x = side / norm(side), u = direction / norm(direction);
-  Eigen::Index least = 0;  // the coordinate axis most across the side
+  Eigen::Index least = 0;  // the coordinate axis that is most perpendicular to the side
   for (Eigen::Index k = 1; k < 3; ++k)
     if (std::abs(x[k]) < std::abs(x[least])) least = k;
   const Vec3 unit = Vec3::Unit(least), off = unit - x * x[least];
@@ -71,16 +73,16 @@ inline TurningDirection turning(const Vec3& direction, const Vec3& side, const V
   return {along * p, towards * q + across * r, across * q - towards * r};
 }
 
-/// The three equations, and what is left of them when two turns are eliminated.
+/// The three bond angle equations, and the eliminant in one rotation.
 class PivotEquations {
  public:
-  /// The frame: first pivot at the origin, third along x, second above it in the plane z = 0.
+  /// Frame of the triangle: first pivot at the origin, third on the x axis, second in the plane z = 0 with y > 0.
   explicit PivotEquations(const OpenChain& chain) {
     const auto& p = chain.pivots;
     const Vec3 first = p[1].at - p[0].at, second = p[2].at - p[1].at, base = chain.end_at - p[0].at;
     const double d1 = norm(first), d2 = norm(second), d0 = norm(base);
     const double x = (d0 * d0 + d1 * d1 - d2 * d2) / (2.0 * d0), squared_y = d1 * d1 - x * x;
-    // Written so that NaN, from sides of length 0, makes no triangle.
+    // The comparisons are false for NaN, which sides of length 0 produce; the equations are then not solvable.
     if (!(squared_y > 1e-12 * d1 * d1) || !(d2 > 0.0)) return;
     at_ = {Vec3::Zero(), Vec3(x, std::sqrt(squared_y), 0.0), Vec3(d0, 0.0, 0.0)};
     const std::array<Vec3, 3> now{base, first, second};
@@ -89,7 +91,7 @@ class PivotEquations {
       const Vec3& behind = k == 2 ? chain.end_behind : p[k].behind;
       const Vec3 to_behind = behind - (k == 2 ? chain.end_at : p[k].at), to_before = p[k].before - p[k].at;
       const Vec3 in_chain = p[k].behind - p[k].at;
-      // `before` belongs to the part in front of the pivot, `behind` to the one behind it: 0 base, 1, 2.
+      // `before` belongs to the segment in front of the pivot and `behind` to the next segment (0: base, 1, 2).
       before_[k] = turning(to_before, now[k], then[k]);
       behind_[k] = turning(to_behind, now[(k + 1) % 3], then[(k + 1) % 3]);
       cosine_[k] = dot(to_before, in_chain) / (norm(to_before) * norm(in_chain));
@@ -101,15 +103,15 @@ class PivotEquations {
 
   bool solvable() const noexcept { return solvable_; }
 
-  /// Equation k holds at 0; t: turns of the base and of the two parts.
+  /// Returns the residuals of the three equations. t: rotations of the base and of the two segments.
   std::array<double, 3> values(const std::array<SinCos, 3>& t) const noexcept {
     std::array<double, 3> g;
     for (std::size_t k = 0; k < 3; ++k) g[k] = dot(before_[k].at(t[k]), behind_[k].at(t[(k + 1) % 3])) - cosine_[k];
     return g;
   }
 
-  /// The eliminant at a turn of the base: the product of the second equation over what the first and the third leave of
-  /// its two turns, complex ones included, times what makes it a polynomial.
+  /// Returns the eliminant at a rotation of the base: the second equation multiplied over both solutions of the first
+  /// and both of the third equation, complex ones included, times a weight that makes it a polynomial.
   double eliminant(const SinCos& t) const noexcept {
     using Complex = std::complex<double>;
     const Roots one = roots(behind_[0], before_[0].at(t), cosine_[0]),
@@ -126,7 +128,7 @@ class PivotEquations {
     return product.real();
   }
 
-  /// Turns of the two parts for one of the base, as starts for refine(): imaginary parts are dropped.
+  /// Returns start values for refine() at rotation t (rad) of the base. Imaginary parts are dropped.
   std::vector<std::array<double, 3>> starts(double t) const {
     const SinCos sc = sincos(t);
     const Roots one = roots(behind_[0], before_[0].at(sc), cosine_[0]),
@@ -139,9 +141,9 @@ class PivotEquations {
     return all;
   }
 
-  /// Newton's method; false when it does not come to a solution.
+  /// Newton's method on t (rad). Returns false when it does not converge.
   bool refine(std::array<double, 3>& t) const noexcept {
-    constexpr double solved = 1e-13;  // of cosines
+    constexpr double solved = 1e-13;  // residual of a cosine
     for (int step = 0; step < 40; ++step) {
       const std::array<SinCos, 3> sc{sincos(t[0]), sincos(t[1]), sincos(t[2])};
       const std::array<double, 3> g = values(sc);
@@ -163,7 +165,7 @@ class PivotEquations {
     return false;
   }
 
-  /// The chain of a solution in the frame of the triangle.
+  /// Returns the chain of a solution, in the frame of the triangle.
   OpenChain placed(const std::array<double, 3>& t) const noexcept {
     OpenChain chain;
     const std::array<SinCos, 3> sc{sincos(t[0]), sincos(t[1]), sincos(t[2])};
@@ -181,7 +183,7 @@ class PivotEquations {
     double weight;
   };
 
-  /// The turns at which the direction has this cosine with `other`.
+  /// Solves for the rotations at which the direction has this cosine with `other`.
   static Roots roots(const TurningDirection& direction, const Vec3& other, double cosine) noexcept {
     const double a = dot(other, direction.a), b = dot(other, direction.b), c = cosine - dot(other, direction.c);
     Roots r;

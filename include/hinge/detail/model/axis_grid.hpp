@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// AxisGrid: which of many lines may pass through a small box, without a look at each of them.
+// AxisGrid: finds the lines that may pass through a small box, without a test of every line.
 #pragma once
 
 #include <algorithm>
@@ -17,22 +17,22 @@
 
 namespace hinge::detail {
 
-/// n lines in at most some n cubes: each line passes through about n^(1/3) of them.
+/// Stores n lines in a grid of about n cubic cells; each line passes through about n^(1/3) cells.
 class AxisGrid {
  public:
   struct Line {
     Vec3 point;
-    Vec3 direction;  ///< of length 1
+    Vec3 direction;  ///< unit length
   };
 
-  /// box: around what will be asked for.
+  /// box: contains all boxes of later visit_near calls.
   AxisGrid(std::span<const Line> lines, const Aabb& box) : box_(box) {
     double scale = 0.0;
     for (int k = 0; k < 3; ++k) {
       scale = std::max({scale, std::abs(box.lower[k]), std::abs(box.upper[k])});
       for (const Line& line : lines) scale = std::max(scale, std::abs(line.point[k]));
     }
-    margin_ = scale * 0x1p-40;  // far more than coordinates are rounded by
+    margin_ = scale * 0x1p-40;  // far above the rounding error of coordinates
     if (box.is_empty() || !is_length(scale)) return;
     edge_ = std::max(box.length(box.widest_axis()) / std::cbrt(static_cast<double>(lines.size())), 4 * margin_);
     if (!(edge_ > 0.0)) return;
@@ -47,8 +47,8 @@ class AxisGrid {
       for_each_cell(lines[l], [&](std::size_t cell) { lines_[next[cell]++] = static_cast<std::uint32_t>(l); });
   }
 
-  /// Calls visit(line) for every line that meets the box, and for others, some more than once. False: nothing was
-  /// visited, any line may meet it (it is not inside the grid's box, or large).
+  /// Calls visit(line index) for every line that meets the box, and for some others; an index may repeat. Returns false
+  /// without any call when the box is not inside the grid's box or spans too many cells: any line may then meet it.
   template <class Visit>
   bool visit_near(const Aabb& box, const Visit& visit) const {
     constexpr std::ptrdiff_t most_cells = 27;
@@ -73,7 +73,7 @@ class AxisGrid {
     return static_cast<std::size_t>((x * count_[1] + y) * count_[2] + z);
   }
 
-  /// Those that [low, high] comes near to along an axis; none where it stays outside.
+  /// Returns the cells along axis k that [low, high] comes near to; an empty range when it lies outside.
   Range cells(int k, double low, double high) const noexcept {
     if (!(high >= box_.lower[k] - 2 * margin_) || !(low <= box_.upper[k] + 2 * margin_)) return {0, -1};
     const auto last = static_cast<double>(count_[static_cast<std::size_t>(k)] - 1);
@@ -83,7 +83,7 @@ class AxisGrid {
     return {place(low - margin_), place(high + margin_)};
   }
 
-  /// Slab by slab along the axis that the line goes along most.
+  /// Visits the cells that a line may pass through, slab by slab along the largest component of its direction.
   template <class Visit>
   void for_each_cell(const Line& line, const Visit& visit) const {
     int m = 0;
@@ -109,8 +109,8 @@ class AxisGrid {
 
   Aabb box_;
   double margin_ = 0.0, edge_ = 0.0;
-  std::array<std::ptrdiff_t, 3> count_{1, 1, 1};  // of cells
-  std::vector<std::size_t> start_;                // by cell: where its lines begin in lines_; empty: there is no grid
+  std::array<std::ptrdiff_t, 3> count_{1, 1, 1};  // number of cells per axis
+  std::vector<std::size_t> start_;                // per cell: first index in lines_; empty without a grid
   std::vector<std::uint32_t> lines_;
 };
 

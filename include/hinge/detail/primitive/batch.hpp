@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Batch<P>: sixteen primitives side by side in float, and lower bounds of their distance to one more.
+// Batch<P>: sixteen primitives in float SIMD layout, and lower bounds of their distances to one more primitive.
 #pragma once
 
 #include <algorithm>
@@ -20,15 +20,15 @@
 
 namespace hinge::detail {
 
-/// What engines hold of sixteen placed primitives; a view on `floats` coordinates. The one for any primitive keeps
-/// their boxes, so that a squared distance is bounded by the squared gap of boxes. A specialisation for a primitive
-/// that has a better kernel offers the same members and, where the primitive keeps its shape under a rotation of its
-/// coordinates, `turn`.
+/// Sixteen primitives in world coordinates, stored in `floats` numbers that the engine owns. The generic version stores
+/// their boxes, so the squared gap of boxes bounds the squared distance from below. Specialisations with a better
+/// kernel have the same members. They also have `turn` when a rotation of the stored coordinates gives the rotated
+/// primitive.
 template <Primitive P>
 struct Batch {
   static constexpr std::size_t floats = 6 * simd::width;
 
-  /// Stores the primitive in a lane. (x - origin) * scale is what is kept of a coordinate x.
+  /// Stores the primitive in a lane. A coordinate x is stored as (x - origin) * scale.
   static void set(float* at, std::size_t lane, const P& p, const Vec3& origin, double scale) noexcept {
     const Aabb box = p.bounds();
     for (int k = 0; k < 3; ++k) {
@@ -38,7 +38,8 @@ struct Batch {
     }
   }
 
-  /// Sixteen primitives given in the frames of their groups; returns the box around them.
+  /// Transforms sixteen primitives from the frames of their groups to the world and stores them. Returns the box around
+  /// them.
   static FloatBox place(float* at, const P* local, const std::uint32_t* group, std::span<const Frame> frames,
                         const Vec3& origin, double scale) noexcept {
     for (std::size_t k = 0; k < simd::width; ++k) set(at, k, local[k].placed(frames[group[k]].pose()), origin, scale);
@@ -54,7 +55,7 @@ struct Batch {
     return box;
   }
 
-  /// Lanes that share a point with the box.
+  /// Returns the lanes that share a point with the box.
   [[gnu::always_inline]] static simd::Bits inside(const float* at, const BoxLanes& box) noexcept {
     const auto axis = [&](std::size_t k) __attribute__((always_inline)) {
       return less_equal(simd::Float16(at + k * simd::width), box.upper[k]) &
@@ -63,7 +64,7 @@ struct Batch {
     return axis(0) & axis(1) & axis(2);
   }
 
-  /// All sixteen grown by r, ready to be held against many boxes.
+  /// All sixteen boxes enlarged by r, for tests against many boxes.
   class Grown {
    public:
     Grown(const float* at, float r) noexcept {
@@ -72,7 +73,7 @@ struct Batch {
         upper_[k] = simd::Float16(at + (3 + k) * simd::width) + simd::Float16(r);
       }
     }
-    /// Lanes that share a point with the box, up to rounding.
+    /// Returns the lanes that share a point with the box, up to rounding.
     [[gnu::always_inline]] simd::Bits meets(const FloatBox& box) const noexcept {
       const auto axis = [&](std::size_t k) __attribute__((always_inline)) {
         return less_equal(lower_[k], simd::Float16(box.upper[k])) & less_equal(simd::Float16(box.lower[k]), upper_[k]);
@@ -84,11 +85,11 @@ struct Batch {
     std::array<simd::Float16, 3> lower_, upper_;
   };
 
-  /// One primitive, moved by `shift` and scaled, against the sixteen of another batch: a lower bound of the squared
-  /// distance, up to rounding.
+  /// One primitive, scaled and shifted, against the sixteen of another batch. The results are lower bounds of the
+  /// squared distances, up to rounding.
   class One {
    public:
-    /// The floats of lane l start at l.
+    /// at: the first float of the lane; for lane l, pass the batch's address plus l.
     explicit One(const float* at) noexcept {
       for (std::size_t k = 0; k < 3; ++k) {
         lower_[k] = at[k * simd::width];
@@ -118,7 +119,7 @@ struct Batch {
   };
 };
 
-/// Points: their coordinates.
+/// For points: their coordinates.
 template <>
 struct Batch<Point> {
   static constexpr std::size_t floats = 3 * simd::width;
@@ -188,7 +189,7 @@ struct Batch<Point> {
     std::array<simd::Float16, 3> lower_, upper_;
   };
 
-  /// rotation (column by column) * local + translation, for all sixteen; returns the box around them.
+  /// Writes rotation (column by column) * local + translation for all sixteen. Returns the box around them.
   [[gnu::always_inline]] static FloatBox turn(const float* local, const std::array<float, 9>& rotation,
                                               const std::array<float, 3>& translation, float* to) noexcept {
     using simd::Float16;
@@ -217,7 +218,7 @@ struct Batch<Point> {
       return x * x + y * y + z * z;
     }
 
-    /// Turned like all sixteen.
+    /// Returns the primitive after the same rigid transform.
     One turned(const std::array<float, 9>& rotation, const std::array<float, 3>& translation) const noexcept {
       One to = *this;
       for (std::size_t k = 0; k < 3; ++k)
@@ -228,7 +229,7 @@ struct Batch<Point> {
       const float x = to.x_[0] - x_[0], y = to.x_[1] - x_[1], z = to.x_[2] - x_[2];
       return x * x + y * y + z * z;
     }
-    /// Largest magnitude of a coordinate.
+    /// Returns the largest magnitude of a coordinate.
     float extent() const noexcept { return std::max({std::abs(x_[0]), std::abs(x_[1]), std::abs(x_[2])}); }
 
    private:
@@ -236,20 +237,20 @@ struct Batch<Point> {
   };
 };
 
-/// Optional: a rigid batch is placed by turning its floats, without looking at the primitives.
+/// Optional: a batch of one rigid group is transformed in float, without access to the primitives.
 template <class P>
 concept TransformsBatch = requires(const float* local, const std::array<float, 9>& rotation,
                                    const std::array<float, 3>& translation, float* to) {
   { Batch<P>::turn(local, rotation, translation, to) } -> std::same_as<FloatBox>;
 };
 
-/// Optional: squared_distances are those, up to rounding, where others are lower bounds.
+/// Optional: squared_distances are the squared distances up to rounding, not only lower bounds.
 template <class P>
 concept MeasuresDistances = requires {
   requires Batch<P>::measures;
 };
 
-/// Optional: one primitive of a batch can be turned and measured by itself, without its batch. extent: the largest
+/// Optional: a single primitive of a batch can be transformed and measured without its batch. extent: the largest
 /// magnitude of its coordinates.
 template <class P>
 concept TurnsOne = TransformsBatch<P> && MeasuresDistances<P> &&

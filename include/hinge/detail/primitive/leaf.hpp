@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Leaf<P>: sixteen primitives of one tree side by side in float, and what floats can prove about two such leaves.
+// Leaf<P>: sixteen primitives of one tree in float SIMD layout, and float proofs that pairs are apart.
 #pragma once
 
 #include <algorithm>
@@ -14,28 +14,29 @@
 
 namespace hinge::detail {
 
-/// How the coordinates of another tree are brought into this one's: x -> rotation x + translation.
+/// A rigid transform from the frame of another tree to this tree's frame: x -> rotation x + translation.
 struct LeafTurn {
-  const std::array<float, 12>& rotation;  ///< column by column, each with a spare entry
-  const std::array<float, 12>& size;      ///< its magnitudes, rounded up
+  const std::array<float, 12>& rotation;  ///< column by column, each padded to four entries
+  const std::array<float, 12>& size;      ///< magnitudes of the rotation's entries, rounded up
   const std::array<float, 4>& translation;
 };
 
-/// What counts as near: distance <= margin + reach of both. `error` bounds how far one coordinate of a turned
-/// primitive, projected on an axis of length 1, may be off.
+/// A pair is near when distance <= margin + the sum of both threshold radii. `error` bounds the error of a transformed
+/// coordinate, projected on an axis of length 1.
 struct Nearness {
   float margin = 0.0F;
   float error = 0.0F;
-  const float* reach = nullptr;        ///< of the sixteen; null: all 0
-  const float* other_reach = nullptr;  ///< of the other sixteen
+  const float* reach = nullptr;        ///< threshold radii of this leaf's lanes; null: all 0
+  const float* other_reach = nullptr;  ///< threshold radii of the other leaf's lanes; null: all 0
 };
 
-/// The leaf for any primitive: boxes. A specialisation for a primitive with a better kernel offers the same members.
+/// The leaf of a generic primitive: its box, as midpoint and half extent. Specialisations with a better kernel have the
+/// same members.
 template <Primitive P>
 struct Leaf {
   static constexpr std::size_t floats = 6 * simd::width;
 
-  /// Stores the primitive in a lane; (x - origin) * scale is what is kept of a coordinate x.
+  /// Stores the primitive in a lane. A coordinate x is stored as (x - origin) * scale.
   static void set(float* at, std::size_t lane, const P& p, const Vec3& origin, double scale) noexcept {
     const Aabb box = p.bounds();
     for (int k = 0; k < 3; ++k) {
@@ -47,7 +48,7 @@ struct Leaf {
     }
   }
 
-  /// Sixteen of another tree, brought into this one's frame.
+  /// Sixteen primitives of another tree, transformed to this tree's frame.
   class Turned {
    public:
     Turned(const float* other, const LeafTurn& turn) noexcept {
@@ -63,7 +64,7 @@ struct Leaf {
         h.store(half_.data() + k * n);
       }
     }
-    /// Lanes of it that may be near a box.
+    /// Returns the lanes that may be near a box.
     simd::Bits near_box(const std::array<float, 3>& middle, const std::array<float, 3>& half,
                         const Nearness& near) const noexcept {
       using simd::Float16;
@@ -76,7 +77,7 @@ struct Leaf {
       }
       return lanes;
     }
-    /// Of `lanes` of this tree's sixteen (at `own`), those that may be near lane k of the other's.
+    /// Returns the lanes of `lanes` (of this tree's leaf at `own`) that may be near lane k of the transformed leaf.
     simd::Bits near(std::size_t k, const float* own, simd::Bits lanes, const Nearness& near) const noexcept {
       using simd::Float16;
       constexpr std::size_t n = simd::width;
@@ -99,8 +100,8 @@ struct Leaf {
   };
 };
 
-/// Do engines keep this primitive in trees of its rigid groups, in their frames, rather than in placed blocks? It pays
-/// where primitives have an extent and groups many of them. A specialisation of Leaf says so.
+/// True when engines keep static trees of this primitive, one per rigid group in the group's frame, instead of blocks
+/// of world coordinates. This pays off for extended primitives in large groups. A specialisation of Leaf enables it.
 template <class P>
 inline constexpr bool UsesStaticBvh = requires {
   requires Leaf<P>::uses_static_bvh;

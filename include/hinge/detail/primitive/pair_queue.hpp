@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PairQueue<P>: sixteen pairs of primitives of two trees, whose distances floats bound from both sides at once.
+// PairQueue<P>: sixteen pairs of primitives of two trees, with lower and upper float bounds of their distances.
 #pragma once
 
 #include <array>
@@ -18,11 +18,11 @@ struct Bounds16 {
   alignas(64) std::array<float, simd::width> lower, upper;
 };
 
-/// For any primitive: nothing is known. A specialisation offers the same members.
+/// For a generic primitive: no bounds are known. Specialisations have the same members.
 template <Primitive P>
 class PairQueue {
  public:
-  /// Lane i of the leaf at `own` and lane k of another, turned into its frame; `error` as Nearness has it.
+  /// Stores lane i of the leaf at `own` and lane k of another leaf, transformed to its frame. error: see Nearness.
   void set(std::size_t, const float*, std::size_t, const typename Leaf<P>::Turned&, std::size_t, float) noexcept {}
   void bound(Bounds16& bounds) const noexcept {
     bounds.lower.fill(0.0F);
@@ -30,8 +30,9 @@ class PairQueue {
   }
 };
 
-/// Upper bounds are distances of points on the two triangles: the best of nine pairs of edges and six of corner and
-/// face. Lower bounds are gaps along the line through these points, so no rounding in finding them can break a bound.
+/// An upper bound is the distance of two points on the triangles: the best of nine edge pairs and six pairs of corner
+/// and face. A lower bound is the gap along the line through these points, so rounding in the search cannot invalidate
+/// a bound.
 template <>
 class PairQueue<Triangle> {
  public:
@@ -63,9 +64,9 @@ class PairQueue<Triangle> {
     const auto s = project(a), t = project(b);
     const Float16 gap =
         min(min(t[0], t[1]), t[2]) - max(max(s[0], s[1]), s[2]) - (abs(axis.x) + abs(axis.y) + abs(axis.z)) * error;
-    // Divided by the length, which is never below what it was computed from by more than its rounding.
+    // Divide by the length, enlarged by its rounding error.
     const Float16 lower = max(gap, Float16(0.0F)) / (length * Float16(1.0F + 0x1p-20F) + Float16(1e-18F));
-    // A gap that is no number proves nothing.
+    // A NaN gap proves nothing: use 0.
     choose_less(Float16(0.0F), lower, lower, Float16(0.0F)).store(bounds.lower.data());
   }
 
@@ -80,7 +81,7 @@ class PairQueue<Triangle> {
     return {corner(first), corner(first + 1), corner(first + 2)};
   }
 
-  /// Roots lane by lane: compilers make vectors of it.
+  /// Returns the square root per lane. Compilers vectorise the loop.
   static Float16 root(const Float16& squares) noexcept {
     alignas(64) std::array<float, n> x;
     squares.store(x.data());
@@ -88,14 +89,14 @@ class PairQueue<Triangle> {
     return Float16(x.data());
   }
 
-  /// Never 0, so that quotients are numbers.
+  /// Returns x plus a tiny value, so that no quotient is NaN.
   static Float16 divisor(const Float16& x) noexcept { return x + Float16(1e-30F); }
   static Float16 clamped(const Float16& x) noexcept { return max(min(x, Float16(1.0F)), Float16(0.0F)); }
   static Lanes3 on_line(const Lanes3& from, const Lanes3& by, const Float16& share) noexcept {
     return {from.x + by.x * share, from.y + by.y * share, from.z + by.z * share};
   }
 
-  /// The nearest points so far, p on a and q on b.
+  /// The nearest points so far, p on triangle a and q on triangle b.
   struct Best {
     Lanes3 p{Float16(0.0F), Float16(0.0F), Float16(0.0F)}, q = p;
     Float16 square{std::numeric_limits<float>::infinity()};
@@ -111,7 +112,8 @@ class PairQueue<Triangle> {
       square = min(s, square);
     }
 
-    /// Whatever the shares, the points are on the edges; rounding only makes them worse than the best.
+    /// Tries the nearest points of two edges. The points lie on the edges for any parameters; rounding only makes them
+    /// less near.
     [[gnu::always_inline]] void try_edges(const Lanes3& a, const Lanes3& a2, const Lanes3& b,
                                           const Lanes3& b2) noexcept {
       const Lanes3 u = difference(a2, a), v = difference(b2, b), r = difference(a, b);
@@ -122,7 +124,7 @@ class PairQueue<Triangle> {
       take(on_line(a, u, s), on_line(b, v, t));
     }
 
-    /// The foot of a corner, drawn back into the triangle where it is outside.
+    /// Tries a corner and the foot of its perpendicular on a face, clamped to the triangle.
     [[gnu::always_inline]] void try_face(const Lanes3& corner, const Corners3& face, bool corner_is_b) noexcept {
       const Lanes3 u = difference(face[1], face[0]), v = difference(face[2], face[0]), w = difference(corner, face[0]);
       const Lanes3 normal = cross_axis(u, v);

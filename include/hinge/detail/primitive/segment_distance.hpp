@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The distance of two segments in double arithmetic, between bounds that hold whatever the rounding.
+// The distance of two segments in double arithmetic, as lower and upper bounds that include rounding.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 
 namespace hinge::detail {
 
-/// Segments ab and cd relative to a; degenerate ones are their points. R, the largest coordinate there, is the unit of
-/// all errors below.
+/// Segments ab and cd in coordinates relative to a; they may be degenerate. R is the largest magnitude of these
+/// coordinates. All errors below are relative to R.
 class SegmentPair {
  public:
   SegmentPair(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) noexcept
@@ -24,28 +24,30 @@ class SegmentPair {
     size_ = std::max({largest(x_.end[1]), largest(y_.end[0]), largest(y_.end[1])});
   }
 
-  /// Products of six lengths neither overflow nor lose digits that matter to underflow; false also for NaN.
+  /// Returns true when products of six lengths neither overflow nor lose significant digits to underflow; false for
+  /// NaN.
   bool in_window() const noexcept { return size_ >= 0x1p-150 && size_ <= 0x1p150; }
 
-  /// How far rounding may put a bound of the distance on the wrong side. In half ulps of R, as vectors: 2 for the
-  /// rounding of an end to here; below it, 5 for the product of an end with a unit vector, above it, 5 for a point
-  /// inside a segment; for two, 14. In half ulps of the distance: 5 for its root of squares and the division by the
-  /// direction's length.
+  /// Returns how much rounding may shift a bound of the distance. In half ulps of R, as vectors: 2 for the relative
+  /// coordinates; for the lower bound 5 for the product of an end with a unit vector; for the upper bound 5 for an
+  /// interior point of a segment; 14 for two segments. In half ulps of the distance: 5 for the root of a sum of squares
+  /// and the division by the length of the direction.
   double rounding(double distance) const noexcept { return exact::half_ulp * (20 * size_ + 8 * distance); }
 
   struct Nearest {
-    Vec3 p, q;              ///< points of the segments, up to rounding: the distance is at most theirs
+    Vec3 p, q;              ///< points on the segments, up to rounding; |p - q| is an upper bound of the distance
     double distance = 0.0;  ///< |p - q|
-    double gap = 0.0;       ///< along the best direction known: the distance is at least this, up to rounding
+    double gap = 0.0;  ///< separation along the best known direction: a lower bound of the distance, up to rounding
   };
 
   Nearest nearest() const noexcept;
 
-  /// Do the bounds agree? Then `distance` is right to 28 half ulps of R and 16 of itself.
+  /// Returns true when the two bounds agree. The error of `distance` is then at most 28 u R + 16 u distance (u =
+  /// 2^-53).
   bool certain(const Nearest& n) const noexcept {
     return n.distance - n.gap <= exact::half_ulp * (8 * size_ + 8 * n.distance);
   }
-  /// How far a certain distance may be off.
+  /// Returns the error bound of a distance for which certain() holds.
   double error(double distance) const noexcept { return exact::half_ulp * (28 * size_ + 16 * distance); }
 
   Vec3 placed(const Vec3& local) const noexcept { return local + origin_; }
@@ -55,16 +57,16 @@ class SegmentPair {
     Side(const Vec3& from, const Vec3& to) noexcept : end{from, to}, way(to - from), square(squared_norm(way)) {
       inverse = square > 0.0 ? 1.0 / square : 0.0;
     }
-    /// Where the foot of p is, as a share of the way.
+    /// Returns the parameter in [0, 1] of the point of the segment nearest to p.
     double foot(const Vec3& p) const noexcept { return clamped(dot(Vec3(p - end[0]), way) * inverse); }
     Vec3 at(double share) const noexcept { return on_edge(end[0], end[1], share); }
 
     std::array<Vec3, 2> end;
     Vec3 way;
-    double square = 0.0, inverse = 0.0;  // of the length; 0 for 0
+    double square = 0.0, inverse = 0.0;  // of the length; inverse is 0 when the length is 0
   };
 
-  /// (min n.y - max n.x) for the sign of n that gives more.
+  /// Returns the larger of min n.y - max n.x and min n.x - max n.y: the gap along n times |n|.
   double gap_times_norm(const Vec3& n) const noexcept {
     const double a = dot(n, x_.end[0]), b = dot(n, x_.end[1]), c = dot(n, y_.end[0]), d = dot(n, y_.end[1]);
     return std::max(std::min(c, d) - std::max(a, b), std::min(a, b) - std::max(c, d));
@@ -75,9 +77,9 @@ class SegmentPair {
   double size_ = 0.0;
 };
 
-/// Nearest points of the lines, brought onto the segments one after the other (Lumelsky 1985).
+/// Nearest points of the two lines, clamped to the segments one after the other (Lumelsky 1985).
 inline SegmentPair::Nearest SegmentPair::nearest() const noexcept {
-  // Triple products keep their digits where uu vv - uv^2 cancels.
+  // Triple products keep their digits where the determinant uu vv - uv^2 cancels.
   const Vec3 w = y_.end[0] - x_.end[0], normal = cross(x_.way, y_.way);
   const double square = squared_norm(normal);
   const double start = square > exact::lost_squares ? clamped(dot(cross(w, y_.way), normal) / square) : 0.0;
@@ -89,7 +91,8 @@ inline SegmentPair::Nearest SegmentPair::nearest() const noexcept {
   n.q = y_.at(t);
   n.distance = std::sqrt(squared_norm(Vec3(n.p - n.q)));
   Vec3 direction = n.p - n.q;
-  // A direction computed from near points is off by the rounding of these; at right angles to a segment it need not be.
+  // The difference of near points has a large relative rounding error. Where a point is interior, use a direction that
+  // is perpendicular to its segment instead.
   const bool inside_x = s > 0.0 && s<1.0, inside_y = t> 0.0 && t < 1.0;
   if (inside_x && inside_y)
     direction = square > 0.25 * x_.square * y_.square ? normal : accurate_cross(x_.way, y_.way);

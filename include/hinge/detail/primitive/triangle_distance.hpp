@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The distance of two closed triangles in double arithmetic, between bounds that hold whatever the rounding.
+// The distance of two closed triangles in double arithmetic, as lower and upper bounds that include rounding.
 #pragma once
 
 #include <algorithm>
@@ -14,20 +14,20 @@
 
 namespace hinge::detail {
 
-/// ab - cd to about two half ulps of itself (Kahan), where nothing underflows.
+/// Returns a b - c d with a relative error of about two half ulps (Kahan), when nothing underflows.
 inline double difference_of_products(double a, double b, double c, double d) noexcept {
   const exact::ValueAndError p = exact::two_product(a, b), q = exact::two_product(c, d);
   return (p.value - q.value) + (p.rest - q.rest);
 }
 
-/// The normal also of two nearly parallel vectors.
+/// Returns the cross product, accurate also for nearly parallel vectors.
 inline Vec3 accurate_cross(const Vec3& a, const Vec3& b) noexcept {
   return {difference_of_products(a[1], b[2], a[2], b[1]), difference_of_products(a[2], b[0], a[0], b[2]),
           difference_of_products(a[0], b[1], a[1], b[0])};
 }
 
-/// Two triangles relative to the first's first corner. R, the largest coordinate there, is the unit of all errors
-/// below.
+/// Two triangles in coordinates relative to the first corner of x. R is the largest magnitude of these coordinates. All
+/// errors below are relative to R.
 class TrianglePair {
  public:
   TrianglePair(const Corners& x, const Corners& y) noexcept : origin_(x[0]) {
@@ -42,28 +42,30 @@ class TrianglePair {
     y_.prepare();
   }
 
-  /// Products of six lengths neither overflow nor lose digits that matter to underflow; false also for NaN.
+  /// Returns true when products of six lengths neither overflow nor lose significant digits to underflow; false for
+  /// NaN.
   bool in_window() const noexcept { return size_ >= 0x1p-150 && size_ <= 0x1p150; }
 
-  /// How far rounding may put a bound of the distance on the wrong side. In half ulps of R: 2 for the rounding of a
-  /// corner to here; below it, 5 for the dot product of a corner with a unit vector, so 14 for two triangles; above it,
+  /// Returns how much rounding may shift a bound of the distance. In half ulps of R: 2 for the relative coordinates;
+  /// for the lower bound 5 for the product of a corner with a unit vector, so 14 for two triangles; for the upper bound
   /// 5 for a point of an edge, so 14 for two, and 12 for a point of a face, so 16 with a corner. In half ulps of the
-  /// distance: 4 for its root of squares or its division by the direction's length.
+  /// distance: 4 for the root of a sum of squares or the division by the length of the direction.
   double rounding(double distance) const noexcept { return exact::half_ulp * (20 * size_ + 8 * distance); }
 
-  /// Are the planes of the triangles enough to see that they are at least m apart?
+  /// Returns true when the normal of one triangle proves that the triangles are at least m apart.
   bool planes_apart(double m) const noexcept { return apart_along(x_.normal, m) || apart_along(y_.normal, m); }
 
   struct Nearest {
-    Vec3 p, q;             ///< points of the triangles, up to rounding: the distance is at most theirs
+    Vec3 p, q;             ///< points on the triangles, up to rounding; |p - q| is an upper bound of the distance
     double squared = 0.0;  ///< |p - q|^2
     double distance = 0.0;
-    double gap = 0.0;  ///< along the best direction known: the distance is at least this, up to rounding
+    double gap = 0.0;  ///< separation along the best known direction: a lower bound of the distance, up to rounding
   };
 
   Nearest nearest() const noexcept;
 
-  /// Do the bounds agree? Then `distance` is right to 28 half ulps of R and 16 of itself.
+  /// Returns true when the two bounds agree. The error of `distance` is then at most 28 u R + 16 u distance (u =
+  /// 2^-53).
   bool certain(const Nearest& n) const noexcept {
     return n.distance - n.gap <= exact::half_ulp * (8 * size_ + 8 * n.distance);
   }
@@ -73,10 +75,10 @@ class TrianglePair {
  private:
   struct Side {
     Corners corner;
-    Corners edge;                           // edge k from corner k to k + 1
-    Vec3 normal, to_first, to_second;       // dotted with a point seen from corner 0:
-                                            // its shares along the edges, times n^2
-    std::array<double, 3> square, inverse;  // of the edges' lengths; 0 for 0
+    Corners edge;                           // edge k from corner k to corner k + 1
+    Vec3 normal, to_first, to_second;       // to_first . (p - corner 0) = n^2 times the parameter of p along edge 0;
+                                            // to_second: the same along corner 0 - corner 2
+    std::array<double, 3> square, inverse;  // of the edge lengths; inverse is 0 for length 0
     double normal_square = 0.0;
 
     void prepare() noexcept {
@@ -93,7 +95,7 @@ class TrianglePair {
     }
   };
 
-  /// (min n.y - max n.x) for the sign of n that gives more.
+  /// Returns the larger of min n.y - max n.x and min n.x - max n.y: the gap along n times |n|.
   double gap_times_norm(const Vec3& n) const noexcept {
     const auto range = [&n](const Corners& c) noexcept {
       const double u = dot(n, c[0]), v = dot(n, c[1]), w = dot(n, c[2]);
@@ -115,8 +117,8 @@ class TrianglePair {
     double s = 0.0, t = 0.0;
   };
 
-  /// Nearest points of edge k of x and edge l of y (Lumelsky 1985, ending with one more projection); degenerate and
-  /// parallel edges included.
+  /// Returns the parameters of the nearest points of edge k of x and edge l of y (Lumelsky 1985, with one more
+  /// projection at the end). Degenerate and parallel edges are valid. Writes their difference to `apart`.
   Shares on_edges(std::size_t k, std::size_t l, Vec3& apart) const noexcept {
     const Vec3 &u = x_.edge[k], &v = y_.edge[l], r = x_.corner[k] - y_.corner[l];
     const double a = x_.square[k], e = y_.square[l], b = dot(u, v), c = dot(u, r), f = dot(v, r);
@@ -128,7 +130,7 @@ class TrianglePair {
     return {s, t};
   }
 
-  /// Squared distance of a corner of `points` from the inside of t's face; infinite where its foot is outside.
+  /// Returns the squared distance of p to the face of t, or infinity when the foot of the perpendicular is outside.
   static double to_face(const Side& t, const Vec3& p) noexcept {
     const Vec3 w = p - t.corner[0];
     const double s = dot(w, t.to_first), r = dot(w, t.to_second), height = dot(w, t.normal);
@@ -148,8 +150,7 @@ class TrianglePair {
 };
 
 inline TrianglePair::Nearest TrianglePair::nearest() const noexcept {
-  std::size_t best = 0;  // 0..8 edge pairs, 9..11 a corner of x and y's
-                         // face, 12..14 the other way round
+  std::size_t best = 0;  // 0..8: edge pairs; 9..11: corner of x and face of y; 12..14: corner of y and face of x
   double least = std::numeric_limits<double>::infinity();
   const auto offer = [&](std::size_t which, double squared) noexcept {
     best = squared < least ? which : best;
@@ -176,7 +177,8 @@ inline TrianglePair::Nearest TrianglePair::nearest() const noexcept {
     n.q = on_edge(y_.corner[l], y_.corner[(l + 1) % 3], t);
     const bool inside_u = s > 0.0 && s<1.0, inside_v = t> 0.0 && t < 1.0;
     direction = n.p - n.q;
-    // A direction computed from near points is off by the rounding of these; at right angles to an edge it need not be.
+    // The difference of near points has a large relative rounding error. Where a point is interior, use a direction
+    // that is perpendicular to its edge instead.
     if (inside_u && inside_v)
       direction = accurate_cross(x_.edge[k], y_.edge[l]);
     else if (inside_u)

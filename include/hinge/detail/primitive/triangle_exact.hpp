@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ExactTriangles: two closed triangles in whole numbers, for pairs that double arithmetic leaves open.
+// ExactTriangles: two closed triangles in exact integer arithmetic, for pairs that double arithmetic cannot decide.
 #pragma once
 
 #include <algorithm>
@@ -17,13 +17,13 @@
 
 namespace hinge::detail {
 
-/// Any finite coordinates; degenerate triangles are the segments or points their corners span. Triangles that meet do
-/// so at one of the places below with distance 0 (an edge through a face counts 0); disjoint ones are nearest at two
-/// corners, at a corner and the inside of an edge or face, or at the insides of two edges. The squared distance of each
-/// is a fraction of whole numbers.
+/// All finite coordinates are valid; degenerate triangles are the segment or point that their corners span. Each
+/// candidate below is a pair of points whose squared distance is a fraction of integers. Triangles that share a point
+/// have a candidate with distance 0 (an edge through a face counts as 0). Disjoint triangles are nearest at two
+/// corners, at a corner and the interior of an edge or face, or at the interiors of two edges.
 class ExactTriangles {
  public:
-  /// `reach`: finite lengths to compare with.
+  /// `reach`: the threshold to compare with, as finite terms.
   ExactTriangles(const Corners& x, const Corners& y, const RadiusSum& reach = {}) noexcept
       : corners_{x, y}, counts_touching_(reach.counts_touching()) {
     unit_ = exact::common_unit(reach, exact::common_unit(x, exact::common_unit(y)));
@@ -31,7 +31,7 @@ class ExactTriangles {
     reach_ = exact::whole(reach, unit_);
   }
 
-  /// d below the reach, or not above it where there is no clearance.
+  /// Returns true when d is below the radius sum, or equal to it when touching counts.
   bool closer_than_reach() const noexcept {
     bool closer = false;
     visit([&](const Integer& numerator, const Integer& denominator, const auto&) noexcept {
@@ -42,9 +42,9 @@ class ExactTriangles {
   }
 
   struct Nearest {
-    double squared = 0.0;   ///< within 4 half ulps; 0 only when they meet; infinite above the largest double
-    double distance = 0.0;  ///< its root, right also where the square is no normal double
-    Vec3 p, q;              ///< on x and on y, up to rounding of their coordinates; the same point when they meet
+    double squared = 0.0;   ///< relative error at most 4 u; 0 only when they share a point; may be infinite
+    double distance = 0.0;  ///< its root, accurate also where the square is not a normal double
+    Vec3 p, q;  ///< on x and on y, up to rounding of the coordinates; equal when the triangles share a point
   };
 
   Nearest nearest() const noexcept {
@@ -71,7 +71,8 @@ class ExactTriangles {
 
   Whole between(const Vec3& from, const Vec3& to) const noexcept { return exact::whole_difference(to, from, unit_); }
 
-  /// f(numerator, denominator, places) for every place; places(Nearest&) writes the two points. f ends it with true.
+  /// Calls f(numerator, denominator, places) for every candidate; places(Nearest&) writes the two points. A true result
+  /// of f ends the visit.
   template <class Visitor>
   void visit(const Visitor& f) const noexcept {
     if (corner_pairs(f)) return;
@@ -92,13 +93,13 @@ class ExactTriangles {
     return false;
   }
 
-  /// Writes a point of triangle `side` and one of the other.
+  /// Writes a point of triangle `side` and a point of the other triangle.
   static void put(Nearest& n, std::size_t side, const Vec3& on_side, const Vec3& on_other) noexcept {
     n.p = side == 0 ? on_side : on_other;
     n.q = side == 0 ? on_other : on_side;
   }
 
-  /// Corner k of a triangle and the insides of the other's edges: |w x u|^2 / u^2.
+  /// Corner k of one triangle and the interiors of the other's edges: |w x u|^2 / u^2.
   template <class Visitor>
   [[gnu::noinline]] bool edges_of_other(const Visitor& f, std::size_t side, std::size_t k) const noexcept {
     const Corners& other = corners_[1 - side];
@@ -116,7 +117,8 @@ class ExactTriangles {
     return false;
   }
 
-  /// Corner k and the other's face: (w . n)^2 / n^2 where the foot, at (s, t) n^2 along the edges, is inside.
+  /// Corner k and the face of the other triangle: (w . n)^2 / n^2. Only when the foot, at parameters s / n^2 and t /
+  /// n^2, is inside.
   template <class Visitor>
   [[gnu::noinline]] bool face_of_other(const Visitor& f, std::size_t side, std::size_t k) const noexcept {
     const Corners& other = corners_[1 - side];
@@ -130,7 +132,7 @@ class ExactTriangles {
     });
   }
 
-  /// The edge that starts at corner k, through the other's face.
+  /// The edge that starts at corner k, when it passes through the face of the other triangle.
   template <class Visitor>
   [[gnu::noinline]] bool through_other(const Visitor& f, std::size_t side, std::size_t k) const noexcept {
     const auto& [a, b, c] = corners_[1 - side];
@@ -143,7 +145,7 @@ class ExactTriangles {
              [&](Nearest& n) noexcept { n.p = n.q = on_edge(p, q, ratio(from, from - to)); });
   }
 
-  /// The insides of two edges: (w . n)^2 / n^2, n their common normal, where its feet s and t are inside both.
+  /// The interiors of two edges: (w . n)^2 / n^2, where n is their common normal. Only when both feet are interior.
   template <class Visitor>
   [[gnu::noinline]] void edge_pairs(const Visitor& f) const noexcept {
     for (std::size_t k = 0; k < 3; ++k)
@@ -170,7 +172,7 @@ class ExactTriangles {
   bool counts_touching_ = false;
 };
 
-// Out of line: frames of whole numbers are large, and a caller that seldom gets here should not have them in its own.
+// Out of line: stack frames with Integers are large, and callers rarely need these functions.
 
 [[gnu::cold, gnu::noinline]] inline ExactTriangles::Nearest nearest_in_integers(const Corners& x,
                                                                                 const Corners& y) noexcept {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Do two closed triangles share a point? The exact answer for every finite double; degenerate triangles are the
-// segments or points their corners span.
+// Exact intersection test of two closed triangles, for all finite doubles. Degenerate triangles are the segments or
+// points that their corners span.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,8 @@
 
 namespace hinge::detail {
 
-/// On which side of a triangle's plane the corners of another lie; all 0 for a triangle without a plane.
+/// The sides of a triangle's plane on which the corners of another triangle lie (signs). All 0 when the triangle is
+/// degenerate.
 struct Sides {
   std::array<int, 3> sign{};
 
@@ -25,8 +26,9 @@ struct Sides {
   }
 };
 
-/// Filtered with one normal for the three. Rounding: edges and w to half an ulp, so each of the six products of three
-/// within 7 half ulps of |u|max |v|max |w|max; underflow errs by at most 2^-1074 (1 + |w|max) a few times over.
+/// Returns the sides of `points` relative to the plane of t. One error bound in double serves the three points.
+/// Rounding: edges and w are accurate to half an ulp, so each of the six triple products is within 7 half ulps of
+/// |u|max |v|max |w|max. Underflow adds at most a few times 2^-1074 (1 + |w|max).
 inline Sides sides_of(const Corners& t, const Corners& points) noexcept {
   constexpr double relative = 48 * exact::half_ulp, absolute = 0x1p-1069;
   const Vec3 u = t[1] - t[0], v = t[2] - t[0], normal = cross(u, v);
@@ -35,22 +37,22 @@ inline Sides sides_of(const Corners& t, const Corners& points) noexcept {
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 w = points[k] - t[0];
     const double height = dot(w, normal), reach = largest(w);
-    // What overflows on the way is infinite or NaN in the end, and its sign says nothing: terms beside it may be
-    // larger.
+    // Overflow gives infinity or NaN in the end; its sign has no meaning, since other terms may be larger.
     const bool sure = is_finite(height) && std::abs(height) > size * reach + absolute * (1.0 + reach);
     sides.sign[k] = sure ? exact::sign_of(height) : exact::orient3d(points[k], t[1], t[2], t[0]);
   }
   return sides;
 }
 
-/// Does segment pq, whose line meets the triangle's plane in one point of the segment, meet the triangle?
+/// Returns true when segment pq meets the triangle. The line of pq must meet the plane in a single point, inside the
+/// segment.
 inline bool pierces(const Vec3& p, const Vec3& q, const Corners& t) noexcept {
   const int u = exact::orient3d(t[0], t[1], q, p), v = exact::orient3d(t[1], t[2], q, p);
   if (u * v < 0) return false;
   return same_side(u, v, exact::orient3d(t[2], t[0], q, p));
 }
 
-/// An edge of x that is not in y's plane and meets y.
+/// Returns true when an edge of x that is not in the plane of y meets y.
 inline bool any_pierces(const Corners& x, const Sides& of_x, const Corners& y) noexcept {
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t l = (k + 1) % 3;
@@ -60,16 +62,16 @@ inline bool any_pierces(const Corners& x, const Sides& of_x, const Corners& y) n
   return false;
 }
 
-/// Closed boxes around pq and rs.
+/// Returns true when the closed boxes around pq and rs share a point.
 inline bool boxes_meet(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) noexcept {
   for (int k = 0; k < 3; ++k)
     if (std::max(p[k], q[k]) < std::min(r[k], s[k]) || std::max(r[k], s[k]) < std::min(p[k], q[k])) return false;
   return true;
 }
 
-/// Closed segments, points included. In one plane, and meeting along every axis: along the axis on which the plane's
-/// normal is largest nothing is lost, and the others only repeat it. Each is the box test and the straddle test of two
-/// segments in the plane.
+/// Returns true when two closed segments (possibly points) share a point. They must be coplanar and meet in the
+/// projection along every axis. The projection along the largest component of the normal loses nothing; the others are
+/// redundant. Each projection is tested by the boxes and by the sides of the ends.
 inline bool segments_meet(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) noexcept {
   if (!boxes_meet(p, q, r, s) || exact::orient3d(p, q, r, s) != 0) return false;
   for (int axis = 0; axis < 3; ++axis) {
@@ -79,7 +81,8 @@ inline bool segments_meet(const Vec3& p, const Vec3& q, const Vec3& r, const Vec
   return true;
 }
 
-/// Point p of the triangle's plane, as above along every axis; the box is for triangles that are points or segments.
+/// Returns true when p, a point in the plane of t, lies in t, tested in the projection along every axis. The box test
+/// serves degenerate triangles.
 inline bool holds(const Corners& t, const Vec3& p) noexcept {
   for (int k = 0; k < 3; ++k)
     if (p[k] < std::min({t[0][k], t[1][k], t[2][k]}) || p[k] > std::max({t[0][k], t[1][k], t[2][k]})) return false;
@@ -91,7 +94,7 @@ inline bool holds(const Corners& t, const Vec3& p) noexcept {
   return true;
 }
 
-/// For triangles of which some edge lies in the other's plane, or the other has none.
+/// For triangles with an edge in the plane of the other triangle, or where the other triangle is degenerate.
 inline bool meet_in_plane(const Corners& x, const Sides& of_x, const Corners& y, const Sides& of_y) noexcept {
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t l = 0; l < 3; ++l)
@@ -101,10 +104,10 @@ inline bool meet_in_plane(const Corners& x, const Sides& of_x, const Corners& y,
   return false;
 }
 
-/// Two convex sets of which neither is solid meet where an edge of one meets the other. That edge passes through the
-/// other's plane at one point, or lies in it: then it meets an edge, or its ends are inside.
+/// Two convex sets without volume meet where an edge of one meets the other. This edge passes through the other's plane
+/// at one point, or it lies in that plane. In the second case it meets an edge of the other, or its ends are inside.
 [[gnu::noinline]] inline bool intersect_by_edges(const Corners& x, const Corners& y) noexcept {
-  for (const Vec3& p : x)  // the commonest contact
+  for (const Vec3& p : x)  // a shared corner is the most frequent contact
     for (const Vec3& q : y)
       if (p == q) return true;
   const Sides of_x = sides_of(y, x);
@@ -118,13 +121,13 @@ inline bool meet_in_plane(const Corners& x, const Sides& of_x, const Corners& y,
   return (two_zeros(of_x) || two_zeros(of_y)) && meet_in_plane(x, of_x, y, of_y);
 }
 
-/// Three corners cut off by a plane on the side `sign` of which only corner `lone` lies.
+/// A triangle cut by a plane: corner `lone` lies alone on its side. positive: this is the positive side.
 struct Cut {
   std::size_t lone = 0;
   bool positive = false;
 };
 
-/// Two of the heights are on one side, one on the other.
+/// Requires two heights on one side and one on the other.
 inline Cut cut(const std::array<double, 3>& height) noexcept {
   const bool p = height[0] > 0.0, q = height[1] > 0.0, r = height[2] > 0.0;
   const std::size_t lone = q == r ? 0 : p == r ? 1 : 2;
@@ -133,12 +136,13 @@ inline Cut cut(const std::array<double, 3>& height) noexcept {
 
 enum class Meeting { apart, together, open };
 
-/// What a single bound on all rounding decides: Guigue & Devillers, "Fast and robust triangle-triangle overlap test
-/// using orientation predicates", Journal of Graphics Tools 8 (2003). `extent`: the largest difference of two
-/// coordinates along an axis.
+/// Decides with a single bound on all rounding errors, or returns open (Guigue & Devillers, "Fast and robust
+/// triangle-triangle overlap test using orientation predicates", Journal of Graphics Tools 8, 2003). extent: the
+/// largest coordinate difference along an axis.
 inline Meeting meeting_if_clear(const Corners& x, const Corners& y, double extent) noexcept {
-  // Six products of three differences, each right to half an ulp, all within 7 half ulps of extent^3.
-  if (!(extent >= 0x1p-150 && extent <= 0x1p150)) return Meeting::open;  // products would leave the range of doubles
+  // The error of six products of three differences, each accurate to half an ulp, is within 7 half ulps of extent^3
+  // each.
+  if (!(extent >= 0x1p-150 && extent <= 0x1p150)) return Meeting::open;  // products would overflow or underflow
   const double rounding = 48 * exact::half_ulp * (extent * extent * extent);
   const auto heights = [](const Corners& t, const Corners& points) noexcept {
     const Vec3 normal = cross(Vec3(t[1] - t[0]), Vec3(t[2] - t[0]));
@@ -157,7 +161,7 @@ inline Meeting meeting_if_clear(const Corners& x, const Corners& y, double exten
   if (beyond(of_y)) return Meeting::apart;
   if (!all_clear(of_x) || !all_clear(of_y)) return Meeting::open;
 
-  // Each triangle cuts the line of the two planes in an interval that ends on the two edges of its lone corner.
+  // Each triangle cuts the common line of the planes in an interval. It ends on the two edges of the lone corner.
   const Cut in_x = cut(of_x), in_y = cut(of_y);
   const Vec3 &p = x[in_x.lone], &q = y[in_y.lone];
   const std::size_t turn_x = in_y.positive ? 1 : 2, turn_y = in_x.positive ? 1 : 2;
@@ -170,7 +174,8 @@ inline Meeting meeting_if_clear(const Corners& x, const Corners& y, double exten
   return first < -rounding && second < -rounding ? Meeting::together : Meeting::open;
 }
 
-/// `extent`: as above; 0 leaves everything to the last rungs.
+/// Returns true when the closed triangles share a point. extent: the largest coordinate difference along an axis; 0
+/// skips the bound.
 inline bool intersect(const Corners& x, const Corners& y, double extent) noexcept {
   const Meeting clear = meeting_if_clear(x, y, extent);
   return clear == Meeting::open ? intersect_by_edges(x, y) : clear == Meeting::together;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Leaf<Triangle>: sixteen triangles side by side in float; pairs are proved apart by separating axes.
+// Leaf<Triangle>: sixteen triangles in float SIMD layout. Separating axes prove that pairs are apart.
 #pragma once
 
 #include <algorithm>
@@ -32,9 +32,10 @@ template <class T>
   return n.x * p.x + n.y * p.y + n.z * p.z;
 }
 
-/// Any axis, however badly it was computed, proves two triangles apart when their projections on it are: only the
-/// projections' rounding counts. The plane of one, the planes of the sixteen, and the products of edges are tried, each
-/// while lanes are left. (Flattened: compilers leave small lambdas as calls, which send lanes through memory.)
+/// Disjoint projections on any axis prove that two triangles are disjoint, even when the axis itself is inaccurate.
+/// Only the rounding of the projections matters. The tests use the normal of the single triangle, the normals of the
+/// sixteen, and the cross products of edges, while undecided lanes remain. The functions are flattened, because
+/// compilers otherwise call small lambdas and pass lanes through memory.
 template <>
 struct Leaf<Triangle> {
   using Float16 = simd::Float16;
@@ -42,7 +43,7 @@ struct Leaf<Triangle> {
   using One3 = Axis<float>;
   static constexpr bool uses_static_bvh = true;
   static constexpr std::size_t n = simd::width;
-  static constexpr std::size_t floats = 9 * n;  ///< a's x, y, z, then b's, then c's
+  static constexpr std::size_t floats = 9 * n;  ///< x, y, z of a, then of b, then of c
 
   static void set(float* at, std::size_t lane, const Triangle& t, const Vec3& origin, double scale) noexcept {
     std::size_t place = lane;
@@ -95,18 +96,19 @@ struct Leaf<Triangle> {
         return not_apart<false, true>(k, own, lanes, near);
       return not_apart<true, true>(k, own, lanes, near);
     }
-    /// The same with fewer axes, for pairs whose distance is bounded next.
+    /// The same with fewer axes, for pairs that a distance bound tests next.
     [[gnu::flatten]] simd::Bits roughly_near(std::size_t k, const float* own, simd::Bits lanes,
                                              const Nearness& near) const noexcept {
       return not_apart<true, false>(k, own, lanes, near);
     }
 
    private:
-    /// Lanes whose gap along the axis proves nothing: it does not exceed rounding and, with Grown, the margin.
+    /// Returns the lanes without a proof: their gap along the axis does not exceed the rounding error and, with Grown,
+    /// the margin.
     template <bool Grown>
     [[gnu::always_inline]] static simd::Bits unproved(const Lanes3& axis, const Float16& gap, const Nearness& near,
                                                       const Float16& margin) noexcept {
-      // Products of floats lose at most this much to underflow.
+      // Upper bound of the underflow error in products of floats.
       constexpr float underflow = 1e-37F;
       const Float16 rounding = (abs(axis.x) + abs(axis.y) + abs(axis.z)) * Float16(near.error) + Float16(underflow);
       if constexpr (Grown) {
@@ -130,9 +132,9 @@ struct Leaf<Triangle> {
       if constexpr (Grown) {
         if (near.reach != nullptr) margin = margin + Float16(near.reach);
         if (near.other_reach != nullptr) margin = margin + Float16(near.other_reach[k]);
-        margin = max(margin, Float16(0.0F)) * Float16(1.0F + 0x1p-20F);  // the rounding of sums and squares
+        margin = max(margin, Float16(0.0F)) * Float16(1.0F + 0x1p-20F);  // rounding of sums and squares
       }
-      // Boxes.
+      // Axes of the bounding boxes.
       const Float16 zero(0.0F), error(near.error);
       const auto box_gap = [&](const Float16& x, const Float16& y, const Float16& z, std::size_t axis) {
         const Float16 above = min(min(x, y), z) - (Float16(upper_[axis * n + k]) + error);
@@ -145,7 +147,7 @@ struct Leaf<Triangle> {
       else
         lanes &= ~less(zero, max(max(gap_x, gap_y), gap_z));
       if (lanes == 0) return 0;
-      // The plane of the one.
+      // Normal of the single triangle.
       {
         const One3 axis = cross_axis(difference(q, p), difference(r, p));
         const float u = along(axis, p), v = along(axis, q), w = along(axis, r);
@@ -163,11 +165,12 @@ struct Leaf<Triangle> {
         const Float16 gap = max(min(min(s, t), o) - max(max(u, v), w), min(min(u, v), w) - max(max(s, t), o));
         lanes &= unproved<Grown>(axis, gap, near, margin);
       };
-      // The planes of the sixteen.
+      // Normals of the sixteen triangles.
       const Lanes3 ab = difference(b, a), bc = difference(c, b), ca = difference(a, c);
       try_axis(cross_axis(ab, bc));
       if constexpr (Grown) {
-        // From middle to middle: what is found between corners and for points and segments.
+        // Axis between the centroids. It separates many pairs whose nearest points are corners, and degenerate
+        // triangles.
         const Float16 third(1.0F / 3.0F);
         try_axis({(a.x + b.x + c.x - P.x - Q.x - R.x) * third, (a.y + b.y + c.y - P.y - Q.y - R.y) * third,
                   (a.z + b.z + c.z - P.z - Q.z - R.z) * third});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PairRules: the policies of one query put together: threshold and admission of a pair, within a model or across two.
+// SelfRules and CrossRules: the threshold and the admission of pairs in one query, within a model or between two.
 #pragma once
 
 #include <span>
@@ -13,12 +13,12 @@
 
 namespace hinge::detail {
 
-/// Extra clearance of a group; none when no list was given.
+/// Returns the extra clearance of a group, or 0 when the list is empty.
 inline double clearance_of(std::span<const double> clearance, GroupId group) noexcept {
   return clearance.empty() ? 0.0 : clearance[index(group)];
 }
 
-/// What closer_than compares with: M, or the sum it is made of.
+/// Returns the threshold for closer_than: M as a double, or the exact terms of a radius sum.
 template <DistanceMatrix D>
 auto threshold_of(const D& matrix, PrimitiveId i, PrimitiveId j) noexcept {
   if constexpr (AdditiveRadii<D>)
@@ -34,7 +34,7 @@ auto threshold_of(const D& matrix, PrimitiveId i, const D& other, PrimitiveId j)
     return matrix.threshold(i, other, j);
 }
 
-/// Pairs inside one model. A view: lives as long as one query.
+/// Pairs inside one model. A view that is valid during one query.
 template <Primitive P, PairFilter F, DistanceMatrix D>
 struct SelfRules {
   Placement<P>& placement;
@@ -49,7 +49,8 @@ struct SelfRules {
     return m +
            (clearance_of(options.clearance, model.group_of(i)) + clearance_of(options.clearance, model.group_of(j)));
   }
-  /// The filter's word, less pairs of constant distance and, in moved-only queries, those that did not move.
+  /// Returns true when the filter admits the pair, its distance is not constant and, in moved-only queries, the two
+  /// groups moved relative to each other.
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept {
     const auto& model = placement.model();
     return filter.admits(i, j) && !placement.constant(i, j) &&
@@ -57,7 +58,7 @@ struct SelfRules {
   }
 };
 
-/// Pairs of two models: i of the first, j of the second.
+/// Pairs of two models: i of the first, j of the second. A view that is valid during one query.
 template <Primitive P, PairFilter F, CrossMatrix D>
 struct CrossRules {
   Placement<P>& first;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// sort_hits: by (first, second). Long lists are dealt into buckets: sorting by comparison took longer than the query.
+// sort_hits: sorts hits by (first, second). Long lists use a radix sort; a comparison sort took longer than the query.
 #pragma once
 
 #include <algorithm>
@@ -19,12 +19,12 @@ inline void sort_hits(std::vector<Hit>& hits) {
   };
   std::size_t buckets = 0;
   for (const Hit& hit : hits) buckets = std::max(buckets, std::max(index(hit.first), index(hit.second)) + 1);
-  // Buckets pay when there are several hits to share the walk over them.
+  // Buckets pay off only when their number is small relative to the number of hits.
   if (hits.size() < 64 || buckets > 4 * hits.size()) {
     std::sort(hits.begin(), hits.end(), before);
     return;
   }
-  // By the second, then by the first, each pass keeping the order of equals.
+  // Stable counting sort by second, then by first.
   std::vector<std::uint32_t> order(hits.size()), sorted_order(hits.size()), end(buckets + 1);
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<std::uint32_t>(k);
   for (const auto key : {&Hit::second, &Hit::first}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// test_pair: the leaf kernel. The only place where a pair of primitives is judged, for every engine and every mode,
-// exactly or by a distance that was only measured.
+// test_pair: the leaf kernel. Every engine and query mode decides pairs of primitives here, exactly or from a measured
+// float distance.
 #pragma once
 
 #include "hinge/core/id.hpp"
@@ -10,9 +10,9 @@
 
 namespace hinge::detail {
 
-/// Hands the pair to the collector when it is wanted: BioCD eq. (1) with threshold m (extra clearances included), a
-/// double or the sum it is made of. The distance is looked at first and `admitted()` asked last: most pairs are far
-/// apart, and knowing whether a pair counts may cost a look-up. Was it wanted?
+/// Passes the pair to the collector when it satisfies BioCD eq. (1) with threshold m, extra clearances included. m is a
+/// double or a RadiusSum. It tests the distance before admitted(): most pairs are far apart, and admitted() may cost a
+/// look-up. Returns true when the collector received the pair.
 template <Collector C, Primitive P, class Threshold, class Admitted>
 bool test_pair(C& collector, PrimitiveId i, PrimitiveId j, const P& p, const P& q, const Threshold& m,
                Admitted&& admitted) {
@@ -23,14 +23,15 @@ bool test_pair(C& collector, PrimitiveId i, PrimitiveId j, const P& p, const P& 
   } else {
     const auto near = m + collector.cutoff();
     if (!closer_than(p, q, near) || !admitted()) return false;
-    // Nothing is closer than 0: solids that count at a threshold of 0 meet.
+    // Distances are never negative, so solids accepted at threshold 0 touch: their distance is 0.
     collector.add(Hit{i, j, near > 0.0 ? distance(p, q) : 0.0, m});
   }
   return true;
 }
 
-/// The same for primitives without a body (never closer than 0) whose distance is within `error` of `measured`. What
-/// that leaves open is for `precision` to say; returns 1 for such a pair, 0 for a decided one.
+/// The same for point-like primitives whose distance is within `error` of `measured`. When this interval contains the
+/// threshold, the pair is undecided and `precision` determines the result. Returns 1 for an undecided pair, otherwise
+/// 0.
 template <Collector C, class Admitted>
 unsigned test_measured_pair(C& collector, Precision precision, PrimitiveId i, PrimitiveId j, double measured,
                             double error, double m, Admitted&& admitted) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From bit masks to lists, and look-ups in small tables: the two steps that standard SIMD types do not offer.
+// Converts bit masks to index lists, and looks up small tables. Standard SIMD types lack both operations.
 #pragma once
 
 #include <bit>
@@ -14,13 +14,13 @@
 
 namespace hinge::detail::simd {
 
-/// Writes base + lane for every set bit to `to`, lowest first, and returns how many. Writes up to `width` entries,
-/// whatever the mask: leave room behind.
+/// Writes base + lane for every set bit to `to`, lowest lane first, and returns the number of set bits. It may write up
+/// to `width` entries for any mask, so `to` needs that much space.
 [[gnu::always_inline]] inline std::size_t append_lanes(Bits mask, std::uint32_t base, std::uint32_t* to) noexcept {
 #if defined(__AVX512F__)
   const __m512i lanes = _mm512_add_epi32(_mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0),
                                          _mm512_set1_epi32(static_cast<int>(base)));
-  // Compressed in a register: the form that writes memory is slow on some CPUs.
+  // Compress into a register: the form that writes to memory is slow on some CPUs.
   _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(mask), lanes));
   return static_cast<std::size_t>(std::popcount(mask));
 #else
@@ -30,7 +30,7 @@ namespace hinge::detail::simd {
 #endif
 }
 
-/// Writes values[lane] for every set bit, the same way.
+/// Writes values[lane] for every set bit, in the same way.
 [[gnu::always_inline]] inline std::size_t append_chosen(Bits mask, const std::uint32_t* values,
                                                         std::uint32_t* to) noexcept {
 #if defined(__AVX512F__)
@@ -43,7 +43,7 @@ namespace hinge::detail::simd {
 #endif
 }
 
-/// a in the lanes of every set bit, b in the others.
+/// Returns a in the lanes of set bits and b in the others.
 [[gnu::always_inline]] inline Float16 choose(Bits mask, const Float16& a, const Float16& b) noexcept {
   alignas(64) float of_a[width], of_b[width];
   a.store(of_a);
@@ -56,15 +56,15 @@ namespace hinge::detail::simd {
   return Float16(of_b);
 }
 
-/// Sixteen numbers below 16, prepared for look_up. (The zero-masked forms because g++ 12 warns about the others'
-/// undefined pass-through operand.)
+/// Sixteen indices below 16, prepared for look_up. The intrinsics are the zero-masked forms, because g++ 12 warns about
+/// an undefined operand of the plain forms.
 class Index16 {
  public:
   Index16() = default;
 #if defined(__AVX512F__)
   explicit Index16(const std::uint8_t* from) noexcept
       : index_(_mm512_maskz_cvtepu8_epi32(0xffff, _mm_loadu_si128(reinterpret_cast<const __m128i*>(from)))) {}
-  /// table[index] in every lane; the table has 16 entries.
+  /// Returns table[index] in every lane. The table has 16 entries.
   [[gnu::always_inline]] friend Float16 look_up(const float* table, const Index16& i) noexcept {
     alignas(64) float r[width];
     _mm512_store_ps(r, _mm512_maskz_permutexvar_ps(0xffff, i.index_, _mm512_loadu_ps(table)));
@@ -79,7 +79,7 @@ class Index16 {
     index_[0] = _mm256_cvtepu8_epi32(bytes);
     index_[1] = _mm256_cvtepu8_epi32(_mm_srli_si128(bytes, 8));
   }
-  /// table[index] in every lane; the table has 16 entries.
+  /// Returns table[index] in every lane. The table has 16 entries.
   [[gnu::always_inline]] friend Float16 look_up(const float* table, const Index16& i) noexcept {
     const __m256 low = _mm256_loadu_ps(table), high = _mm256_loadu_ps(table + 8);
     alignas(32) float r[width];
@@ -95,7 +95,7 @@ class Index16 {
   __m256i index_[2]{};
 #else
   explicit Index16(const std::uint8_t* from) noexcept : index_(from) {}
-  /// table[index] in every lane; the table has 16 entries.
+  /// Returns table[index] in every lane. The table has 16 entries.
   [[gnu::always_inline]] friend Float16 look_up(const float* table, const Index16& i) noexcept {
     float r[width];
     for (std::size_t k = 0; k < width; ++k) r[k] = table[i.index_[k]];

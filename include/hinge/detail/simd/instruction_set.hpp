@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The instruction sets that make a difference: which one this code was compiled for, and which one the CPU has.
+// InstructionSet: the instruction sets that matter for speed, and which of them the code and the CPU support.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace hinge::detail::simd {
 
-/// avx2 and avx512 stand for the levels x86-64-v3 and x86-64-v4; baseline for anything less or another architecture.
+/// avx2 and avx512 mean the levels x86-64-v3 and x86-64-v4. baseline means any lower level or another architecture.
 enum class InstructionSet : unsigned char { baseline, avx2, avx512 };
 
 inline constexpr std::array<std::string_view, 3> instruction_set_names = {"baseline", "avx2", "avx512"};
@@ -17,7 +17,7 @@ constexpr std::string_view name(InstructionSet set) noexcept {
   return instruction_set_names[static_cast<std::size_t>(set)];
 }
 
-/// What this translation unit uses.
+/// Returns the instruction set that this translation unit was compiled for.
 constexpr InstructionSet compiled_for() noexcept {
 #if defined(__AVX512F__) && defined(__AVX512BW__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
   return InstructionSet::avx512;
@@ -28,7 +28,7 @@ constexpr InstructionSet compiled_for() noexcept {
 #endif
 }
 
-/// The best one this CPU runs.
+/// Returns the best instruction set of this CPU.
 inline InstructionSet of_this_cpu() noexcept {
 #if defined(__x86_64__)
   __builtin_cpu_init();

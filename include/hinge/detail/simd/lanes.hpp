@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lanes<T, N>: N numbers worked on together, the same N on every instruction set: as many native registers as it takes.
+// Lanes<T, N>: N numbers with lane-wise arithmetic. N does not depend on the instruction set; a value uses several
+// registers.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,19 +12,19 @@
 
 namespace hinge::detail::simd {
 
-// libstdc++ 12 takes an AVX-512 mask for a single truth value where clang compiles its where().
+// With clang and AVX-512, libstdc++ 12 treats a lane mask in where() as a single bool, so blends are avoided there.
 #if defined(__clang__) && defined(__AVX512F__)
 inline constexpr bool has_blends = false;
 #else
 inline constexpr bool has_blends = true;
 #endif
 
-/// One bit per lane, lane 0 lowest.
+/// One bit per lane; lane 0 is the lowest bit.
 using Bits = std::uint32_t;
 
-/// (Everything is forced inline: a call would send the lanes through memory, and compilers do make such calls.)
-/// Plain arithmetic, lane by lane, without fused multiply-add: a lane holds the bits that scalar code in the same order
-/// would. Memory need not be aligned.
+/// Lane-wise arithmetic without fused multiply-add: each lane has the bits of scalar code in the same order. Memory
+/// need not be aligned. All functions are forced inline, because compilers otherwise emit calls that pass lanes through
+/// memory.
 template <class T, std::size_t N>
 class Lanes {
   using Part = std::experimental::native_simd<T>;
@@ -40,7 +41,7 @@ class Lanes {
   [[gnu::always_inline]] explicit Lanes(const T* from) noexcept {
     for (std::size_t p = 0; p < parts; ++p) v_[p].copy_from(from + p * part_size, std::experimental::element_aligned);
   }
-  /// One value per lane.
+  /// Builds lanes from one value per lane.
   template <class... Values>
   requires(sizeof...(Values) == N) [[gnu::always_inline]] static Lanes of(Values... values) noexcept {
     const T each[N] = {values...};
@@ -52,7 +53,7 @@ class Lanes {
     for (std::size_t p = 0; p < parts; ++p) v_[p].copy_to(to + p * part_size, std::experimental::element_aligned);
   }
 
-  /// Only the lanes first ... last - 1; the others keep what they hold.
+  /// Stores lanes first .. last - 1 only; other memory is unchanged.
   [[gnu::always_inline]] void store_lanes(std::size_t first, std::size_t last, T* to) const noexcept {
     if constexpr (has_blends) {
       for (std::size_t p = 0; p < parts; ++p) {
@@ -65,7 +66,7 @@ class Lanes {
     }
   }
 
-  /// Rounded to float.
+  /// Stores all lanes, rounded to float.
   [[gnu::always_inline]] void store_rounded(float* to) const noexcept {
     using Rounded = std::experimental::rebind_simd_t<float, Vector>;
     for (std::size_t p = 0; p < parts; ++p)
@@ -107,7 +108,7 @@ class Lanes {
   }
   [[gnu::always_inline]] friend Lanes abs(const Lanes& a) noexcept { return max(a, -a); }
 
-  /// The lanes where a comparison holds.
+  /// The result of a lane-wise comparison.
   class Mask {
    public:
     using Parts = std::array<typename Vector::mask_type, parts>;
@@ -132,19 +133,19 @@ class Lanes {
     Parts m_;
   };
 
-  /// Where a < b; false for NaN.
+  /// Returns a < b per lane; false for NaN.
   [[gnu::always_inline]] friend Mask less(const Lanes& a, const Lanes& b) noexcept {
     typename Mask::Parts m;
     for (std::size_t p = 0; p < parts; ++p) m[p] = a.v_[p] < b.v_[p];
     return Mask(m);
   }
-  /// Where a <= b; false for NaN.
+  /// Returns a <= b per lane; false for NaN.
   [[gnu::always_inline]] friend Mask less_equal(const Lanes& a, const Lanes& b) noexcept {
     typename Mask::Parts m;
     for (std::size_t p = 0; p < parts; ++p) m[p] = a.v_[p] <= b.v_[p];
     return Mask(m);
   }
-  /// a where x < y, else b.
+  /// Returns a where x < y, otherwise b, per lane.
   [[gnu::always_inline]] friend Lanes choose_less(const Lanes& x, const Lanes& y, const Lanes& a,
                                                   const Lanes& b) noexcept {
     if constexpr (has_blends) {
@@ -162,11 +163,13 @@ class Lanes {
     }
   }
 
+  /// Returns the smallest lane.
   [[gnu::always_inline]] friend T smallest(const Lanes& a) noexcept {
     Vector r = a.v_[0];
     for (std::size_t p = 1; p < parts; ++p) r = std::experimental::min(r, a.v_[p]);
     return std::experimental::hmin(r);
   }
+  /// Returns the largest lane.
   [[gnu::always_inline]] friend T largest(const Lanes& a) noexcept {
     Vector r = a.v_[0];
     for (std::size_t p = 1; p < parts; ++p) r = std::experimental::max(r, a.v_[p]);
@@ -183,11 +186,12 @@ class Lanes {
   std::array<Vector, parts> v_;
 };
 
-/// Numbers that lanes are loaded from: whole registers then never cross a cache line, which would halve their rate.
+/// A vector with aligned storage. Register loads then never cross a cache line, which would halve their rate.
 template <class T>
 using AlignedVector = std::vector<T, Eigen::aligned_allocator<T>>;
 
-/// The width of blocks, nodes and tasks on every instruction set: measured to pay also where it takes four registers.
+/// Width of blocks, nodes and candidate groups on every instruction set. In measurements it also pays where sixteen
+/// floats need four registers.
 inline constexpr std::size_t width = 16;
 inline constexpr Bits all_bits = (Bits{1} << width) - 1;
 
