@@ -178,7 +178,9 @@ class Hierarchy {
   std::span<const Frame> frames() noexcept {
     return placement().frames_through(id<GroupId>(model().groups()->size() - 1));
   }
+  /// The pair filter.
   const F& filter() const noexcept { return filter_; }
+  /// The distance matrix.
   const D& matrix() const noexcept { return matrix_; }
   /// Returns the world pose of a link at the last configuration or poses. ModelError: no such link.
   Pose link_pose(LinkId link) {

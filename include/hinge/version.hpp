@@ -4,9 +4,13 @@
 
 namespace hinge {
 
+/// Increases with incompatible changes.
 inline constexpr int version_major = 0;
+/// Increases with new features.
 inline constexpr int version_minor = 1;
+/// Increases with corrections.
 inline constexpr int version_patch = 0;
+/// The three numbers as "major.minor.patch".
 inline constexpr const char* version_string = "0.1.0";
 
 }  // namespace hinge

@@ -12,8 +12,8 @@ namespace hinge {
 /// A rotation followed by a translation (model length unit). The default is the identity. The pose of frame B in frame
 /// A maps coordinates in B to coordinates in A.
 struct Pose {
-  Mat3 rotation = Mat3::Identity();
-  Vec3 translation = Vec3::Zero();
+  Mat3 rotation = Mat3::Identity();  ///< orthonormal and right-handed
+  Vec3 translation = Vec3::Zero();   ///< model length unit
 
   /// Maps point x from the inner frame to the outer frame: R x + t.
   friend Vec3 operator*(const Pose& a, const Vec3& x) noexcept { return product(a.rotation, x) + a.translation; }

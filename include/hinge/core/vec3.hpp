@@ -7,7 +7,9 @@
 
 namespace hinge {
 
+/// A point or direction; coordinates x, y, z.
 using Vec3 = Eigen::Vector3d;
+/// A 3x3 matrix in column-major order.
 using Mat3 = Eigen::Matrix3d;
 
 // Eigen may reorder or contract its own products differently on each instruction set. Coordinates must have the same

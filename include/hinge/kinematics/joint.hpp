@@ -32,18 +32,20 @@ struct Prismatic {
   std::string name{};         ///< for error messages and output; may be empty
 };
 
+/// The kind of a joint.
 enum class JointKind : unsigned char { fixed, revolute, prismatic };
 
 /// Any of the three kinds. The world pose of the child is T(child) = T(parent) * origin * motion(q).
 struct Joint {
-  JointKind kind = JointKind::fixed;
-  Pose origin{};              ///< child frame in the parent frame at q = 0
-  Vec3 axis = Vec3::UnitZ();  ///< child frame; the tree normalises it to unit length
-  Vec3 point = Vec3::Zero();  ///< a point of a revolute axis, child frame, model length unit
-  std::string name{};         ///< for error messages and output; may be empty
+  JointKind kind = JointKind::fixed;  ///< selects the motion
+  Pose origin{};                      ///< child frame in the parent frame at q = 0
+  Vec3 axis = Vec3::UnitZ();          ///< child frame; the tree normalises it to unit length
+  Vec3 point = Vec3::Zero();          ///< a point of a revolute axis, child frame, model length unit
+  std::string name{};                 ///< for error messages and output; may be empty
 
   /// A fixed joint with the identity as origin.
   Joint() = default;
+  /// Converts one kind. The axis may have any length; KinematicTree::add_link checks and normalises it.
   Joint(Fixed j) : origin(std::move(j.origin)) {}
   Joint(Revolute j)
       : kind(JointKind::revolute), origin(j.origin), axis(j.axis), point(j.point), name(std::move(j.name)) {}

@@ -20,6 +20,7 @@ struct Hit {
   /// Returns distance - threshold, in the model's length unit. It is negative when the pair collides.
   double gap() const noexcept { return distance - threshold; }
 
+  /// Returns true when all four values are equal.
   friend bool operator==(const Hit&, const Hit&) = default;
 };
 

@@ -13,7 +13,7 @@ namespace hinge {
 /// A pure and symmetric predicate: admits(i, j) == admits(j, i). Engines call it only with i != j, and they call it for
 /// every pair that comes too close. A pair counts only when admits returns true. The refinements below only save time:
 /// each one gives the answer of admits for many pairs at once. hinge/policy/laws.hpp checks that the refinements agree
-/// with admits. Engines call it from the thread of the query.
+/// with admits. A filter between two models need not be symmetric.
 template <class F>
 concept PairFilter = std::copyable<F> && requires(const F& filter, PrimitiveId i, PrimitiveId j) {
   { filter.admits(i, j) }

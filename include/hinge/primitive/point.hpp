@@ -19,7 +19,7 @@ namespace hinge {
 /// One point. Coordinates in the frame of its link or in the world, model length unit.
 struct Point {
   static constexpr bool is_point_like = true;  ///< coincident points collide only when m > 0
-  Vec3 position = Vec3::Zero();
+  Vec3 position = Vec3::Zero();                ///< model length unit
 
   /// Returns the point transformed by the pose.
   Point placed(const Pose& pose) const noexcept { return {pose * position}; }

@@ -24,9 +24,9 @@ namespace hinge {
 
 /// A triangle with three corners, in the frame of its link or in the world, model length unit.
 struct Triangle {
-  Vec3 a = Vec3::Zero();
-  Vec3 b = Vec3::Zero();
-  Vec3 c = Vec3::Zero();
+  Vec3 a = Vec3::Zero();  ///< first corner
+  Vec3 b = Vec3::Zero();  ///< second corner
+  Vec3 c = Vec3::Zero();  ///< third corner
 
   /// Returns the triangle transformed by the pose.
   Triangle placed(const Pose& pose) const noexcept { return {pose * a, pose * b, pose * c}; }

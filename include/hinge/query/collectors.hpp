@@ -17,8 +17,8 @@ namespace hinge {
 /// Collector of yes/no queries: it stops at the first hit, which is an arbitrary colliding pair.
 class AnyHit {
  public:
-  static constexpr bool ranks = false;
-  static constexpr bool stops_at_first = true;
+  static constexpr bool ranks = false;          ///< add() receives hits only
+  static constexpr bool stops_at_first = true;  ///< any hit is a valid answer
   /// Stores the hit.
   void add(const Hit& hit) noexcept { hit_ = hit; }
   /// Returns 0: only collisions count.
@@ -35,7 +35,7 @@ class AnyHit {
 /// Collects every pair with d - M < margin. With margin 0 these are the colliding pairs.
 class HitsWithin {
  public:
-  static constexpr bool ranks = false;
+  static constexpr bool ranks = false;  ///< add() receives hits only
   /// margin: >= 0, model length unit.
   explicit HitsWithin(double margin = 0.0) noexcept : margin_(margin) {}
   /// Appends the hit.
@@ -60,8 +60,8 @@ class HitsWithin {
 /// reports, it keeps the smallest (first, second).
 class Closest {
  public:
-  static constexpr bool ranks = true;
-  static constexpr bool keeps_smallest = true;
+  static constexpr bool ranks = true;           ///< add() receives every pair that boxes do not rule out
+  static constexpr bool keeps_smallest = true;  ///< bounds of one pair may rule out others
   /// No known lower bound: the search ends when no pair is left.
   Closest() = default;
   /// least: lower bound of d - M over all pairs (model length unit). A pair at or below it ends the search.

@@ -19,7 +19,7 @@ namespace hinge {
 /// after clear() without new allocations.
 class LinkPairHits {
  public:
-  static constexpr bool ranks = false;
+  static constexpr bool ranks = false;  ///< add() receives hits only
   /// links: Model::links() of the queried model; must outlive this object. margin: >= 0, model length unit.
   explicit LinkPairHits(std::span<const LinkId> links, double margin = 0.0) : LinkPairHits(links, links, margin) {
     between_ = false;
