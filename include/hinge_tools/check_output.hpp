@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an option that names an output file may not name.
+// check_output: checks that an output option does not name a file that must not be overwritten.
 #pragma once
 
 #include <sys/stat.h>
@@ -13,14 +13,14 @@
 
 namespace hinge::tool {
 
-/// Is it the same file: device and number, under whatever name?
+/// True if both are the same file: equal device and inode, under any name.
 inline bool is_same_file(const struct stat& a, const struct stat& b) {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-/// Refuses to write over what the same command reads, or where its results go. option: such as "--out". Inputs that do
-/// not exist are passed over: their reader refuses them. ModelError: the path is a directory, one of the inputs, or the
-/// regular file that standard output or standard error goes to.
+/// Call this before writing to `path`. option: for messages, for example "--out". Inputs that do not exist are skipped:
+/// their reader reports them. Throws ModelError if the path is a directory, one of the inputs, or the regular file that
+/// standard output or standard error goes to.
 inline void check_output(const std::string& option, const std::filesystem::path& path,
                          const std::vector<std::filesystem::path>& inputs) {
   struct stat output = {}, other = {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// CompleteFile: an output file that is there whole or not at all.
+// CompleteFile: an output file that is written completely or not at all.
 #pragma once
 
 #include <unistd.h>
@@ -18,18 +18,17 @@
 
 namespace hinge::tool {
 
-/// Writes into a new file beside the wanted one, which takes the wanted name only when it is complete: nothing
-/// half-written is left, and of two programs that write to one name at the same time the last one to finish wins,
-/// whole. A symbolic link is followed: the file that it names is replaced, the link stays. What is no regular file (a
-/// device, a pipe) is written to as it is. Without a path no file is wanted.
+/// Writes to a temporary file next to the target. finish() renames it, so no partial file is left; if two programs
+/// write the same target, the last to finish wins. A symbolic link is followed: its target is replaced, the link stays.
+/// A device or pipe is written directly. An empty path means that no file is wanted.
 class CompleteFile {
  public:
-  /// LoadError: cannot be written, or is a directory.
+  /// Throws LoadError if the path cannot be written or is a directory.
   explicit CompleteFile(std::string path) : path_(std::move(path)) {
     if (!wanted()) return;
     std::error_code error;
     const auto status = std::filesystem::status(path_, error);
-    if (status.type() == std::filesystem::file_type::none) {  // such as a circle of links
+    if (status.type() == std::filesystem::file_type::none) {  // for example a cycle of links
       errno = error.value();
       refuse();
     }
@@ -43,17 +42,20 @@ class CompleteFile {
     check();
   }
 
+  /// True if the path is not empty.
   bool wanted() const noexcept { return !path_.empty(); }
-  /// Devices and pipes are not: what was written to them cannot be changed.
+  /// False for devices and pipes: bytes written to them cannot be taken back.
   bool is_regular() const noexcept { return is_regular_; }
+  /// The stream to write to. Valid for the life of the object.
   std::ofstream& stream() noexcept { return stream_; }
 
-  /// To be called after each piece written, so that a full disk ends the run at once. LoadError: could not be written.
+  /// Call this after each piece of output, so that a full disk ends the run at once. Throws LoadError if a write
+  /// failed.
   void check() const {
     if (wanted() && !stream_) refuse();
   }
 
-  /// Closes the file and gives it its name. LoadError: cannot be written.
+  /// Closes the file and gives it its final name. Throws LoadError if that fails.
   void finish() {
     if (!wanted()) return;
     check();
@@ -68,12 +70,13 @@ class CompleteFile {
     throw LoadError(path_ + ": cannot be written: " + std::strerror(errno != 0 ? errno : EIO));
   }
 
-  /// What a chain of symbolic links leads to, whether that exists or not.
+  /// The end of a chain of symbolic links, whether it exists or not.
   static std::filesystem::path followed(std::filesystem::path path) {
-    constexpr int most_links = 40;  // as Linux follows
+    constexpr int most_links = 40;  // the limit of Linux
     std::error_code error;
     for (int links = 0; links < most_links && std::filesystem::is_symlink(path, error); ++links)
-      path = path.parent_path() / std::filesystem::read_symlink(path, error);  // an absolute one replaces the left side
+      // an absolute target replaces the left side
+      path = path.parent_path() / std::filesystem::read_symlink(path, error);
     return path;
   }
 

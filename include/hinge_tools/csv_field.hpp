@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A text as a field of a CSV file.
+// csv_field: formats a text as a field of a CSV file.
 #pragma once
 
 #include <string>
 
 namespace hinge::tool {
 
-/// In quotes where commas, quotes or line ends ask for them (RFC 4180).
+/// Returns the text, in quotes if it contains a comma, quote or line end (RFC 4180).
 inline std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string field = "\"";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FrequentKeys: the most frequent of any number of keys, in bounded memory.
+// FrequentKeys: counts the most frequent keys of a stream in bounded memory.
 #pragma once
 
 #include <algorithm>
@@ -11,25 +11,26 @@
 
 namespace hinge::tool {
 
-/// Counts keys; exact while at most `most` different ones come. Each time there are more, all counts are lowered by the
-/// median count, and keys that reach 0 are forgotten (Misra and Gries): what is frequent stays. The result is a
-/// function of the keys and their order alone.
+/// Counts are exact for at most `most` different keys. At each overflow, the median count is subtracted from all
+/// counts, and keys that reach 0 are removed (Misra and Gries): frequent keys stay. The result depends only on the keys
+/// and their order.
 class FrequentKeys {
  public:
-  /// 2^19 keys take about 25 MB.
+  /// most: maximum number of keys in memory. 2^19 keys take about 25 MB.
   explicit FrequentKeys(std::size_t most = std::size_t{1} << 19U) : most_(std::max<std::size_t>(most, 1)) {}
 
+  /// Counts one occurrence of the key.
   void add(std::uint64_t key) {
     ++counts_[key];
     if (counts_.size() > most_) lower();
   }
 
-  /// Different keys in memory.
+  /// Number of different keys in memory.
   std::size_t size() const noexcept { return counts_.size(); }
-  /// Each count may be too low by at most this, never too high; 0: all are exact.
+  /// Maximum amount by which a count is too low. Counts are never too high; 0 means that all are exact.
   std::uint64_t count_error() const noexcept { return count_error_; }
 
-  /// The n keys with the highest counts, highest first, the lower key first among equals.
+  /// Returns up to n pairs (key, count) with the highest counts, highest first; ties by the lower key first.
   std::vector<std::pair<std::uint64_t, std::uint64_t>> top(std::size_t n) const {
     std::vector<std::pair<std::uint64_t, std::uint64_t>> all(counts_.begin(), counts_.end());
     n = std::min(n, all.size());

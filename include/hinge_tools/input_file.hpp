@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// InputFile: the bytes of a file or pipe, one after another.
+// InputFile: reads the bytes of a file or pipe in sequence.
 #pragma once
 
 #include <fcntl.h>
@@ -19,14 +19,14 @@
 
 namespace hinge::tool {
 
-/// What a pipe may give: it does not say in advance how long it is, and some never end.
+/// Maximum number of bytes from a pipe: its length is unknown in advance, and some pipes never end.
 inline constexpr std::uint64_t most_piped = std::uint64_t{1} << 30U;
 
-/// Open while the object lives.
+/// The file is open for the life of the object.
 class InputFile {
  public:
-  /// expected: for messages, such as "a PDB or mmCIF file". LoadError naming the file: cannot be opened, is a
-  /// directory, is a device (some, such as /dev/zero, never end).
+  /// expected: for messages, for example "a PDB or mmCIF file". Throws LoadError with the file's name if it cannot be
+  /// opened, is a directory, or is a device (some, such as /dev/zero, never end).
   InputFile(const std::filesystem::path& path, const std::string& expected) : name_(path.string()) {
     struct stat status {};
     if (::stat(name_.c_str(), &status) != 0) refuse("cannot be opened: ", errno);
@@ -41,12 +41,13 @@ class InputFile {
   InputFile& operator=(const InputFile&) = delete;
   ~InputFile() { ::close(descriptor_); }
 
+  /// The path as given. Valid for the life of the object.
   const std::string& name() const noexcept { return name_; }
-  /// Bytes read so far.
+  /// Number of bytes read so far.
   std::uint64_t position() const noexcept { return position_; }
 
-  /// The next bytes, fewer than asked for only where the file ends. LoadError naming the file: cannot be read, or a
-  /// pipe gives more than 1 GiB.
+  /// Reads the next bytes and returns their number; it is less than to.size() only at the end of the file. Throws
+  /// LoadError with the file's name if reading fails, or if a pipe gives more than 1 GiB.
   std::size_t read(std::span<char> to) {
     std::size_t done = 0;
     while (done < to.size()) {
@@ -73,7 +74,7 @@ class InputFile {
   std::uint64_t position_ = 0;
 };
 
-/// All bytes of the file. LoadError as above.
+/// Returns all bytes of the file. Throws LoadError as InputFile does.
 inline std::string read_whole(const std::filesystem::path& path, const std::string& expected = "a file") {
   InputFile file(path, expected);
   std::string bytes;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// JSON as text, whatever bytes names and paths have.
+// json_text: writes JSON as text, even if names and paths contain invalid UTF-8.
 #pragma once
 
 #include <cstdio>
@@ -7,8 +7,8 @@
 
 namespace hinge::tool {
 
-/// JSON is UTF-8. Bytes of a name or path that are not are written as U+FFFD, and the first time that happens a note on
-/// standard error says so. json: of nlohmann's library; indent: as its dump takes it.
+/// Returns the JSON as UTF-8 text. Invalid bytes of names and paths are written as U+FFFD; the first time, a note is
+/// printed on standard error. json: an nlohmann::json; indent: as for its dump().
 template <class Json>
 std::string json_text(const Json& json, int indent = -1) {
   try {

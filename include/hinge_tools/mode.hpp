@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mode: which question is asked of every configuration, as tools and their users name it.
+// Mode: the query mode of a command-line tool, as users name it.
 #pragma once
 
 #include <charconv>
@@ -14,12 +14,15 @@
 
 namespace hinge {
 
+/// A query mode with its margin.
 struct Mode {
   enum class Kind : std::uint8_t { any, all, within, closest } kind = Kind::all;
-  double margin = 0.0;  ///< within: pairs with d - M below it, model length unit
+  double margin = 0.0;  ///< within: lists pairs with d - M below it, model length unit
 
-  /// "any", "all", "within:0.5", "closest"; ModelError otherwise, which names the unit.
+  /// Parses "any", "all", "within:0.5" or "closest". Throws ModelError for other text; `unit` names the unit in the
+  /// message.
   static Mode parse(std::string_view text, std::string_view unit = "model length unit");
+  /// The text that parse() accepts for this mode.
   std::string text() const;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers on the command line: whole as typed, in decimal, finite and within a range, or refused.
+// number_option: numbers on the command line: decimal, complete, finite and within a range.
 #pragma once
 
 #include <charconv>
@@ -14,26 +14,27 @@
 
 namespace hinge::tool {
 
-/// Larger lengths and angles have no digits left behind the point, and their squares soon overflow.
-inline constexpr double largest_value = 1e15;  // m, rad, angstrom, degrees
-/// Of margins, clearances and widths.
+/// Upper limit of values. Larger lengths and angles have few digits after the point, and their squares may overflow.
+inline constexpr double largest_value = 1e15;  // unit of the option: m, rad, angstrom, degrees
+/// Upper limit of margins, clearances and widths, in the unit of the option.
 inline constexpr double largest_length = 1e9;
 
-/// least <= x <= most, or least < x <= most.
+/// The range least <= x <= most, or least < x <= most if above_least.
 template <class Number>
 struct NumberRange {
-  Number least, most;
+  Number least, most;  ///< both in the unit of the option
   bool above_least = false;
 
-  bool holds(Number x) const { return (above_least ? x > least : x >= least) && x <= most; }  // NaN: no
+  bool holds(Number x) const { return (above_least ? x > least : x >= least) && x <= most; }  // false for NaN
+  /// The range in words, for messages.
   std::string text() const {
     return (above_least ? "above " + number_text(least) + ", at most " : "from " + number_text(least) + " to ") +
            number_text(most);
   }
 };
 
-/// option: such as "--seed". ModelError naming it and the text: no decimal number, or out of range. Whole numbers have
-/// neither a point nor an exponent.
+/// option: for messages, for example "--seed". Throws ModelError with option and text if the text is not a decimal
+/// number or is out of range. An integral Number takes neither a point nor an exponent.
 template <class Number>
 Number read_number(const std::string& option, std::string_view text, const NumberRange<Number>& range) {
   std::string_view digits = text;
@@ -45,9 +46,9 @@ Number read_number(const std::string& option, std::string_view text, const Numbe
                    "number " + range.text());
 }
 
-/// An option of a CLI11 command that is such a number. CLI11's own conversion takes -1 for an unsigned number, nan and
-/// infinity for a positive one, and 010 for 8. Returns the option. names: as CLI11 takes them; the last one is the long
-/// one.
+/// Adds an option with such a number to a CLI11 command, and returns the option. It replaces CLI11's conversion, which
+/// takes -1 for an unsigned number, nan and infinity for a positive number, and 010 for 8. names: as for CLI11; the
+/// last name is the long one. `value` must stay valid until the command is parsed.
 template <class Command, class Number, class Value>
 auto* add_number(Command& command, const std::string& names, Value& value, const NumberRange<Number>& range,
                  const std::string& help) {

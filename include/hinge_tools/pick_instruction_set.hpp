@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A command-line tool is installed once per instruction set; the plain program hands over to the best the CPU has. By
-// exec: programs compiled apart share no inline functions, so none can slip into one that must do without AVX.
+// pick_instruction_set: a tool is installed once per instruction set, and the plain program replaces itself by the best
+// for the CPU. It uses exec: separately compiled programs share no inline functions, so no AVX code can enter the plain
+// one.
 #pragma once
 
 #include <fcntl.h>
@@ -21,8 +22,8 @@
 
 namespace hinge::tool {
 
-/// What the environment variable HINGE_ISA names, or the best of this CPU. ModelError: another word, or one the CPU
-/// lacks.
+/// The instruction set named by the environment variable HINGE_ISA, or the best of this CPU. Throws ModelError if the
+/// name is unknown or the CPU lacks the set.
 inline detail::simd::InstructionSet wanted_instruction_set() {
   using detail::simd::InstructionSet;
   const InstructionSet best = detail::simd::of_this_cpu();
@@ -39,12 +40,12 @@ inline detail::simd::InstructionSet wanted_instruction_set() {
   return set;
 }
 
-/// Does the open file hold this text (not empty) anywhere? No where it cannot be read.
+/// True if the open file contains this text (not empty). False if the file cannot be read.
 inline bool file_holds(int file, std::string_view text) {
   constexpr std::size_t chunk = std::size_t{1} << 18;
   std::string part;
   for (;;) {
-    part.erase(0, part.size() - std::min(part.size(), text.size() - 1));  // the text may lie across two chunks
+    part.erase(0, part.size() - std::min(part.size(), text.size() - 1));  // the text may span two chunks
     const std::size_t kept = part.size();
     part.resize(kept + chunk);
     const ssize_t got = ::read(file, part.data() + kept, chunk);
@@ -54,13 +55,13 @@ inline bool file_holds(int file, std::string_view text) {
   }
 }
 
-/// Replaces this process by the program NAME-avx512 or NAME-avx2 beside it, NAME being its own, when the CPU runs that,
-/// or by the one HINGE_ISA names (baseline, avx2, avx512; ModelError as above). Returns when this program is the right
-/// one, or the other is not there. Answers are the same on all. LoadError: the other program does not hold build_id,
-/// which all programs of one build do; it is not run.
+/// Replaces this process by the program NAME-avx512 or NAME-avx2 next to it, where NAME is the path of this program:
+/// the best set of the CPU, or the set named by HINGE_ISA (see wanted_instruction_set). Returns if this program is the
+/// right one, or no other exists. All programs give the same answers. Throws LoadError, without running it, if the
+/// other program does not contain build_id, which all programs of one build contain; also if it cannot be run.
 inline void pick_instruction_set(char** argv, std::string_view build_id) {
   using detail::simd::InstructionSet;
-  // The other programs run this too, and are never replaced again.
+  // The replacing programs call this too, and must not be replaced again.
   if (detail::simd::compiled_for() != InstructionSet::baseline) return;
   for (InstructionSet set = wanted_instruction_set(); set != InstructionSet::baseline;
        set = static_cast<InstructionSet>(static_cast<unsigned char>(set) - 1)) {
@@ -74,7 +75,7 @@ inline void pick_instruction_set(char** argv, std::string_view build_id) {
       throw LoadError(other + ": not of the same build as " + own.string() +
                       "; expected a program built from the same sources (build or install both anew, remove it, or set "
                       "HINGE_ISA=baseline)");
-    ::fexecve(file, argv, environ);  // the very file that was looked at
+    ::fexecve(file, argv, environ);  // exactly the file that was checked
     const std::string reason = std::strerror(errno);
     ::close(file);
     throw LoadError(other + ": cannot be run: " + reason);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A progress bar on standard error, drawn only when that is a terminal.
+// ProgressBar: a progress bar on standard error, drawn only if standard error is a terminal.
 #pragma once
 
 #include <unistd.h>
@@ -11,8 +11,10 @@
 
 namespace hinge::tool {
 
+/// The destructor erases the bar.
 class ProgressBar {
  public:
+  /// total: number of work items; 0 draws a full bar.
   explicit ProgressBar(std::uint64_t total) : total_(total), shown_(isatty(STDERR_FILENO) != 0) {}
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -20,6 +22,7 @@ class ProgressBar {
     if (shown_) std::fputs("\r\033[K", stderr);
   }
 
+  /// Redraws the bar for `done` of total items, at most once per 100 ms.
   void show(std::uint64_t done) {
     const auto now = std::chrono::steady_clock::now();
     if (!shown_ || now - last_ < std::chrono::milliseconds(100)) return;

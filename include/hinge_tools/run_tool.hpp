@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a command-line tool ends: exit statuses, and errors as one line on standard error.
+// run_tool: exit statuses of command-line tools, and errors as one line on standard error.
 #pragma once
 
 #include <cerrno>
@@ -16,10 +16,10 @@
 
 namespace hinge::tool {
 
-/// As grep's: documented in docs/reference, the same for every tool.
+/// Exit statuses, as grep uses them; the same for every tool, documented in docs/reference.
 enum class Exit : int { free = 0, collision = 1, usage = 2, bad_input = 3, undecided = 4 };
 
-/// One line, whatever the message quotes: line ends and other control characters are written as \n or \x1b.
+/// Returns the text on one line: control characters are escaped as \n or \x1b.
 inline std::string one_line(std::string_view text) {
   std::string line;
   for (const char c : text) {
@@ -38,8 +38,9 @@ inline std::string one_line(std::string_view text) {
   return line;
 }
 
-/// Runs run() -> Exit and turns what it throws into a line and a status. ModelError is a rule or selection that does
-/// not fit: the command line is at fault; every other error is the input's.
+/// Runs run() -> Exit and returns the exit status. Exceptions become one line on standard error, after `name`.
+/// ModelError means a wrong command line (status usage); all other errors are bad input. A failed write to standard
+/// output is bad input too.
 template <class Run>
 int run_tool(const char* name, const Run& run) {
   prepare_standard_streams();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Descriptors 0, 1 and 2 as a program needs them.
+// prepare_standard_streams: makes descriptors 0, 1 and 2 safe to use.
 #pragma once
 
 #include <fcntl.h>
@@ -12,18 +12,18 @@
 
 namespace hinge::tool {
 
-/// Opens those of the descriptors 0 to 2 that the caller closed, so that no file opened later gets one of them and,
-/// with it, text meant for a standard stream. Reading a closed standard input fails, and so does writing to a closed
-/// standard output: results are never dropped silently. Notes to a closed standard error are. A file-size limit becomes
-/// an error of the write instead of a signal.
+/// Opens the descriptors 0 to 2 that the caller closed. Otherwise, a file opened later could get one of them, and
+/// receive text for a standard stream. Reading from a closed standard input and writing to a closed standard output
+/// fail, so results are never lost silently. Notes to a closed standard error are dropped. Exceeding the file-size
+/// limit becomes a write error instead of a signal.
 inline void prepare_standard_streams() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(descriptor, F_GETFD) >= 0 || errno != EBADF) continue;
-    // The lowest free descriptor is this one: those below it are open.
+    // open() returns the lowest free descriptor, which is this one: all lower ones are open.
     const int opened = ::open("/dev/null", descriptor == STDOUT_FILENO ? O_RDONLY : O_WRONLY);
     if (opened >= 0 && opened != descriptor) ::close(opened);
   }
-  // Such an output fails at its first byte then, before a long run.
+  // Unbuffered, so that a closed output fails at its first byte, before a long run.
   if ((::fcntl(STDOUT_FILENO, F_GETFL) & O_ACCMODE) == O_RDONLY) std::setvbuf(stdout, nullptr, _IONBF, 0);
   std::signal(SIGXFSZ, SIG_IGN);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// TemporaryFile: a new file of one's own that does not outlive the program.
+// TemporaryFile: an exclusively owned new file that is removed when the program ends.
 #pragma once
 
 #include <fcntl.h>
@@ -24,10 +24,10 @@ namespace hinge::tool {
 
 namespace temporary {
 
-/// What a signal handler has to remove. A handler may neither lock nor allocate, so the paths stand in a fixed place.
+/// A path for the signal handler to remove. A handler must not lock or allocate, so the paths have static storage.
 struct TemporaryPath {
   std::atomic<bool> taken{false};  ///< a TemporaryFile uses this entry
-  std::atomic<bool> there{false};  ///< the path is complete and its file exists
+  std::atomic<bool> there{false};  ///< the path is complete and the file exists
   std::array<char, 4096> path{};
 };
 inline std::array<TemporaryPath, 16> temporary_paths;
@@ -35,10 +35,10 @@ inline std::array<TemporaryPath, 16> temporary_paths;
 extern "C" inline void hinge_remove_temporary_files(int signal) {
   for (const TemporaryPath& entry : temporary_paths)
     if (entry.there) ::unlink(entry.path.data());
-  ::raise(signal);  // the default action, which SA_RESETHAND has put back
+  ::raise(signal);  // the default action, restored by SA_RESETHAND
 }
 
-/// The signals that end a program from outside. Those that the caller ignores (nohup) or handles are left alone.
+/// Handles the signals that end a program from outside, unless the caller ignores (nohup) or handles them.
 inline void remove_temporary_files_on_signals() {
   for (const int signal : {SIGHUP, SIGINT, SIGTERM, SIGPIPE}) {
     struct sigaction action {};
@@ -52,12 +52,11 @@ inline void remove_temporary_files_on_signals() {
 
 }  // namespace temporary
 
-/// An empty file beside `target`, under a name that no other program uses: it is created exclusively. It is removed
-/// with the object, and when SIGHUP, SIGINT, SIGTERM or SIGPIPE ends the program, unless it has taken its target's
-/// place before.
+/// Creates an empty file next to `target`, exclusively and under a random name. The file is removed by the destructor,
+/// and when SIGHUP, SIGINT, SIGTERM or SIGPIPE ends the program, unless replace_target() renamed it.
 class TemporaryFile {
  public:
-  /// LoadError naming the target: cannot be created, or 16 exist already.
+  /// Throws LoadError with the target's name if the file cannot be created, or if 16 objects exist already.
   explicit TemporaryFile(std::filesystem::path target) : target_(std::move(target)) {
     for (temporary::TemporaryPath& entry : temporary::temporary_paths)
       if (bool taken = false; entry_ == nullptr && entry.taken.compare_exchange_strong(taken, true)) entry_ = &entry;
@@ -78,9 +77,10 @@ class TemporaryFile {
     entry_->taken = false;
   }
 
+  /// Path of the temporary file. Valid for the life of the object.
   const char* path() const noexcept { return entry_->path.data(); }
 
-  /// Takes the target's name; a file of that name is replaced. LoadError: the system refuses it.
+  /// Renames the file to the target and replaces an existing file. Throws LoadError if the system refuses.
   void replace_target() {
     if (std::rename(path(), target_.c_str()) != 0) refuse();
     entry_->there = false;
@@ -92,7 +92,7 @@ class TemporaryFile {
   }
 
   void create() {
-    constexpr std::size_t longest = 200;  // bytes of the target's name: names of 255 bytes are the most that exist
+    constexpr std::size_t longest = 200;  // bytes of the target's name; most file systems allow 255
     constexpr int most_tries = 100;
     const std::string start = (target_.parent_path() / target_.filename().string().substr(0, longest)).string();
     std::random_device random;
@@ -104,12 +104,12 @@ class TemporaryFile {
         errno = ENAMETOOLONG;
         break;
       }
-      const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);  // less the umask
+      const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);  // minus the umask
       if (descriptor < 0 && errno == EEXIST) continue;
       if (descriptor < 0) break;
       std::memcpy(entry_->path.data(), path.c_str(), path.size() + 1);
       entry_->there = true;
-      // A file that is replaced keeps its permissions. Where the system forbids that, those of the umask stay.
+      // Keep the permissions of a replaced file. If the system forbids that, those of the umask stay.
       struct stat old {};
       if (::stat(target_.c_str(), &old) == 0 && ::fchmod(descriptor, old.st_mode & 07777) != 0) errno = 0;
       ::close(descriptor);

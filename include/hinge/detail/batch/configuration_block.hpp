@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// check_block: a block of configurations for SIMD lanes, refused where a single one would be.
+// check_block: validates a block of configurations for SIMD lanes by the rules for a single configuration.
 #pragma once
 
 #include <cstddef>
@@ -15,9 +15,9 @@
 
 namespace hinge::detail {
 
-/// block: 1 to 16 configurations, one after the other, dof_count values each (rad or model length unit); empty without
-/// DOF. Returns how many there are. ConfigurationError: another length, a value that is not finite, or a slide beyond
-/// largest_length, naming configuration and value.
+/// block: 1 to 16 configurations, one after the other, dof_count values each (rad or model length unit); empty if
+/// dof_count is 0. Returns their number. Throws ConfigurationError if the length is wrong, a value is not finite, or a
+/// slide exceeds largest_length; the message names configuration and value.
 inline std::size_t check_block(std::span<const double> block, std::size_t dof_count, const RigidGroups& groups) {
   if (dof_count == 0 ? !block.empty()
                      : block.empty() || block.size() % dof_count != 0 || block.size() > simd::width * dof_count)
@@ -27,7 +27,7 @@ inline std::size_t check_block(std::span<const double> block, std::size_t dof_co
     throw ConfigurationError("configuration " + std::to_string(k / dof_count) + " of the block, value " +
                              std::to_string(k % dof_count) + " is " + number_text(block[k]) + ", expected " + expected);
   };
-  // Without branches, so that compilers vectorise them.
+  // Branch-free, so that compilers vectorise it.
   bool finite = true;
   for (const double value : block) finite &= is_finite(value);
   for (std::size_t k = 0; !finite && k < block.size(); ++k)
@@ -41,7 +41,7 @@ inline std::size_t check_block(std::span<const double> block, std::size_t dof_co
   return dof_count == 0 ? 1 : block.size() / dof_count;
 }
 
-/// Keeps the caller's block in a member while a query runs, and not a moment longer.
+/// Stores the caller's block in a member for the duration of one query.
 class PresentBlock {
  public:
   PresentBlock(std::span<const double>& member, std::span<const double> block) noexcept : member_(member) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// DisplacementBounds: how far the configurations in sixteen lanes have come from a reference, group by group.
+// DisplacementBounds: bounds of the displacement of each group from a reference, over the configurations in the lanes.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@
 
 namespace hinge::detail {
 
-/// What has become of a group's frame since the reference: differences made in double and kept in float.
+/// Change of a group's frame since the reference: differences computed in double, stored in float.
 class LaneStep {
  public:
   [[gnu::always_inline]] void set(const double* frames, const Pose& reference) noexcept {
@@ -31,14 +31,14 @@ class LaneStep {
       alignas(64) std::array<double, simd::width> step;
       for (std::size_t k = 0; k < simd::width; k += 8)
         (simd::Double8(frames + e * simd::width + k) - from).store(step.data() + k);
-      // (Lanes::store_rounded of eight doubles makes g++ 12 warn about an operand of its own.)
+      // Not Lanes::store_rounded: for eight doubles, g++ 12 warns about one of its own operands.
       for (std::size_t k = 0; k < simd::width; ++k) entry_[e * simd::width + k] = static_cast<float>(step[k]);
     }
   }
   [[gnu::always_inline]] simd::Float16 entry(std::size_t e) const noexcept {
     return simd::Float16(entry_.data() + e * simd::width);
   }
-  /// The way of a point of the group, in its frame, lane by lane.
+  /// Displacement of a point (in the group's frame), per lane.
   [[gnu::always_inline]] LaneVector travel(const Vec3& point) const noexcept {
     using simd::Float16;
     const Float16 x(static_cast<float>(point[0])), y(static_cast<float>(point[1])), z(static_cast<float>(point[2]));
@@ -52,11 +52,11 @@ class LaneStep {
   alignas(64) std::array<float, FrameLanes::entries * simd::width> entry_{};
 };
 
-/// Differences of frames are made in double and kept in float: their error is a share of the way gone, not of the
-/// chain's length. docs/explanation/state_batch.md derives the bounds.
+/// Differences of frames are computed in double and stored in float: their error is relative to the displacement, not
+/// to the length of the chain. Derivation: docs/explanation/state_batch.md.
 class DisplacementBounds {
  public:
-  /// A ball around each group's primitives, in its frame.
+  /// Computes a ball around each group's primitives, in the group's frame.
   template <Primitive P>
   explicit DisplacementBounds(const SelectedModel<P>& model)
       : balls_(model.groups()->size()),
@@ -74,33 +74,33 @@ class DisplacementBounds {
         Vec3 d = Vec3(x[0], x[1], x[2]) - ball.centre;
         square = std::max(square, squared_norm(d));
       }
-      // The farthest corner: boxes are centred up to rounding.
+      // The farthest corner: boxes are centred only up to rounding.
       ball.radius = std::sqrt(square) * (1.0 + 0x1p-40);
       ball.reach = std::sqrt(squared_norm(ball.centre)) * (1.0 + 0x1p-40) + ball.radius;
       ball.empty = false;
     }
   }
 
-  /// The present configuration in a lane becomes the reference.
+  /// Makes the present configuration in `lane` the reference.
   void set_reference(const FrameLanes& frames, std::size_t lane) noexcept {
     for (std::size_t g = 0; g < reference_.size(); ++g) reference_[g] = frames.pose(id<GroupId>(g), lane);
   }
   const Pose& reference(GroupId group) const noexcept { return reference_[index(group)]; }
 
-  /// Before groups are measured: what is said of bounds holds for lanes first ... end - 1.
+  /// Starts measuring. The bounds will hold for lanes first .. end - 1.
   void begin(std::size_t first, std::size_t end) noexcept {
     first_ = first;
     end_ = end;
     farthest_.fill(0.0);
   }
-  /// Compares all lanes of a group with the reference.
+  /// Compares all lanes of a group to the reference.
   void measure(const FrameLanes& frames, GroupId group) noexcept {
     if (balls_[index(group)].empty) return;
     const double* const translations = frames[group] + 9 * width;
     simd::Double8 farthest(farthest_.data());
     for (std::size_t k = 0; k < 3 * width; k += 8) farthest = max(farthest, abs(simd::Double8(translations + k)));
     farthest.store(farthest_.data());
-    // Some groups at a time: what was just stored in halves is slow to load as a whole.
+    // Process several groups together: loading a vector right after its halves were stored is slow.
     steps_[waiting_].set(frames[group], reference_[index(group)]);
     step_of_[waiting_++] = group;
     if (waiting_ == steps_.size()) judge();
@@ -110,16 +110,17 @@ class DisplacementBounds {
     for (std::size_t g = 1; g < balls_.size(); ++g) measure(frames, id<GroupId>(g));
     finish();
   }
-  /// After all groups were measured.
+  /// Call this after all groups are measured.
   void finish() noexcept {
     judge();
-    farthest_of_all_ = 2 * *std::max_element(farthest_.begin(), farthest_.end());  // of three parts
+    // above sqrt(3): the norm of three components
+    farthest_of_all_ = 2 * *std::max_element(farthest_.begin(), farthest_.end());
   }
 
-  /// No point of the group's primitives, where single queries place them, is farther from its place at the reference.
-  /// Infinite where floats cannot tell.
+  /// Bound of the distance of any point of the group's primitives from its position at the reference, both placed as by
+  /// single queries; model length unit. Infinite if floats cannot tell.
   double bound(GroupId group) const noexcept { return ways_[index(group)] * (1.0 + 16 * u) + error(group); }
-  /// How far the step may be off for a point of the group's primitives, placing in double included.
+  /// Bound of the error of a displacement of a point of the group's primitives, placing in double included.
   double error(GroupId group) const noexcept {
     const Ball& ball = balls_[index(group)];
     if (ball.empty) return 0.0;
@@ -131,9 +132,9 @@ class DisplacementBounds {
  private:
   static constexpr std::size_t width = simd::width;
   static constexpr double u = 0x1p-24;  // relative error of one rounding to float
-  /// What squares of floats may lose to underflow, as a length.
+  /// Loss of float squares by underflow, as a length.
   static constexpr double lost = 0x1p-70;
-  /// Squares of such lengths are far from the largest float.
+  /// Squares of such lengths are far below the largest float.
   static constexpr double largest_safe = 1e18;
 
   struct Ball {
@@ -171,7 +172,7 @@ class DisplacementBounds {
   std::size_t first_ = 0, end_ = width;
   std::array<double, 8> farthest_{};
   double farthest_of_all_ = 0.0;
-  std::array<LaneStep, 4> steps_{};  // of groups that were not judged yet
+  std::array<LaneStep, 4> steps_{};  // of groups not yet processed
   std::array<GroupId, 4> step_of_{};
   std::size_t waiting_ = 0;
   std::vector<double> ways_, errors_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FrameLanes: frames of rigid groups for sixteen configurations at once, with the bits that each alone would have.
+// FrameLanes: frames of rigid groups for sixteen configurations, bit for bit those of single configurations.
 #pragma once
 
 #include <algorithm>
@@ -22,8 +22,8 @@
 
 namespace hinge::detail {
 
-/// A configuration per lane, in double. Operations are those of PoseSource in its order, so that what is decided on
-/// these frames is decided on the ones a single query has.
+/// One configuration per lane, in double. The operations and their order are those of PoseSource, so verdicts on these
+/// frames equal those of single queries.
 class FrameLanes {
  public:
   static constexpr std::size_t size = simd::width;
@@ -46,8 +46,8 @@ class FrameLanes {
     for (std::size_t e = 0; e < 9; e += 4) std::fill_n(entries_.data() + e * size, size, 1.0);
   }
 
-  /// block: 1 to 16 configurations, one after the other; lanes beyond them repeat the last. placed(group) is called
-  /// while the group's frames are still close to the processor.
+  /// Computes all frames. block: 1 to 16 configurations, one after the other; unused lanes repeat the last one. Calls
+  /// placed(group) while the group's frames are still in the cache.
   template <class Placed>
   void set(std::span<const double> block, std::size_t dof_count, const Placed& placed) noexcept {
     if (dof_count == 0) return;
@@ -65,7 +65,7 @@ class FrameLanes {
   }
 
   std::size_t group_count() const noexcept { return joints_.size(); }
-  /// Sixteen values of each entry, one entry after the other.
+  /// Sixteen values per entry, one entry after the other.
   const double* operator[](GroupId group) const noexcept { return at(index(group)); }
   Pose pose(GroupId group, std::size_t lane) const noexcept {
     Pose pose;
@@ -77,7 +77,7 @@ class FrameLanes {
 
  private:
   using Double8 = simd::Double8;
-  static constexpr std::size_t half = 8;  // lanes of double at a time
+  static constexpr std::size_t half = 8;  // lanes of double per step
   using Motion = std::array<Double8, entries>;
 
   struct LaneJoint {
@@ -128,7 +128,7 @@ class FrameLanes {
             pz - (r[2] * px + r[5] * py + r[8] * pz)};
   }
 
-  /// A frame whose entries `entry` gives, then (in it) a motion; see compose().
+  /// Product of the frame with entries entry(e) and the motion m; see compose().
   template <class Entry>
   [[gnu::always_inline]] static Motion composed(const Entry& entry, const Motion& m) noexcept {
     Motion result;
@@ -151,7 +151,7 @@ class FrameLanes {
     for (std::size_t e = 0; e < entries; ++e) frame[e].store(to + e * size);
   }
 
-  std::vector<LaneJoint> joints_;  // by group; the world has none
+  std::vector<LaneJoint> joints_;  // per group; none for the world
   simd::AlignedVector<double> entries_;
 };
 

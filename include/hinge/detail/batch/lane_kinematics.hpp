@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// LaneKinematics: frames of rigid groups for sixteen configurations at once, one in each float lane.
+// LaneKinematics: frames of rigid groups for sixteen configurations, one per float lane.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@
 
 namespace hinge::detail {
 
-/// A vector per lane.
+/// One vector per lane.
 struct LaneVector {
   simd::Float16 x, y, z;
 
@@ -40,17 +40,17 @@ struct LaneVector {
 /// Columns x, y, z of the rotation, then the translation.
 using LaneFrame = std::array<LaneVector, 4>;
 
-/// t + x a + y b + z c
+/// Returns t + x a + y b + z c.
 [[gnu::always_inline]] inline LaneVector placed(const LaneFrame& frame, float a, float b, float c) noexcept {
   using simd::Float16;
   return frame[3] + frame[0] * Float16(a) + frame[1] * Float16(b) + frame[2] * Float16(c);
 }
 
-/// Sines and cosines of sixteen angles (rad), rounded: each within 4 u.
+/// Sines and cosines of sixteen angles (rad), rounded to float: each within 4 u.
 [[gnu::always_inline]] inline void sincos_rounded(const double* angle, simd::Float16& sine,
                                                   simd::Float16& cosine) noexcept {
   using simd::Float16;
-  // One product is enough for float: below cody_waite_limit it and pi / 2 are off by less than 2^-31.
+  // One product is enough for float: below cody_waite_limit, its rounding and that of pi / 2 add less than 2^-31.
   constexpr double two_over_pi = 0x1.45f306dc9c883p-1, half_pi = 0x1.921fb54442d18p+0;
   alignas(64) std::array<double, simd::width> rest, turns;
   for (std::size_t k = 0; k < simd::width; k += 8) {
@@ -59,7 +59,7 @@ using LaneFrame = std::array<LaneVector, 4>;
     n.store(turns.data() + k);
     (x - n * simd::Double8(half_pi)).store(rest.data() + k);
   }
-  // (Lanes::store_rounded of eight doubles makes g++ 12 warn about an operand of its own.)
+  // Not Lanes::store_rounded: for eight doubles, g++ 12 warns about one of its own operands.
   alignas(64) std::array<float, simd::width> rest_rounded, turns_rounded;
   for (std::size_t k = 0; k < simd::width; ++k) rest_rounded[k] = static_cast<float>(rest[k]);
   for (std::size_t k = 0; k < simd::width; ++k) turns_rounded[k] = static_cast<float>(turns[k]);
@@ -80,11 +80,11 @@ using LaneFrame = std::array<LaneVector, 4>;
   cosine = choose_less(abs(q - Float16(1.5F)), one, -second, second);
 }
 
-/// The frame of a group in lanes is not the group's own: its z axis is the joint's, its origin lies on the joint's
-/// axis, and all of it is relative to `origin` and scaled. So a joint costs one rotation about z.
+/// A lane frame differs from the group's frame: its z axis is the joint's axis, its origin lies on this axis, and it is
+/// scaled and relative to the lanes' origin. A joint then costs one rotation about z.
 class LaneKinematics {
  public:
-  /// The lanes' origin is where the first moving group's joint is at the reference.
+  /// The lanes' origin is the first moving group's joint at the reference.
   explicit LaneKinematics(const RigidGroups& groups)
       : groups_(groups.size()), joints_(groups.size()), frames_(groups.size()) {
     if (groups.size() > 1) {
@@ -104,12 +104,12 @@ class LaneKinematics {
   }
 
   std::size_t size() const noexcept { return frames_.size(); }
-  /// The lane frame in the group's own frame, not scaled.
+  /// The lane frame in the group's frame, not scaled.
   const Pose& in_group(GroupId group) const noexcept { return groups_[index(group)].in_group; }
-  /// `point` is in the group's frame.
+  /// Transforms `point` from the group's frame to its lane frame.
   Vec3 in_lane_frame(GroupId group, const Vec3& point) const noexcept { return in_group(group).inverse() * point; }
 
-  /// Of every group while no sliding joint has a value beyond `slide` (model length unit).
+  /// Computes the error bounds of all groups, for values of sliding joints up to `slide` (model length unit).
   void compute_errors(double slide, std::vector<LaneError>& errors) const {
     errors.assign(size(), LaneError(norm(groups_[0].in_group.translation)));
     for (std::size_t g = 1; g < size(); ++g) {
@@ -122,7 +122,7 @@ class LaneKinematics {
     }
   }
 
-  /// Lengths in lanes are those of the model times `scale`, a power of two.
+  /// Lengths in lanes are model lengths times `scale`, a power of two.
   void set_scale(double scale) {
     scale_ = scale;
     const simd::Float16 zero(0.0F), one(1.0F);
@@ -138,7 +138,7 @@ class LaneKinematics {
     }
   }
 
-  /// Largest magnitude among the values of sliding joints.
+  /// Largest magnitude of the values of sliding joints.
   double largest_slide(std::span<const double> block, std::size_t dof_count) const noexcept {
     double largest = 0.0;
     for (std::size_t g = 1; g < size(); ++g)
@@ -148,13 +148,13 @@ class LaneKinematics {
     return largest;
   }
 
-  /// block: 1 to 16 configurations, one after the other, finite; lanes beyond them repeat the last.
+  /// Computes all frames. block: 1 to 16 configurations, one after the other, finite. Unused lanes repeat the last one.
   void set(std::span<const double> block, std::size_t dof_count) noexcept {
     if (dof_count == 0) return;
     std::array<const double*, simd::width> rows;
     const std::size_t last = block.size() / dof_count - 1;
     for (std::size_t lane = 0; lane < simd::width; ++lane) rows[lane] = block.data() + std::min(lane, last) * dof_count;
-    // Joint by joint: while one's frame waits for its parent's, the next one's sines are on their way.
+    // Joint by joint: the sines of the next joint overlap with the frame products of this one.
     for (std::size_t g = 1; g < frames_.size(); ++g) {
       const std::size_t dof = joints_[g].dof;
       alignas(64) std::array<double, simd::width> value;
@@ -166,12 +166,12 @@ class LaneKinematics {
   const LaneFrame& operator[](GroupId group) const noexcept { return frames_[index(group)]; }
 
  private:
-  /// A column of a constant matrix; most of a robot's are zeros and ones.
+  /// A column of a constant matrix. Most entries of a robot's matrices are zeros and ones.
   struct Column {
     std::array<float, 3> factor{};
-    unsigned used = 0;  // bit k: factor k is not 0
+    unsigned used = 0;  // bit k: factor k is used
 
-    /// Entries below 2^-30 of `largest` are left out: 0.02 u each.
+    /// Skips entries below 2^-30 of `largest`: 0.02 u each.
     void set(const Vec3& column, double largest, double scale) noexcept {
       used = 0;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -185,7 +185,7 @@ class LaneKinematics {
     std::uint32_t parent = 0;
     std::size_t dof = 0;
     JointKind kind = JointKind::fixed;
-    Pose step{};  // of the lane frame in the parent's at value 0
+    Pose step{};  // lane frame in the parent's lane frame at joint value 0
     std::array<Column, 4> columns{};
   };
   struct Group {
@@ -195,7 +195,7 @@ class LaneKinematics {
 
   static double norm(const Vec3& x) noexcept { return std::sqrt(squared_norm(x)); }
 
-  /// A rotation that takes z to the unit vector `axis`.
+  /// A rotation that maps z to the unit vector `axis`.
   static Mat3 turned_to(const Vec3& axis) noexcept {
     if (axis == Vec3::UnitZ()) return Mat3::Identity();
     Eigen::Index least = 0;
@@ -253,7 +253,7 @@ class LaneKinematics {
   }
 
   std::vector<Group> groups_;
-  std::vector<LaneJoint> joints_;  // by group; the world has none
+  std::vector<LaneJoint> joints_;  // per group; none for the world
   std::vector<LaneFrame> frames_;
   double scale_ = 1.0;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ListAllowance: how much more than the ways of the present configurations a list of near pairs should allow.
+// ListAllowance: learns by which factor a list of near pairs should exceed the present displacements.
 #pragma once
 
 #include <algorithm>
@@ -9,23 +9,23 @@
 
 namespace hinge::detail {
 
-/// Lists that allow more last longer, and cost more to make and to test. Which factor costs the fewest tests for each
-/// block is learned; the others are tried again from time to time. Costs time, never an answer.
+/// A larger allowance makes a list last longer, but it costs more to make and to test. The class learns the factor with
+/// the fewest tests per block, and retries the other factors from time to time. It affects time, never answers.
 class ListAllowance {
  public:
   double factor() const noexcept { return factors[choice_]; }
 
-  /// A list of `pairs` pairs has been made with so many tests.
+  /// A list of `pairs` pairs was made at a cost of `tests` tests.
   void made(std::uint64_t tests, std::size_t pairs) noexcept {
     making_ = tests;
     testing_ = lanes * pairs;
   }
-  /// It served another block.
+  /// The list served another block.
   void serve() noexcept { ++served_; }
-  /// Has testing it cost so much more than making it that another one should be looked for?
+  /// True if testing the list has cost much more than making it: a new one should be tried.
   bool outlived() const noexcept { return served_ * testing_ > 16 * making_; }
 
-  /// The list is given up.
+  /// The list is dropped: updates the cost of its factor and chooses the next factor.
   void settle() noexcept {
     if (served_ != 0) {
       const double tests = static_cast<double>(making_) / static_cast<double>(served_) + static_cast<double>(testing_);
@@ -43,7 +43,7 @@ class ListAllowance {
   static constexpr std::size_t try_again = 64;  // lists
   static constexpr std::uint64_t lanes = 16;
 
-  std::array<double, factors.size()> tests_of_{};  // for each block; 0: not tried
+  std::array<double, factors.size()> tests_of_{};  // per block; 0: not tried
   std::size_t choice_ = 0, lists_ = 0;
   std::uint64_t making_ = 0, testing_ = 0, served_ = 0;
 };

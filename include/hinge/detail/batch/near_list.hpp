@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// NearList: pairs that may come too close in some of sixteen neighbouring configurations, tested in all at once.
+// NearList: pairs that may come too close in some of sixteen neighbouring configurations, tested in all lanes at once.
 #pragma once
 
 #include <array>
@@ -25,18 +25,18 @@
 
 namespace hinge::detail {
 
-/// A pair and where it stands at the reference that travels are measured from. Threshold: as threshold_of() gives it.
+/// A pair with its relative position at the reference configuration. Threshold: the result type of threshold_of().
 template <class Threshold>
 struct NearPair {
   PrimitiveId first, second;
-  std::uint32_t first_place, second_place;  // among the listed primitives
+  std::uint32_t first_place, second_place;  // indices in listed_
   std::array<float, 3> apart;               // from the second to the first
-  float above, below;                       // the threshold
-  float error;                              // of what is in float
+  float above, below;                       // the threshold, rounded up and down
+  float error;                              // error of the float coordinates
   Threshold threshold;
 };
 
-/// Points are tested by the ways they went; of other primitives only the lengths of their ways are used.
+/// Points are tested by their displacement vectors. For other primitives only the lengths of displacements are used.
 template <Primitive P, class Threshold>
 class NearList {
  public:
@@ -46,7 +46,7 @@ class NearList {
 
   std::size_t size() const noexcept { return pairs_.size(); }
 
-  /// pairs: sorted. The reference of `travel` is the one they were found at.
+  /// Replaces the list. pairs: sorted. The reference of `travel` must be the configuration at which they were found.
   template <class D>
   void assign(std::span<const std::pair<PrimitiveId, PrimitiveId>> pairs, const D& matrix,
               const SelectedModel<P>& model, const DisplacementBounds& travel) {
@@ -72,7 +72,8 @@ class NearList {
     ways_.assign(by_ways ? listed_.size() : 0, Way{{none, none, none}, 0.0F});
   }
 
-  /// visit(pair, lanes surely closer than the threshold, lanes that may be) -> go on? In all others the pair is free.
+  /// Calls visit(pair, lanes surely below the threshold, lanes possibly below it) -> bool; it returns false to stop. In
+  /// all other lanes the pair is free.
   template <class Visit>
   void visit(const FrameLanes& frames, const SelectedModel<P>& model, const DisplacementBounds& travel,
              simd::Bits lanes, const Visit& visit) {
@@ -82,7 +83,7 @@ class NearList {
         const Way &p = ways_[pair.first_place], &q = ways_[pair.second_place];
         const simd::Float16 squared = squared_distances(pair, p.way - q.way);
         const float error = pair.error + p.error + q.error, near = (pair.above + error) * (1.0F + rounding) + lost;
-        // Not "where it is less": what overflowed or is no number has to be looked at.
+        // Negated on purpose: overflow and NaN must remain.
         const simd::Bits maybe = ~simd::Bits(less(simd::Float16(near * near), squared)) & lanes;
         if (maybe == 0) [[likely]]
           continue;
@@ -93,7 +94,7 @@ class NearList {
     } else {
       for (const Pair& pair : pairs_) {
         const double ways = travel.bound(model.group_of(pair.first)) + travel.bound(model.group_of(pair.second));
-        // Both sums round.
+        // Covers the rounding of both sums.
         const double near = (pair.threshold + ways) * (1.0 + 0x1p-50);
         const P &p = listed_[pair.first_place].at_reference, &q = listed_[pair.second_place].at_reference;
         if (closer_than(p, q, near) && !visit(pair, simd::Bits{0}, lanes)) return;
@@ -105,9 +106,9 @@ class NearList {
   static constexpr bool by_ways = std::same_as<P, Point>;
   static constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
   static constexpr double unit = 0x1p-24;  // relative error of one rounding to float
-  /// Of the threshold's sum, product and square, and of the squared distance.
+  /// Rounding of the threshold's sum, product and square, and of the squared distance.
   static constexpr float rounding = 16 * static_cast<float>(unit);
-  /// What squares lose to underflow, as a length.
+  /// Loss of squares by underflow, as a length.
   static constexpr float lost = 0x1p-60F;
 
   struct Listed {
@@ -131,7 +132,7 @@ class NearList {
   }
 
   void place_ways(const FrameLanes& frames, const SelectedModel<P>& model, const DisplacementBounds& travel) noexcept {
-    GroupId present{};  // the world stands still
+    GroupId present{};  // the world does not move
     LaneStep step;
     for (std::size_t k = 0; k < listed_.size(); ++k) {
       const PrimitiveId i = listed_[k].primitive;
@@ -140,7 +141,7 @@ class NearList {
       if (group != present) step.set(frames[group], travel.reference(group));
       present = group;
       ways_[k].way = step.travel(model.primitives()[index(i)].position);
-      // Sums and differences of ways round as well.
+      // Covers the rounding of sums and differences of displacements.
       ways_[k].error = float_above(travel.error(group) + 4 * unit * travel.bound(group));
     }
   }
@@ -154,8 +155,8 @@ class NearList {
 
   std::vector<Pair> pairs_;
   std::vector<Listed> listed_;
-  simd::AlignedVector<Way> ways_;        // the same order
-  std::vector<std::uint32_t> place_of_;  // by primitive
+  simd::AlignedVector<Way> ways_;        // in the order of listed_
+  std::vector<std::uint32_t> place_of_;  // per primitive
 };
 
 }  // namespace hinge::detail

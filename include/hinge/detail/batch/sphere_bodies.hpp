@@ -23,33 +23,34 @@
 
 namespace hinge::detail {
 
-/// A sphere in its group's lane frame: scaled, its radius grown and shrunk by the error of its place.
+/// A sphere in its group's lane frame: scaled, radius enlarged and reduced by the error bound of its position.
 struct LaneBall {
   float x = 0, y = 0, z = 0;
   float grown = 0;
-  float shrunk = 0;  ///< -infinity: nothing surely touches it
+  float shrunk = 0;  ///< -infinity: never surely touching
 
   [[gnu::always_inline]] LaneVector placed_by(const LaneFrame& frame) const noexcept { return placed(frame, x, y, z); }
 };
 
-/// The spheres of one link.
+/// The spheres of one link; in this file a body is one link with spheres.
 struct SphereBody {
   GroupId group{};
   LinkId link{};
-  std::uint32_t first = 0;  ///< its balls: first ... first + count - 1
+  std::uint32_t first = 0;  ///< its balls are first .. first + count - 1
   std::uint32_t count = 0;
   Sphere enclosing{};  ///< in the group's frame
-  LaneBall ball{};     ///< grown around all of them
+  LaneBall ball{};     ///< ball around all its spheres, enlarged by the error bounds
 };
 
+/// A pair of bodies that is tested.
 struct BodyPair {
   static constexpr std::size_t all_admitted = std::numeric_limits<std::size_t>::max();
-  std::uint32_t a = 0, b = 0;        ///< b has at least as many spheres
-  float near_squared = 0;            ///< of the enclosing balls
-  std::size_t table = all_admitted;  ///< where the pair's own rows in admitted() begin
+  std::uint32_t a = 0, b = 0;        ///< b has at least as many spheres as a
+  float near_squared = 0;            ///< squared sum of the radii of the enclosing balls
+  std::size_t table = all_admitted;  ///< start of the pair's rows in admitted(); all_admitted: no rows
 };
 
-/// A sphere around spheres; the centre is close to the best one, the radius encloses up to rounding.
+/// A sphere that encloses the given spheres up to rounding. Its centre is near the optimal one.
 inline Sphere enclosing_sphere(std::span<const Sphere> spheres) noexcept {
   Sphere around = spheres.front();
   const auto reach = [&](const Sphere& s) {
@@ -59,7 +60,7 @@ inline Sphere enclosing_sphere(std::span<const Sphere> spheres) noexcept {
     return *std::max_element(spheres.begin(), spheres.end(),
                              [&](const Sphere& s, const Sphere& t) { return reach(s) < reach(t); });
   };
-  // Badoiu & Clarkson: after k steps towards the farthest one, 1 / k from the best centre.
+  // Badoiu and Clarkson: after k steps towards the farthest sphere, the centre is within 1 / k of the optimum.
   for (int k = 1; k <= 1000 && spheres.size() > 1; ++k) {
     const Sphere far = farthest();
     const double distance = reach(far) - far.radius;
@@ -71,7 +72,7 @@ inline Sphere enclosing_sphere(std::span<const Sphere> spheres) noexcept {
   return around;
 }
 
-/// Copies hold everything, but the model.
+/// Copies share the model only.
 class SphereBodies {
  public:
   template <PairFilter F>
@@ -87,15 +88,15 @@ class SphereBodies {
   std::span<const SphereBody> bodies() const noexcept { return bodies_; }
   std::span<const LaneBall> balls() const noexcept { return balls_; }
   PrimitiveId primitive(std::size_t ball) const noexcept { return primitives_[ball]; }
-  /// May be reordered.
+  /// The caller may reorder the pairs.
   std::span<BodyPair> pairs() noexcept { return pairs_; }
   bool admitted(const BodyPair& pair, std::size_t i, std::size_t j) const noexcept {
     return pair.table == BodyPair::all_admitted || admitted_[pair.table + i * bodies_[pair.b].count + j];
   }
   std::size_t sphere_pair_count() const noexcept { return sphere_pair_count_; }
 
-  /// Makes the bands hold for sliding joints with values up to `slide`. Wider bands than needed cost time only; a
-  /// factor of 16 keeps them from being made anew for every block.
+  /// Makes the error bounds valid for values of sliding joints up to `slide`. Wider bounds cost only time. A factor of
+  /// 16 avoids recomputing them for every block.
   void cover_slide(double slide) noexcept {
     if (slide > slide_ || (slide < slide_ / 16 && slide_ > least_slide()))
       set_slide(std::max(2 * slide, least_slide()));
@@ -117,15 +118,15 @@ class SphereBodies {
   std::shared_ptr<const SelectedModel<Sphere>> model_;
   LaneKinematics kinematics_;
   std::vector<SphereBody> bodies_;
-  std::vector<LaneBall> balls_;          // body by body
-  std::vector<PrimitiveId> primitives_;  // by ball
+  std::vector<LaneBall> balls_;          // sorted by body
+  std::vector<PrimitiveId> primitives_;  // per ball
   std::vector<BodyPair> pairs_;
-  std::vector<bool> admitted_;  // for pairs that the filter admits in part, a row for each sphere of a
+  std::vector<bool> admitted_;  // for pairs that the filter admits partly: one row per sphere of a
   std::size_t sphere_pair_count_ = 0;
-  double extent_ = 0.0;  // of the model while nothing slides
+  double extent_ = 0.0;  // extent of the model without slides
   double scale_ = 1.0;
   double slide_ = 0.0;
-  std::vector<LaneError> errors_;  // by group, for slide_
+  std::vector<LaneError> errors_;  // per group, for slide_
 };
 
 inline void SphereBodies::add_bodies() {
@@ -152,7 +153,7 @@ inline void SphereBodies::add_bodies() {
     extent_ =
         std::max(extent_, errors_[index(body.group)].reach(std::sqrt(squared_norm(centre))) + body.enclosing.radius);
   }
-  // Squares of lengths near 1 are in the middle of what floats can hold.
+  // Squares of lengths near 1 are in the middle of the float range.
   if (is_finite(extent_) && extent_ > 0.0) scale_ = std::ldexp(1.0, std::clamp(-std::ilogb(extent_), -1000, 1000));
   kinematics_.set_scale(scale_);
 }
@@ -190,8 +191,8 @@ inline void SphereBodies::set_slide(double slide) noexcept {
 
 inline void SphereBodies::set_body(SphereBody& body, const LaneError& error) noexcept {
   constexpr float infinity = std::numeric_limits<float>::infinity();
-  // 8 u: 2.5 for the distance, 1.5 for sum and square of the radii, the rest for the double rule's own.
-  // 2^-60: squares that underflow. Beyond 2^60 squares would overflow; such balls, and NaN, are never decided in float.
+  // 8 u: 2.5 u for the distance, 1.5 u for sum and square of the radii, the rest for the double rule. 2^-60: underflow
+  // of squares. Above 2^60 squares overflow; such balls, and NaN, are never decided in float.
   constexpr double relative = 8 * LaneError::u, least = 0x1p-60, most = 0x1p60;
   const auto grown = [&](double length) {
     const double scaled = length * scale_ * (1.0 + relative) + least;
@@ -211,7 +212,7 @@ inline void SphereBodies::set_body(SphereBody& body, const LaneError& error) noe
     set_centre(balls_[k], centre);
     balls_[k].grown = grown(sphere.radius + band);
     balls_[k].shrunk = shrunk(sphere.radius - band);
-    largest = band <= largest ? largest : band;  // NaN stays
+    largest = band <= largest ? largest : band;  // keeps NaN
   }
   const Vec3 centre = kinematics_.in_lane_frame(body.group, body.enclosing.center);
   const double band = error.of_point(norm(centre), norm(body.enclosing.center) + to_frame);

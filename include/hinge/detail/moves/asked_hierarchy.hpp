@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// AskedHierarchy: a hierarchy that is at the state, at a move away from it, or elsewhere, and is asked for known pairs.
+// AskedHierarchy: a hierarchy that follows a state and a tried move, and lists known pairs.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace hinge::detail {
 
-/// H: a Hierarchy.
+/// H: a Hierarchy. It remembers which configuration the hierarchy holds, and updates it only when needed.
 template <class H>
 class AskedHierarchy {
  public:
@@ -22,33 +22,34 @@ class AskedHierarchy {
 
   const H& get() const noexcept { return hierarchy_; }
 
-  /// To another state. ConfigurationError: see Hierarchy::update; nothing changes.
+  /// Goes to another state. Throws ConfigurationError as Hierarchy::update does; nothing changes then.
   void set(std::span<const double> q) {
     hierarchy_.update(q);
     held_ = Held::state;
   }
+  /// Goes to the state q unless the hierarchy is there.
   void go_to_state(std::span<const double> q) {
     if (held_ != Held::state) set(q);
   }
-  /// q is the state.
+  /// Goes to the configuration after a move from the state q.
   void go_to_move(std::span<const double> q, std::span<const DofChange> changes) {
     hierarchy_.update(after(q, changes));
     held_ = Held::tried;
   }
-  /// The configuration after a move; valid until the next call.
+  /// Returns the configuration after a move from q. Valid until the next call.
   const std::vector<double>& after(std::span<const double> q, std::span<const DofChange> changes) {
     next_.assign(q.begin(), q.end());
     for (const DofChange& change : changes) next_[change.dof] = change.value;
     return next_;
   }
-  /// The pending move became the state, or was dropped.
+  /// Tells whether the pending move became the state or was dropped.
   void accepted() noexcept { held_ = held_ == Held::tried ? Held::state : Held::other; }
   void rejected() noexcept {
     if (held_ == Held::tried) held_ = Held::other;
   }
 
-  /// Adds the pairs with d - M < tolerance; false when it stopped at the first collision, not all being asked for.
-  /// moved_only: of those that moved since the update before.
+  /// Adds the pairs with d - M < tolerance to `known`. Returns false if it stopped at the first collision (only when
+  /// `all` is false). moved_only: only pairs that moved since the previous update.
   bool ask(double tolerance, bool moved_only, bool all, std::vector<KnownPair>& known, QueryCounts* counts) {
     const auto place = [&](PrimitiveId i) { return hierarchy_.placed(i); };
     NearPairs near(hierarchy_.matrix(), tolerance, all, place, known);

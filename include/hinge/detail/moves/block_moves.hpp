@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// BlockMoves: the pairs that a move may have brought close, found by turning blocks of floats and sweeping what turned.
+// BlockMoves: finds pairs that a move may have brought close, by moving blocks of floats and sweeping the moved blocks.
 #pragma once
 
 #include <algorithm>
@@ -34,8 +34,8 @@
 
 namespace hinge::detail {
 
-/// For primitives whose batches turn (TransformsBatch). Blocks of one part keep their mutual placement and never meet:
-/// each is swept against all that stands still and what was turned before its part.
+/// For primitives whose batches can be transformed (TransformsBatch). Blocks of one part keep their relative placement
+/// and are not tested with each other. Each block is swept against all blocks at rest and those of parts moved before.
 template <Primitive P>
 class BlockMoves {
  public:
@@ -43,14 +43,14 @@ class BlockMoves {
   BlockMoves(const SelectedModel<P>& model, const F& filter, const D& matrix, const MovingParts& parts)
       : BlockMoves(wide_parts(model, matrix), model, filter, parts) {}
 
-  /// Everything is placed anew.
+  /// Places all blocks at a configuration.
   void set(std::span<const double> q, const MovingParts& parts) {
     frames_.set(q, parts);
     blocks_.forget_extent();
     for (std::uint32_t b = 0; b < layout().block_count(); ++b) blocks_.place(b, frames_.frames());
     blocks_.cover_all();
   }
-  /// Moves to other values of joints, which `parts` are cut at, without asking for pairs.
+  /// Changes joints to new values without testing pairs. `parts` are cut at these joints.
   void jump(std::span<const JointValue> values, const MovingParts& parts) {
     frames_.jump(values, parts);
     moved_.find(parts);
@@ -60,12 +60,12 @@ class BlockMoves {
     blocks_.cover_all();
   }
 
-  /// Can floats hold the present coordinates?
+  /// True if floats can hold the present coordinates.
   bool holds() const noexcept { return std::isfinite(blocks_.extent()); }
   std::size_t block_count() const noexcept { return layout().block_count(); }
 
-  /// Moves joints to other values, most_kept at most, `parts` being cut at them; returns the number of blocks that this
-  /// takes along.
+  /// Starts a move of joints to new values, at most most_kept. `parts` are cut at these joints. Returns the number of
+  /// blocks that move.
   std::size_t begin(std::span<const JointValue> values, const MovingParts& parts) {
     frames_.try_values(values, parts);
     moved_.find(parts);
@@ -74,8 +74,8 @@ class BlockMoves {
       motions_[part] = FloatMotion(frames_.transform(part), layout().origin, layout().scale);
     return moved_.count();
   }
-  /// Before search(), with its arguments: did a pair that stopped it in a move before come too close again, beyond
-  /// doubt? It goes to visit(i, j).
+  /// Call this between begin() and search(), with the same arguments. Returns true if a pair that stopped an earlier
+  /// move surely collides again; passes that pair to visit(i, j).
   template <class Visit>
   bool recall(const MovingParts& parts, double cutoff, double motion_error, MoveCounts& counts,
               const Visit& visit) requires TurnsOne<P> {
@@ -87,13 +87,13 @@ class BlockMoves {
     visit(i, j);
     return true;
   }
-  /// Offers every pair with d - M <= cutoff whose distance the move may have changed, and others, to
-  /// visit(i, j), which answers false to stop and asks the filter. motion_error: model unit.
-  /// False when floats cannot hold the new coordinates: take the move back then.
+  /// Calls visit(i, j) for every pair with d - M <= cutoff whose distance the move may have changed, and for some other
+  /// pairs. visit must ask the filter; it returns false to stop. motion_error: model unit. search returns false if
+  /// floats cannot hold the new coordinates: call reject() then.
   template <class Visit>
   bool search(const MovingParts& parts, double cutoff, double motion_error, QueryCounts& counts, const Visit& visit);
 
-  /// The move stays, or is taken back.
+  /// Accepts or drops the move.
   void accept(const MovingParts& parts);
   void reject() noexcept;
 
@@ -110,7 +110,7 @@ class BlockMoves {
         near_(std::make_shared<const NearRows>(ExclusionMasks(simd_parts->layout, model, filter, false),
                                                blocks_.ranks())),
         met_(simd_parts->layout.block_count() + 1) {}
-  /// Primitives that no pair can hold are left out.
+  /// Leaves out primitives that never collide.
   template <DistanceMatrix D>
   static std::shared_ptr<const SimdParts<P>> wide_parts(const SelectedModel<P>& model, const D& matrix) {
     std::vector<std::uint8_t> never_collides;
@@ -128,7 +128,7 @@ class BlockMoves {
     std::uint32_t block, rank;
     simd::Bits in_b;
   };
-  /// CandidateList listed before they are run: a hit among the first saves turning the rest.
+  /// Longest run of candidates in the narrow phase: a hit among the first saves moving the other blocks.
   static constexpr std::size_t longest_run = 16 * simd::width;
 
   ThresholdTable table_;
@@ -137,12 +137,12 @@ class BlockMoves {
   MoveFrames frames_;
   std::shared_ptr<const NearRows> near_;
   std::vector<FloatMotion> motions_;         // per part
-  std::vector<std::uint32_t> turned_parts_;  // of what was turned, but for blocks that are cut
+  std::vector<std::uint32_t> turned_parts_;  // part of each moved block, except blocks cut by a joint
   std::vector<Met> met_;                     // scratch
   RecentCollisions recent_;
   CandidateList candidates_;
   Thresholds16 thresholds_;
-  double cutoff_ = 0.0, motion_error_ = 0.0;  // that thresholds_ are for
+  double cutoff_ = 0.0, motion_error_ = 0.0;  // the arguments that thresholds_ was computed from
   float extent_ = -1.0F;
 };
 
@@ -157,8 +157,8 @@ void BlockMoves<P>::set_thresholds(double cutoff, double motion_error) noexcept 
                   float_above(beyond + blocks_.band(static_cast<double>(table_.largest) + beyond, motion_error)));
 }
 
-/// Lists the candidates of a block against all that stands still and the first `turned` of what was turned, as
-/// BroadPhase does. pieces: when it is cut; lanes that moved with the other block are left out.
+/// Lists the candidates of block b against all blocks at rest and the first `turned` moved blocks, as BroadPhase does.
+/// pieces: the parts of b if it is cut by a joint; lanes that moved with the other block are left out.
 template <Primitive P>
 void BlockMoves<P>::face(std::uint32_t b, std::size_t turned, std::span<const PartLanes> pieces, QueryCounts& counts) {
   const float more = thresholds_.margin();
@@ -172,7 +172,7 @@ void BlockMoves<P>::face(std::uint32_t b, std::size_t turned, std::span<const Pa
       if (piece.part == part) return real & ~piece.lanes;
     return real;
   };
-  // Those that no lane of b comes near are most, and neither foreseen nor looked at closely.
+  // Branch-free: most blocks have no lane of b nearby, which is unpredictable.
   std::size_t count = 0;
   const auto meet = [&](std::uint32_t rank, simd::Bits mine) __attribute__((always_inline)) {
     const std::uint32_t a = blocks_.block(rank);
@@ -202,7 +202,7 @@ void BlockMoves<P>::face(std::uint32_t b, std::size_t turned, std::span<const Pa
   }
 }
 
-/// Each piece of a cut block against the pieces after it.
+/// Lists the candidates between each piece of a cut block and the pieces after it.
 template <Primitive P>
 void BlockMoves<P>::face_itself(std::uint32_t b, std::span<const PartLanes> pieces) {
   simd::Bits rest = simd::all_bits;
@@ -251,7 +251,7 @@ bool BlockMoves<P>::search(const MovingParts& parts, double cutoff, double motio
     patience = std::min(2 * patience, longest_run);
     run();
   };
-  // What is farthest down the tree first.
+  // Start with the parts farthest down the tree.
   turned_parts_.clear();
   for (std::uint32_t part = moved_.part_count(); wanted && part-- > 1;) {
     const std::span<const MovedBlocks::Range> ranges = moved_.of_part(part);
@@ -264,7 +264,7 @@ bool BlockMoves<P>::search(const MovingParts& parts, double cutoff, double motio
         face_it(b, before, {});
       }
   }
-  // Then what joints cut: it hardly moved against what it is next to, and costs most.
+  // Blocks cut by joints come last: they hardly move against their neighbours, and cost most.
   for (std::size_t k = 0; wanted && k < moved_.cut().size(); ++k) {
     const std::uint32_t b = blocks_.block(moved_.cut()[k].rank);
     const std::span<const PartLanes> pieces = moved_.pieces(moved_.cut()[k], parts);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// KnownPair and NearPairs: the pairs of a state that collide, or that rounding alone could bring to it.
+// KnownPair and NearPairs: the pairs of a state that collide, or that rounding alone could make collide.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ inline bool any_collides(const std::vector<KnownPair>& known) noexcept {
   return std::ranges::any_of(known, &KnownPair::collides);
 }
 
-/// Those that collide, sorted by (first, second), into `hits`, which it returns.
+/// Writes the collisions among `known` into `hits`, sorted by (first, second). Returns `hits`.
 inline const std::vector<Hit>& list_collisions(const std::vector<KnownPair>& known, std::vector<Hit>& hits) {
   hits.clear();
   for (const KnownPair& pair : known)
@@ -33,7 +33,7 @@ inline const std::vector<Hit>& list_collisions(const std::vector<KnownPair>& kno
   return hits;
 }
 
-/// Judges a pair by the rule of every query and keeps it when d - M < tolerance; was it a collision?
+/// Decides a pair exactly, and stores it in `known` if d - M < tolerance. Returns true if it collides.
 template <Primitive P, DistanceMatrix D>
 bool judge(PrimitiveId first, PrimitiveId second, const P& p, const P& q, const D& matrix, double tolerance,
            std::vector<KnownPair>& known) {
@@ -44,7 +44,7 @@ bool judge(PrimitiveId first, PrimitiveId second, const P& p, const P& q, const 
   return collides;
 }
 
-/// Collects them from a query; `place(i)` gives coordinates. Stops at the first collision unless all are asked for.
+/// A collector of known pairs. place(i) returns the placed primitive i. It stops at the first collision unless `all`.
 template <DistanceMatrix D, class Place>
 class NearPairs {
  public:

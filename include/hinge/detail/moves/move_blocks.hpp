@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MoveBlocks: float coordinates of engine/simd's blocks, turned by a move as rigid bodies, and turned back for nothing.
+// MoveBlocks: float coordinates of engine/simd's blocks, moved as rigid bodies; double-buffered, so rejecting is free.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@
 
 namespace hinge::detail {
 
-/// x -> R x + t for the floats of blocks.
+/// A rigid motion x -> R x + t for the scaled floats of blocks.
 struct FloatMotion {
   FloatMotion() = default;
   FloatMotion(const Frame& motion, const Vec3& origin, double scale) noexcept {
@@ -46,15 +46,15 @@ struct FloatMotion {
   std::array<float, 3> translation{};
 };
 
-/// Every block has two places: one holds its coordinates, a move writes those after it to the other. Sweeps go through
-/// what stands still and, in the order of turning, through what was turned.
+/// Every block has two buffers: a move writes the new coordinates to the unused one. Sweeps test the blocks at rest,
+/// and the moved blocks in the order in which they moved.
 template <Primitive P>
 class MoveBlocks {
  public:
-  /// After so many moves coordinates are placed in double again: rounding adds up.
+  /// Number of moves after which coordinates are placed in double again: rounding adds up.
   static constexpr unsigned most_turns = 16;
 
-  /// order: of MovedBlocks.
+  /// order: see MovedBlocks::order().
   MoveBlocks(std::shared_ptr<const SimdParts<P>> parts_of_model, const MovingParts& parts,
              std::span<const std::uint32_t> order)
       : simd_parts_(std::move(parts_of_model)),
@@ -85,36 +85,37 @@ class MoveBlocks {
   float reach(std::uint32_t b) const noexcept { return simd_parts_->rigid.reach[b]; }
   float largest_reach() const noexcept { return simd_parts_->rigid.largest_reach; }
 
-  // What narrow_phase asks for.
+  // The interface of narrow_phase.
   const float* packed() const noexcept { return floats_.data(); }
   const std::uint8_t* position_class() const noexcept { return class_.data(); }
   static constexpr bool has_extra() noexcept { return false; }
   static constexpr float extra_at(std::size_t) noexcept { return 0.0F; }
 
+  /// The block's present buffer, numbered over all blocks.
   std::uint32_t at(std::uint32_t b) const noexcept { return at_[b]; }
   std::uint32_t position(std::uint32_t b) const noexcept {
     return at_[b] * static_cast<std::uint32_t>(Batch<P>::floats);
   }
-  /// The slot, in BlockLayout::primitive, whose floats start at a position.
+  /// The slot, in BlockLayout::primitive, whose floats start at `position`.
   static std::uint32_t slot(std::uint32_t position) noexcept {
     constexpr auto floats = static_cast<std::uint32_t>(Batch<P>::floats), n = static_cast<std::uint32_t>(simd::width);
     return position / floats / 2 * n + position % floats;
   }
   PrimitiveId primitive_of_slot(std::uint32_t slot) const noexcept { return id<PrimitiveId>(layout().primitive[slot]); }
   const float* floats(std::uint32_t b) const noexcept { return floats_.data() + position(b); }
-  /// Where its floats are at present.
+  /// Present position of a slot's floats.
   std::uint32_t position_of_slot(std::uint32_t slot) const noexcept {
     constexpr auto n = static_cast<std::uint32_t>(simd::width);
     return position(slot / n) + slot % n;
   }
-  /// Of the threshold of two positions, in Thresholds16.
+  /// Index in Thresholds16 of the threshold between two positions.
   std::size_t threshold_row(std::uint32_t one, std::uint32_t other) const noexcept {
     return class_[one] * simd::width + class_[other];
   }
-  /// Grown by the block's reach.
+  /// The block's box, inflated by its reach.
   const FloatBox& box(std::uint32_t b) const noexcept { return box_[at_[b]]; }
 
-  /// Places a block in double. frames: by places of MovingParts.
+  /// Places a block in double. frames: indexed by place in MovingParts.
   void place(std::uint32_t b, std::span<const Frame> frames) noexcept {
     float* to = floats_.data() + position(b);
     FloatBox box;
@@ -136,15 +137,15 @@ class MoveBlocks {
   std::uint32_t block(std::uint32_t rank) const noexcept { return order_[rank]; }
   std::uint32_t rank(std::uint32_t b) const noexcept { return rank_[b]; }
   std::span<const std::uint32_t> ranks() const noexcept { return rank_; }
-  /// Blocks of ranks begin ... end - 1 are going to move: no sweep of what stands still is to find them.
+  /// Hides blocks of ranks begin .. end - 1, which are about to move, from sweeps of the blocks at rest.
   void hide(std::uint32_t begin, std::uint32_t end) noexcept { standing_.hide(begin, end); }
-  /// Turns a block into its other place.
+  /// Moves a block into its other buffer.
   void turn(std::uint32_t b, const FloatMotion& by) noexcept {
     const float* from = floats(b);
     at_[b] ^= 1U;
     finish(b, Batch<P>::turn(from, by.rotation, by.translation, floats_.data() + position(b)));
   }
-  /// The same where lanes belong to different parts; motions: by part, that of part 0 is not looked at.
+  /// The same for a block whose lanes belong to different parts. motions: per part; that of part 0 is not used.
   void turn(std::uint32_t b, std::span<const PartLanes> pieces, std::span<const FloatMotion> motions) noexcept {
     using simd::Float16;
     constexpr std::size_t rows = Batch<P>::floats / simd::width;
@@ -163,22 +164,22 @@ class MoveBlocks {
     for (std::size_t k = 0; k < rows; ++k) all[k].store(to + k * simd::width);
     finish(b, Batch<P>::hull(to));
   }
-  /// Those of the present move, in order.
+  /// Blocks moved by the present move, in order.
   std::span<const std::uint32_t> turned() const noexcept { return turned_; }
-  /// Back to the places before the move.
+  /// Drops the move: switches back to the old buffers.
   void turn_back() noexcept {
     for (const std::uint32_t b : turned_) at_[b] ^= 1U;
     forget_turned();
   }
-  /// To the places after the move, which turned all that was hidden. True when one was turned so often that what is
-  /// worn is to be placed.
+  /// Accepts the move, which must have moved all hidden blocks. Returns true if a block reached most_turns: the caller
+  /// must place all worn blocks again.
   bool keep() noexcept {
     unsigned most = 0;
     for (const std::uint32_t b : turned_) {
       boxes_.set(rank_[b], box(b));
       most = std::max<unsigned>(most, turns_[at_[b]]);
     }
-    if (boxes_.rows() > simd::width) {  // there are boxes above rows
+    if (boxes_.rows() > simd::width) {  // there are levels above the rows
       std::size_t row = boxes_.rows();
       for (const std::uint32_t b : turned_)
         if (std::exchange(row, rank_[b] / simd::width) != rank_[b] / simd::width) boxes_.cover(rank_[b]);
@@ -186,33 +187,32 @@ class MoveBlocks {
     forget_turned();
     return most >= most_turns;
   }
-  /// Was it turned half as often as it may be?
+  /// True if the block was moved at least half of most_turns times.
   bool is_worn(std::uint32_t b) const noexcept { return 2 * turns_[at_[b]] >= most_turns; }
 
-  /// To be called when blocks were placed, before the next sweep.
+  /// Call this after place(), before the next sweep.
   void cover_all() noexcept {
     for (std::size_t b = 0; b < layout().block_count(); b += simd::width) boxes_.cover(b);
   }
 
-  /// Ranks of blocks that stand still and meet a box, in order; valid until the next sweep.
+  /// Ranks of the blocks at rest whose boxes overlap `box`, in order. Valid until the next sweep.
   std::span<const std::uint32_t> standing(const FloatBox& box, QueryCounts& counts) noexcept {
     return boxes_.sweep(box, standing_, counts);
   }
-  /// Which of the first `end` turned blocks do.
+  /// The same for the first `end` moved blocks: their indices in turned().
   std::span<const std::uint32_t> turned(const FloatBox& box, std::size_t end, QueryCounts& counts) noexcept {
     return turned_boxes_.sweep(box, end, counts);
   }
 
-  /// Largest magnitude of a coordinate met so far, reaches included, scaled, rounded up; infinite when floats cannot
-  /// hold it.
+  /// Largest coordinate magnitude so far, reaches included, scaled, rounded up; infinite if floats cannot hold it.
   float extent() const noexcept { return extent_; }
-  /// Coordinates may be looked at afresh: all blocks are placed after this.
+  /// Resets extent(). The caller must place all blocks after this.
   void forget_extent() noexcept { extent_ = 0.0F; }
-  /// Moves that were taken back met nothing.
+  /// A rejected move must not enlarge extent().
   void restore_extent(float extent) noexcept { extent_ = extent; }
 
-  /// How far distances of turned floats may be off, scaled; motion_error: model unit. docs/explanation/moves.md
-  /// derives it.
+  /// Bound of the error of distances between moved floats, scaled. motion_error: model unit. Derivation:
+  /// docs/explanation/moves.md.
   double band(double largest, double motion_error) const noexcept {
     constexpr double u = 0x1p-24, v = 0x1p-53, underflow = 0x1p-60;
     const auto extent = static_cast<double>(extent_), half = static_cast<double>(simd_parts_->rigid.largest_half);
@@ -222,7 +222,7 @@ class MoveBlocks {
   }
 
  private:
-  /// It was turned into its present place.
+  /// Stores the box of a block that was moved into its present buffer.
   void finish(std::uint32_t b, const FloatBox& around) noexcept {
     const std::uint32_t at = at_[b];
     box_[at] = around.grown(reach(b));
@@ -240,7 +240,8 @@ class MoveBlocks {
     const float extent = box(b).extent();
     if (extent <= extent_) [[likely]]
       return;
-    // A quarter more, to a power of two, so that what depends on it changes rarely. Not a number is too much, too.
+    // Round up to a power of two above 1.25 times the value, so that dependent values change rarely. NaN becomes
+    // infinite.
     int exponent = 0;
     std::frexp(1.25F * extent, &exponent);
     extent_ =
@@ -249,17 +250,17 @@ class MoveBlocks {
 
   std::shared_ptr<const SimdParts<P>> simd_parts_;
   simd::AlignedVector<float> floats_;
-  std::vector<std::uint8_t> class_;         // where the floats of a primitive start
-  std::vector<FloatBox> box_;               // per place
-  std::vector<std::uint8_t> turns_;         // per place: since it was placed in double
-  std::vector<std::uint32_t> at_;           // per block: which of its places
-  std::vector<std::uint32_t> group_place_;  // per block: of its first group
-  std::vector<std::uint32_t> mixed_place_;  // where SimdParts has mixed_group
+  std::vector<std::uint8_t> class_;         // class at the position of a primitive's floats
+  std::vector<FloatBox> box_;               // per buffer
+  std::vector<std::uint8_t> turns_;         // per buffer: moves since it was placed in double
+  std::vector<std::uint32_t> at_;           // per block: its present buffer
+  std::vector<std::uint32_t> group_place_;  // per block: place of its first group
+  std::vector<std::uint32_t> mixed_place_;  // per entry of SimdParts::mixed_group: its place
   std::vector<std::uint32_t> order_, rank_;
-  EntryBoxes boxes_;  // of all blocks before the present move, by rank
+  EntryBoxes boxes_;  // boxes of all blocks before the present move, by rank
   ShownEntries standing_;
   std::vector<std::uint32_t> turned_;
-  EntryBoxes turned_boxes_;  // of turned_
+  EntryBoxes turned_boxes_;  // boxes of turned_
   double rounding_size_ = 0.0;
   float extent_ = 0.0F;
 };

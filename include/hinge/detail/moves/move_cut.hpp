@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MoveCut: the changes a move is made of, checked, and the parts they cut the tree into.
+// MoveCut: validates the changes of a move, and cuts the tree of rigid groups at the changed joints.
 #pragma once
 
 #include <algorithm>
@@ -20,10 +20,10 @@
 
 namespace hinge::detail {
 
-/// A joint that changes: its place in MovingParts, and its new value.
+/// A changed joint: its place in MovingParts and its new value.
 using JointValue = std::pair<std::uint32_t, double>;
 
-/// Holds what checking and cutting take, so that no move costs an allocation.
+/// Owns the scratch memory, so that a move does not allocate.
 class MoveCut {
  public:
   MoveCut(const RigidGroups& groups, std::size_t dof_count) : parts_(groups), dofs_(dof_count) {
@@ -36,8 +36,8 @@ class MoveCut {
 
   bool is_slide(std::size_t dof) const noexcept { return dofs_[dof].slides; }
 
-  /// ConfigurationError: a DOF that does not exist or is named twice, a value that is not finite, a slide beyond
-  /// largest_length.
+  /// Throws ConfigurationError if a DOF does not exist or is listed twice, if a value is not finite, or if a slide is
+  /// longer than largest_length.
   void check(std::span<const DofChange> changes) {
     ++list_;
     for (const DofChange& change : changes) {
@@ -51,7 +51,7 @@ class MoveCut {
     }
   }
 
-  /// Each DOF drives one joint.
+  /// Cuts the tree at the changed joints. Each DOF drives one joint.
   void cut(std::span<const DofChange> changes) {
     values_.clear();
     joints_.clear();
@@ -60,9 +60,9 @@ class MoveCut {
     for (const auto& [place, value] : values_) joints_.push_back(place);
     parts_.cut(joints_);
   }
-  /// As cut last. Part k + 1 moves with joint k.
+  /// The parts of the last cut. Part k + 1 moves with joint k.
   const MovingParts& parts() const noexcept { return parts_; }
-  /// Sorted by place.
+  /// The changed joints of the last cut, sorted by place.
   std::span<const JointValue> values() const noexcept { return values_; }
 
  private:
@@ -75,7 +75,7 @@ class MoveCut {
   }
 
   struct Dof {
-    std::uint64_t named_at = 0;  // the last list that names it
+    std::uint64_t named_at = 0;  // the last list that contains it
     std::uint32_t place = 0;
     bool slides = false;
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MoveFrames: frames of a configuration and of one move away from it, with the bits forward kinematics gives them.
+// MoveFrames: group frames of a state and of one move from it, bit for bit those of forward kinematics.
 #pragma once
 
 #include <algorithm>
@@ -25,11 +25,11 @@
 
 namespace hinge::detail {
 
-/// The motions of accepted moves are kept, and frames composed again when somebody asks for them, or when it comes
-/// cheaper: settle(). By places of MovingParts, which must be the same one in all calls.
+/// A place is the position of a group in MovingParts; all calls need the same MovingParts. Motions of accepted moves
+/// are stored. settle() composes frames from the root again: when a caller needs them, or when that is cheaper.
 class MoveFrames {
  public:
-  /// See PlacingBounds: rounding adds up.
+  /// The error bound of PlacingBounds allows this many stored motions.
   static constexpr std::size_t most_kept = PlacingBounds::most_kept;
 
   MoveFrames(std::shared_ptr<const RigidGroups> groups, const MovingParts& parts)
@@ -45,24 +45,25 @@ class MoveFrames {
     }
   }
 
-  /// All frames at a configuration.
+  /// Sets all frames to a configuration.
   void set(std::span<const double> q, const MovingParts& parts) noexcept {
     forget_kept();
     for (std::uint32_t p = 1; p < parts.size(); ++p) set_value(p, q[group(p, parts).dof], parts);
     compose_range(1, parts.size(), parts);
   }
-  /// The same where a configuration differs by values of joints, which `parts` are cut at.
+  /// Changes joints to new values and composes the frames below them. `parts` are cut at these joints.
   void jump(std::span<const JointValue> values, const MovingParts& parts) {
     settle(parts);
     for (const auto& [place, value] : values) set_value(place, value, parts);
     for (const MovingParts::Stretch& s : parts.stretches()) compose_range(s.begin, s.end, parts);
   }
 
-  /// Joints get new values, sorted by place, the tree is cut there, and the rigid motion of each part is found:
-  /// T(part) takes world coordinates before the move to those after it. Undone by undo(), made to stay by keep().
-  /// At most most_kept values.
+  /// Tries new values of joints, sorted by place; `parts` are cut at these joints. Computes the rigid motion of each
+  /// part: transform(part) maps world coordinates before the move to world coordinates after it. undo() drops the move,
+  /// keep() accepts it. At most most_kept values.
   void try_values(std::span<const JointValue> values, const MovingParts& parts) {
-    // Rent or buy: to look through an entry, and turn an axis where it applies, costs roughly half a composed frame.
+    // Settle when the work since the last settle() exceeds its cost: one stored motion costs about half a composed
+    // frame.
     looked_through_ += kept_.size() * values.size();
     if (kept_motion_.size() + values.size() > most_kept || looked_through_ > 2 * std::size_t{parts.size()})
       settle(parts);
@@ -80,7 +81,7 @@ class MoveFrames {
     }
   }
   const Frame& transform(std::uint32_t part) const noexcept { return transforms_[part]; }
-  /// A frame of the part as that motion, and those that are kept, take it along.
+  /// The frame at `place` after all stored motions and the motion of `part`.
   Frame moved(std::uint32_t place, std::uint32_t part) const noexcept {
     Frame at = frame_[place];
     const auto move_by = [&at](const Frame& by) {
@@ -110,7 +111,8 @@ class MoveFrames {
     }
   }
 
-  /// Frames of what has moved are composed from the root, as for any configuration: no move leaves a trace in them.
+  /// Composes the frames of all moved groups from the root, as for any configuration: errors do not accumulate over
+  /// moves.
   void settle(const MovingParts& parts) {
     if (kept_.empty()) return;
     for (const std::uint32_t place : changed_) set_motion(place, at_[place].value, parts);
@@ -122,11 +124,11 @@ class MoveFrames {
     }
     forget_kept();
   }
-  /// Of the state; when it is settled.
+  /// Frames of the state. Only valid when settled.
   const Frame& frame(std::uint32_t place) const noexcept { return frame_[place]; }
   std::span<const Frame> frames() const noexcept { return frame_; }
 
-  /// After the move that is tried; composed along the way from what stands still, once.
+  /// The frame at `place` after the tried move, composed once along the path from the groups that do not move.
   const Frame& tried(std::uint32_t place, const MovingParts& parts) {
     if (saved_.empty()) {
       settle(parts);
@@ -153,17 +155,17 @@ class MoveFrames {
 
  private:
   struct JointAt {
-    Vec3 axis = Vec3::UnitZ(), point = Vec3::Zero();  // group's frame
-    SinCos turn;                                      // of its value, where it does not slide
+    Vec3 axis = Vec3::UnitZ(), point = Vec3::Zero();  // in the group's frame
+    SinCos turn;                                      // sine and cosine of the value, for a revolute joint
     double value = 0.0;
     bool slides = false;
   };
-  /// Places begin ... begin + count - 1 were moved.
+  /// The places begin .. begin + count - 1 were moved by one motion.
   struct Kept {
     std::uint32_t begin, count, motion;  // in kept_motion_
     bool moves(std::uint32_t place) const noexcept { return place - begin < count; }
   };
-  using Motion = std::array<double, 12>;  // rotation column by column, translation; relative to the parent group
+  using Motion = std::array<double, 12>;  // rotation column by column, then translation; relative to the parent group
 
   const RigidGroup& group(std::uint32_t place, const MovingParts& parts) const noexcept {
     return (*groups_)[parts.group(place)];
@@ -173,7 +175,7 @@ class MoveFrames {
     if (!at_[place].slides) at_[place].turn = sincos(value);
     set_motion(place, value, parts);
   }
-  /// In the order of operations of PoseSource.
+  /// Same order of operations as PoseSource.
   void set_motion(std::uint32_t place, double value, const MovingParts& parts) noexcept {
     const Joint& joint = group(place, parts).joint;
     Pose at = motion(joint, value);
@@ -195,7 +197,7 @@ class MoveFrames {
     looked_through_ = 0;
   }
 
-  /// By what the k-th of values_ moves all below its joint, about where its axis is in the state; world frame.
+  /// The rigid motion of everything below joint values_[k], about the joint's axis in the state, world frame.
   Pose motion_of(std::size_t k) noexcept {
     const auto& [place, value] = values_[k];
     const JointAt& joint = at_[place];
@@ -227,18 +229,18 @@ class MoveFrames {
 
   std::shared_ptr<const RigidGroups> groups_;
   std::vector<JointAt> at_;              // in the state
-  std::vector<Motion> motion_;           // of the state that was settled, or with saved_ of the one that is tried
-  std::vector<Frame> frame_, tried_;     // frame_: of the state that was settled
+  std::vector<Motion> motion_;           // of the settled state; while saved_ is not empty, of the tried move
+  std::vector<Frame> frame_, tried_;     // frame_: of the settled state
   std::vector<std::uint64_t> tried_at_;  // per place: the move whose frame is in tried_
   std::uint64_t move_ = 0;
-  // Of the moves accepted since, in order.
+  // Moves accepted since settle(), in order.
   std::vector<Kept> kept_;
   std::vector<Frame> kept_motion_;
   std::vector<std::uint32_t> changed_;
-  std::size_t looked_through_ = 0;  // entries of kept_
-  // Of the move that is tried.
+  std::size_t looked_through_ = 0;  // number of stored motions applied since settle()
+  // The tried move.
   std::vector<JointValue> values_;
-  std::vector<SinCos> turn_;       // of values_
+  std::vector<SinCos> turn_;       // per entry of values_
   std::vector<Frame> transforms_;  // per part
   std::vector<std::pair<std::uint32_t, Motion>> saved_;
   std::vector<std::uint32_t> way_;  // scratch

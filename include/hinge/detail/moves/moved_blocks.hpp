@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MovedBlocks: which blocks of sixteen a move takes along, those of each part together, those cut by a joint apart.
+// MovedBlocks: the blocks that a move changes: whole blocks by part, and blocks cut by a joint.
 #pragma once
 
 #include <algorithm>
@@ -19,12 +19,13 @@
 
 namespace hinge::detail {
 
-/// Lanes of a block that one part takes along.
+/// The lanes of a block that belong to one part.
 struct PartLanes {
   std::uint32_t part;
   simd::Bits lanes;
 };
 
+/// Blocks are sorted by their first place in MovingParts; a rank is a position in this order.
 class MovedBlocks {
  public:
   template <Primitive P>
@@ -52,37 +53,37 @@ class MovedBlocks {
     }
   }
 
-  /// All blocks by the first of their places. Ranks are positions in it.
+  /// All blocks sorted by their first place. A rank is a position in this list.
   std::span<const std::uint32_t> order() const noexcept { return order_; }
 
-  /// Finds what the parts of a cut take along.
+  /// Finds the blocks that the parts of a cut contain.
   void find(const MovingParts& parts);
 
-  /// Ranks begin ... end - 1 lie in one part.
+  /// The blocks of ranks begin .. end - 1 lie in one part.
   struct Range {
     std::uint32_t begin, end, part;
   };
 
-  /// How many blocks move.
+  /// Number of moving blocks.
   std::size_t count() const noexcept { return count_; }
   std::uint32_t part_count() const noexcept { return static_cast<std::uint32_t>(start_.size()) - 1; }
-  /// Those of a part, and of all parts.
+  /// Whole blocks in one part, and in all parts.
   std::span<const Range> of_part(std::uint32_t part) const noexcept {
     return std::span(whole_).subspan(start_[part], start_[part + 1] - start_[part]);
   }
   std::span<const Range> whole() const noexcept { return whole_; }
-  /// Blocks that may lie in several.
+  /// A block that may lie in several parts.
   struct Cut {
-    std::uint32_t rank, stretch;  ///< no stretch before that one holds any of its places
+    std::uint32_t rank, stretch;  ///< no earlier range of MovingParts contains any of its places
   };
   std::span<const Cut> cut() const noexcept { return cut_; }
-  /// Of what stands in a slot: its place in MovingParts.
+  /// The place in MovingParts of the primitive in a slot.
   std::uint32_t place(std::uint32_t slot) const noexcept { return place_[slot]; }
-  /// What each part takes of such a block, what most lanes belong to last; valid until the next call.
+  /// The lanes of each part in a cut block; the part with most lanes is last. Valid until the next call.
   std::span<const PartLanes> pieces(const Cut& cut, const MovingParts& parts);
 
  private:
-  /// A block that is not known to lie in stretch t.
+  /// Adds a block that may lie only partly in stretch t.
   void add_cut(std::uint32_t rank, const MovingParts::Stretch& stretch, std::size_t t) {
     const std::uint32_t b = order_[rank];
     if (last_[b] < stretch.begin || seen_[b] == call_) return;
@@ -92,16 +93,16 @@ class MovedBlocks {
 
   std::vector<std::uint32_t> place_;  // per slot
   std::vector<std::uint32_t> last_;   // per block: its last place
-  std::vector<std::uint64_t> seen_;   // per block: the last call of find() that met it
+  std::vector<std::uint64_t> seen_;   // per block: the last call of find() that reached it
   std::vector<std::uint32_t> order_;
-  std::vector<std::uint32_t> reaching_;  // per place: no rank before reaches it; blocks nearly follow the tree
-  std::vector<std::uint32_t> from_;      // per place: the first rank that does not start before it
+  std::vector<std::uint32_t> reaching_;  // per place: blocks of lower rank end before this place
+  std::vector<std::uint32_t> from_;      // per place: the first rank that starts at or after it
   std::uint64_t call_ = 0;
   std::size_t count_ = 0;
   std::vector<Range> found_, whole_;
   std::vector<Cut> cut_;
   std::vector<PartLanes> pieces_;           // scratch
-  std::vector<std::uint32_t> start_{0, 0};  // per part, in whole_
+  std::vector<std::uint32_t> start_{0, 0};  // per part: start in whole_
 };
 
 inline std::span<const PartLanes> MovedBlocks::pieces(const Cut& cut, const MovingParts& parts) {
@@ -136,7 +137,7 @@ inline void MovedBlocks::find(const MovingParts& parts) {
   const std::span<const MovingParts::Stretch> stretches = parts.stretches();
   for (std::size_t t = 0; t < stretches.size(); ++t) {
     const MovingParts::Stretch& s = stretches[t];
-    // Blocks that start before the stretch, those that lie in it, and those that may reach beyond.
+    // Three sets: blocks that start before the range, blocks that lie in it, and blocks that may extend beyond it.
     const std::uint32_t begin = from_[s.begin], end = from_[s.end];
     const std::uint32_t beyond = std::clamp(reaching_[s.end], begin, end);
     for (std::uint32_t rank = reaching_[s.begin]; rank < begin; ++rank) add_cut(rank, s, t);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MovingParts: a move of D joints cuts the tree of rigid groups into D + 1 parts that each keep their shape.
+// MovingParts: a move of D joints cuts the tree of rigid groups into D + 1 parts, each moving as one rigid body.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 
 namespace hinge::detail {
 
-/// Groups stand in depth-first order, so that a subtree is a stretch of places: what a joint moves is one stretch, and
-/// a part of the cut tree is what is left of it when the stretches of joints below are taken out.
+/// Places number the groups in depth-first order, so a subtree is a range of places. A part is the range below its
+/// joint, without the ranges of changed joints below it.
 class MovingParts {
  public:
   explicit MovingParts(const RigidGroups& groups)
@@ -33,28 +33,28 @@ class MovingParts {
   std::uint32_t size() const noexcept { return static_cast<std::uint32_t>(group_.size()); }
   GroupId group(std::uint32_t place) const noexcept { return group_[place]; }
   std::uint32_t place(GroupId group) const noexcept { return place_[index(group)]; }
-  /// The world, at place 0, is its own parent.
+  /// The parent of the world, place 0, is the world.
   std::uint32_t parent(std::uint32_t place) const noexcept { return parent_[place]; }
-  /// One past the last place below.
+  /// One past the last place of the subtree.
   std::uint32_t end(std::uint32_t place) const noexcept { return end_[place]; }
 
-  /// Places begin ... end - 1 belong to one part.
+  /// The places begin .. end - 1 belong to one part.
   struct Stretch {
     std::uint32_t begin, end, part;
-    /// Which of sixteen places lie in it.
+    /// Mask of the sixteen given places that lie in the range.
     [[gnu::always_inline]] simd::Bits lanes(const std::uint32_t* places) const noexcept {
       using Places = simd::Lanes<std::uint32_t, simd::width>;
       const Places place(places);
       return less_equal(Places(begin), place) & less(place, Places(end));
     }
   };
-  /// Moves with the joint at place `joint`, which hangs on part `parent`; `top` is the place of the first changed joint
-  /// between it and what stands still.
+  /// A part moves with the joint at place `joint`. `parent` is the part above this joint. `top` is the place of the
+  /// highest changed joint above or at `joint`.
   struct Part {
     std::uint32_t joint = 0, parent = 0, top = 0;
   };
 
-  /// changed: places of the joints of a move, sorted, without 0. Joint k moves part k + 1.
+  /// Cuts the tree at the places of changed joints: sorted, without place 0. Joint k moves part k + 1.
   void cut(std::span<const std::uint32_t> changed) {
     stretches_.clear();
     parts_.resize(1);
@@ -78,11 +78,11 @@ class MovingParts {
     close(size());
   }
 
-  /// Of what moves, in order.
+  /// The ranges of all moving parts, in order of places.
   std::span<const Stretch> stretches() const noexcept { return stretches_; }
-  /// Part 0 stands still; the others come after those they hang on.
+  /// Part 0 does not move. Every other part comes after its parent.
   std::span<const Part> parts() const noexcept { return parts_; }
-  /// The part of the last cut that a place belongs to.
+  /// The part of the last cut that contains a place.
   std::uint32_t part_of(std::uint32_t place) const noexcept {
     const auto after = std::upper_bound(stretches_.begin(), stretches_.end(), place,
                                         [](std::uint32_t p, const Stretch& s) { return p < s.begin; });
@@ -100,7 +100,7 @@ class MovingParts {
   std::vector<std::uint32_t> parent_, end_;
   std::vector<Part> parts_;
   std::vector<Stretch> stretches_;
-  std::vector<std::uint32_t> open_;  // scratch: parts around a place, the innermost last
+  std::vector<std::uint32_t> open_;  // scratch: nested parts around a place, the innermost last
 };
 
 }  // namespace hinge::detail

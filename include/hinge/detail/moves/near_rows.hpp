@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// NearRows: the rows of ExclusionMasks from both sides, so that a pair of near blocks is tested from the cheaper one.
+// NearRows: the rows of ExclusionMasks from both sides, so that a pair of near blocks can be tested from either side.
 #pragma once
 
 #include <algorithm>
@@ -15,17 +15,17 @@
 
 namespace hinge::detail {
 
-/// Which lanes of the one are tested with each of the sixteen lanes of the other.
+/// For each of the sixteen lanes of one block: mask of the lanes of the other block that it is tested with.
 using LaneRows = std::array<simd::Bits, simd::width>;
 
 class NearRows {
  public:
   struct Near {
-    std::uint32_t partner;    ///< its rank
-    std::uint32_t mine, its;  ///< rows()
+    std::uint32_t partner;    ///< rank of the partner
+    std::uint32_t mine, its;  ///< indices for rows(): from this block's side, from the partner's side
   };
 
-  /// rank: of every block.
+  /// rank: per block.
   NearRows(const ExclusionMasks& masks, std::span<const std::uint32_t> rank) : self_(rank.size()) {
     std::vector<std::vector<Near>> lists(rank.size());
     for (std::uint32_t b = 0; b < rank.size(); ++b) {
@@ -49,15 +49,15 @@ class NearRows {
     }
   }
 
-  /// The near blocks of a block by their ranks, ended by one beyond all.
+  /// The near blocks of block b, sorted by rank. The last entry is a sentinel with the largest rank.
   const Near* of(std::uint32_t b) const noexcept { return near_.data() + start_[b]; }
-  /// For each lane of the one the lanes of the other.
+  /// Rows k: for each lane of one block, the lanes of the other.
   const LaneRows& rows(std::uint32_t k) const noexcept { return rows_[k]; }
-  /// Of a block with itself, each pair from both sides.
+  /// Rows of a block with itself; each pair appears from both sides.
   const LaneRows& self(std::uint32_t b) const noexcept { return self_[b]; }
 
  private:
-  /// Sixteen rows, and what they say of the other block's lanes.
+  /// Stores sixteen rows and their transpose.
   void add(const simd::Bits* rows) {
     LaneRows forth{}, back{};
     std::copy_n(rows, simd::width, forth.begin());

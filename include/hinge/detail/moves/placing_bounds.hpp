@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PlacingBounds and MoveRounding: how far rounding can carry placed coordinates, whatever the configuration.
+// PlacingBounds and MoveRounding: bounds of the rounding error of placed coordinates, over all configurations.
 #pragma once
 
 #include <algorithm>
@@ -18,17 +18,17 @@
 
 namespace hinge::detail {
 
-/// Bounds over all configurations whose slides stay within a limit. docs/explanation/moves.md derives them.
+/// Bounds over all configurations with slides up to a limit. Derivation: docs/explanation/moves.md.
 class PlacingBounds {
  public:
   template <Primitive P>
   PlacingBounds(const SelectedModel<P>& model, double largest_slide);
 
-  /// How much the distance of two primitives that a joint moves together can change by rounding between any two
-  /// configurations, model unit.
+  /// Bound of the change of the distance of two primitives in one moving part, by rounding alone, between any two
+  /// configurations; model unit.
   double distance_error() const noexcept { return 4.0 * (64.0 * half_ulp * (steps_ + 1.0) + 4.0 * skew_) * size_; }
-  /// How far a point may be from where forward kinematics places it when motions of parts take it there from where
-  /// forward kinematics placed it once, `most_kept` joints having been changed since; model unit.
+  /// Bound of the distance between a point moved by the parts' motions and the same point placed by forward kinematics,
+  /// after at most `most_kept` changed joints since the frames were composed; model unit.
   double motion_error() const noexcept {
     constexpr double kept = most_kept;
     return ((128.0 * (steps_ + 1.0) + 384.0 * kept * (kept + 1.0)) * half_ulp + (2.0 * kept + 4.0) * skew_) * size_;
@@ -38,16 +38,16 @@ class PlacingBounds {
  private:
   static constexpr double half_ulp = 0x1p-53;
 
-  double size_ = 0.0;   // largest sum of the lengths that meet in one product of frames
-  double steps_ = 0.0;  // most joints on a way from the world
-  double skew_ = 0.0;   // largest sum, on such a way, of what rotations lack to be orthonormal
+  double size_ = 0.0;   // largest sum of lengths in one product of frames
+  double steps_ = 0.0;  // largest number of joints on a path from the world
+  double skew_ = 0.0;   // largest sum, along such a path, of the deviations of rotations from orthonormality
 };
 
 template <Primitive P>
 PlacingBounds::PlacingBounds(const SelectedModel<P>& model, double largest_slide) {
-  // Rodrigues' formula with a sine, a cosine and an axis that are each rounded: three entries of 20 half ulps a row.
+  // Rodrigues' formula with rounded sine, cosine and axis: three entries of 20 half ulps per row.
   constexpr double skew_of_motion = 64.0 * half_ulp;
-  // What rotations that are orthonormal to within 1e-3 in all may add to a length.
+  // Length factor of rotations that are orthonormal within 1e-3 in sum.
   constexpr double stretch = 1.01;
   const RigidGroups& groups = *model.groups();
   struct Way {
@@ -82,7 +82,7 @@ PlacingBounds::PlacingBounds(const SelectedModel<P>& model, double largest_slide
   }
 }
 
-/// What rounding may do to a move; slides are known up to a limit.
+/// Error bounds of a move, for slides up to a limit.
 class MoveRounding {
  public:
   template <Primitive P>
@@ -92,7 +92,7 @@ class MoveRounding {
     if (!around.is_empty()) model_size_ = around.length(around.widest_axis());
   }
 
-  /// Slides up to twice this long are to come.
+  /// Recomputes the bounds for slides up to twice `slide`.
   template <Primitive P>
   void set_slides(const SelectedModel<P>& model, double slide) {
     longest_slide_ = std::max(2.0 * slide, model_size_);
@@ -103,17 +103,18 @@ class MoveRounding {
   }
   double longest_slide() const noexcept { return longest_slide_; }
 
-  /// Are they small enough to know which pairs rounding could bring to collide?
+  /// True if the bounds are small enough to list all pairs that rounding could make collide.
   bool is_small() const noexcept { return tolerance_ > 0.0; }
-  /// A pair whose d - M was this large once does not collide while it is taken along. 0 when not small.
+  /// A pair with d - M at least this large cannot collide while both primitives move together. 0 if bounds are not
+  /// small.
   double tolerance() const noexcept { return tolerance_; }
   /// See PlacingBounds.
   double motion_error() const noexcept { return motion_error_; }
-  /// The same for a distance that is held against a threshold m, which rounds as well.
+  /// Bound of the error when such a distance is compared to a threshold m: m rounds too.
   double pair_error(double m) const noexcept { return 2.0 * motion_error_ + 8.0 * 0x1p-53 * m; }
 
  private:
-  /// Above this share of the model most pairs would have to be known.
+  /// Above this share of the model's size, most pairs would be known pairs.
   static constexpr double largest_share = 0x1p-10;
 
   double model_size_ = 0.0, longest_slide_ = 0.0, tolerance_ = 0.0, motion_error_ = 0.0;

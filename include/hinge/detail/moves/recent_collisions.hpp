@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// RecentCollisions: the pairs that made moves collide lately, and are likely to do so again.
+// RecentCollisions: the pairs that stopped recent moves; they often collide again.
 #pragma once
 
 #include <algorithm>
@@ -19,13 +19,13 @@
 
 namespace hinge::detail {
 
-/// Sixteen pairs of slots; the one that was met longest ago makes room for a new one.
+/// Sixteen pairs of slots. A new pair replaces the pair whose last collision is oldest.
 class RecentCollisions {
  public:
   using Pair = std::array<std::uint32_t, 2>;
 
-  /// A pair that is closer after the move than its threshold, beyond doubt: by a margin that float coordinates are not
-  /// off by. motions: by part of the cut.
+  /// Returns a pair that surely collides after the move: it is below its threshold by more than the error of float
+  /// coordinates. motions: per part of the cut.
   template <TurnsOne P>
   std::optional<Pair> find(const MoveBlocks<P>& blocks, std::span<const FloatMotion> motions,
                            const Thresholds16& thresholds, const MovingParts& parts) {
@@ -37,7 +37,7 @@ class RecentCollisions {
         return part == 0 ? one : one.turned(motions[part].rotation, motions[part].translation);
       };
       const auto p = turned(0), q = turned(1);
-      // As much below the threshold as `thresholds` are above it, and that again for the rounding of this line.
+      // The threshold minus two margins: one for the error of float coordinates, one for the rounding of this line.
       const float near = thresholds.plain()[row_[k]] - 3.0F * thresholds.margin();
       if (near > 0.0F && p.squared_distance(q) < near * near && std::max(p.extent(), q.extent()) <= blocks.extent()) {
         met_at_[k] = ++now_;
@@ -47,7 +47,7 @@ class RecentCollisions {
     return {};
   }
 
-  /// place: of the two, in MovingParts; row: of their threshold, in Thresholds16.
+  /// place: places of the two groups in MovingParts. row: index of their threshold in Thresholds16.
   void add(const Pair& slot, const Pair& place, std::size_t row) noexcept {
     const auto end = slot_.begin() + static_cast<std::ptrdiff_t>(size_);
     auto k = static_cast<std::size_t>(std::find(slot_.begin(), end, slot) - slot_.begin());
@@ -60,7 +60,7 @@ class RecentCollisions {
   }
 
  private:
-  /// Bit k: the two of pair k belong to different parts.
+  /// Bit k is set if the two primitives of pair k belong to different parts.
   simd::Bits apart(const MovingParts& parts) {
     of_part_.assign(parts.parts().size(), {});
     std::array<simd::Bits, 2> moving{};
@@ -78,7 +78,7 @@ class RecentCollisions {
   std::size_t size_ = 0;
   std::array<Pair, simd::width> slot_{};
   std::array<std::size_t, simd::width> row_{};
-  std::array<std::array<std::uint32_t, simd::width>, 2> place_{};  // side by side for Stretch::lanes
+  std::array<std::array<std::uint32_t, simd::width>, 2> place_{};  // the layout that Stretch::lanes needs
   std::array<std::uint64_t, simd::width> met_at_{};
   std::uint64_t now_ = 0;
   std::vector<std::array<simd::Bits, 2>> of_part_;  // scratch

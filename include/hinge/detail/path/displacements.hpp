@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Displacements: how far the rigid groups get from where they are, against one of them that is held.
+// Displacements: bounds of the displacement of rigid groups in a segment, relative to one group that is held fixed.
 #pragma once
 
 #include <algorithm>
@@ -16,15 +16,16 @@
 
 namespace hinge::detail {
 
-/// A common motion of everything changes no distance, so any group may be held: one in the middle of a chain makes the
-/// largest displacements small.
+/// A common motion of all groups changes no distance, so any group may be held. A group in the middle of a chain makes
+/// the largest displacement small.
 class Displacements {
  public:
-  /// Finds the group to be held for a path, from the speeds at one state of it.
+  /// Chooses the group to hold for a path, from the speeds at one state of it.
   void begin(std::span<const GroupRate> groups);
 
-  /// How far anything in each group can get when the parameter changes by at most `half` from the middle that `groups`
-  /// were set to, rounding included; scaled as they are. Returns the largest; groups without primitives do not count.
+  /// Bounds the displacement of any point of each group when the parameter changes by at most `half` from the middle
+  /// that `groups` are set to. Rounding is included; scaled like `groups`. Returns the largest; groups without
+  /// primitives do not count.
   double find(std::span<const GroupRate> groups, double half);
   /// The same for another half width around the same middle.
   double find_again(std::span<const GroupRate> groups, double half);
@@ -34,9 +35,9 @@ class Displacements {
   struct Moving {
     Twist twist;
     Change change;
-    double summed = 0.0;  // turning speeds of the joints from the held group on
+    double summed = 0.0;  // sum of angular speeds of the joints from the held group on
   };
-  // Holding another group than the world has to make the largest speed this much smaller.
+  // A group other than the world is held only if that reduces the largest speed by this factor.
   static constexpr double worth_holding = 0.8;
 
   template <class Pass>
@@ -46,13 +47,14 @@ class Displacements {
   double bound(std::span<const GroupRate> groups, double half);
 
   std::size_t held_ = 0;
-  std::vector<Moving> moving_;  // by group
+  std::vector<Moving> moving_;  // per group
   std::vector<std::uint8_t> on_way_;
-  std::vector<double> speeds_;  // by group, at the middle, of those that have primitives
+  std::vector<double> speeds_;  // per group with primitives: speed at the middle
   std::vector<double> of_groups_;
 };
 
-/// Calls pass(group behind the joint, group the joint belongs to) from the held group on, after what is before it.
+/// Calls pass(group behind the joint, group the joint belongs to), starting at the held group; each group comes after
+/// the group before it on the path.
 template <class Pass>
 void Displacements::outward(std::span<const GroupRate> groups, const Pass& pass) {
   moving_.resize(groups.size());
@@ -110,13 +112,13 @@ inline double Displacements::find_again(std::span<const GroupRate> groups, doubl
   return bound(groups, half);
 }
 
-/// Twists and changes of all groups.
+/// Computes twists and changes of all groups.
 inline void Displacements::spread(std::span<const GroupRate> groups, double half) {
   outward(groups, [&](std::size_t to, std::size_t joint) {
     const GroupRate& by = groups[joint];
     Moving& moving = moving_[to];
     const bool to_child = to == joint;
-    // The link between two reference points turns with the parent.
+    // The vector between two reference points moves with the parent.
     if (to_child) moving.change.point += by.step * moving.change.unit();
     moving.twist = to_child ? moving.twist + by.joint : moving.twist - by.joint;
     if (!by.slides) moving.summed += by.speed;
@@ -138,7 +140,7 @@ inline double Displacements::bound(std::span<const GroupRate> groups, double hal
     const double rounding = share_of_rounding * turns * turns * (group.rounding + groups[held_].rounding) *
                             (group.reach + groups[held_].reach);
     of_groups_[g] = (half * speeds_[g] + 0.5 * half * half * second) * bound_above + rounding;
-    // Speeds that overflow may end as no number.
+    // Overflowing speeds may give NaN.
     if (!(of_groups_[g] >= 0.0)) of_groups_[g] = std::numeric_limits<double>::infinity();
     largest = std::max(largest, of_groups_[g]);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// GroupRates: how fast the rigid groups of a model move along a straight path, and what rounding adds to it. Derived in
+// GroupRates: speeds of the rigid groups of a model along a straight path, and bounds of their rounding. Derivation:
 // docs/explanation/certified_paths.md.
 #pragma once
 
@@ -27,39 +27,39 @@
 
 namespace hinge::detail {
 
-/// Of a group and the joint it hangs on. Its reference point lies on the joint's axis (prismatic: the origin of its
-/// frame; group 0: where its first child hangs). Lengths are scaled (GroupRates::scale); rates are per unit of the
-/// path's parameter, rad or length.
+/// Data of a group and the joint to its parent. The reference point lies on the joint's axis (prismatic joint: origin
+/// of the group's frame; group 0: reference point of group 1). Lengths are scaled (GroupRates::scale). Rates are rad or
+/// length per unit of the path's parameter.
 struct GroupRate {
-  // of the model
+  // Constants of the model.
   std::uint32_t parent = 0;
   bool slides = false;
   bool has_primitives = false;
   const Outline* outline = nullptr;
   double radius = 0.0;  ///< largest distance of a primitive's point from the reference point
   double extent = 0.0;  ///< the same from the centre
-  // of one path
-  bool stands = true;     ///< keeps its pose in the world, bit by bit
-  double rate = 0.0;      ///< of the joint
-  double speed = 0.0;     ///< its magnitude
-  double step = 0.0;      ///< longest distance from the parent's reference point to this one
-  double summed = 0.0;    ///< turning speeds of all joints from the world on
-  double chain = 0.0;     ///< longest way along the links from the world's origin to the reference point
-  double reach = 0.0;     ///< the same to anything in the group
-  double rounding = 0.0;  ///< of anything in it that is computed, as a share of the reach
-  // at the middle of one segment, in the world
-  Vec3 at = Vec3::Zero();        ///< the reference point
-  Vec3 centre = Vec3::Zero();    ///< the middle of its primitives
-  Twist joint;                   ///< of the group against its parent
-  Mat3 axes = Mat3::Identity();  ///< of its frame, columns
+  // Constants of one path.
+  bool stands = true;     ///< its world pose is constant, bit for bit
+  double rate = 0.0;      ///< rate of the joint
+  double speed = 0.0;     ///< magnitude of rate
+  double step = 0.0;      ///< largest distance of this reference point from the parent's
+  double summed = 0.0;    ///< sum of angular speeds of all joints from the world to this group
+  double chain = 0.0;     ///< largest length of the chain of links from the world's origin to the reference point
+  double reach = 0.0;     ///< the same to any point of the group
+  double rounding = 0.0;  ///< bound of the rounding of any computed point of it, as a share of the reach
+  // At the middle of one segment, in the world.
+  Vec3 at = Vec3::Zero();        ///< reference point
+  Vec3 centre = Vec3::Zero();    ///< middle of its primitives
+  Twist joint;                   ///< motion of the group relative to its parent
+  Mat3 axes = Mat3::Identity();  ///< axes of its frame, as columns
 
-  /// Above the speed of anything in the group when it moves by this twist.
+  /// Upper bound of the speed of any point of the group under this twist.
   double speed_bound(const Twist& twist) const noexcept { return norm(twist.at(centre)) + norm(twist.turn) * extent; }
-  /// Closer, where directions matter: a few times as much work.
+  /// A tighter bound that uses directions. It costs a few times more.
   double largest_speed(const Twist& twist) const noexcept {
     const Vec3 velocity = twist.at(centre);
     const double turning = norm(twist.turn) * extent, loose = norm(velocity) + turning;
-    // Where all points are about as fast there is nothing to be gained.
+    // If all points have about the same speed, the tighter bound gains nothing.
     constexpr double worth = 0.25, most = 0x1p900;
     if (outline->is_empty() || !(turning > worth * loose) || !(loose < most)) return loose;
     const auto own = [&](const Vec3& x) { return Vec3(dot(axes.col(0), x), dot(axes.col(1), x), dot(axes.col(2), x)); };
@@ -73,23 +73,23 @@ class GroupRates {
   requires HasHull<P>
   explicit GroupRates(const SelectedModel<P>& model);
 
-  /// Takes up a path.
+  /// Starts a path.
   void begin(const StraightPath& path);
-  /// Takes up the middle of a segment of it: frames of all groups there.
+  /// Moves to the middle of a segment. frames: world frames of all groups there.
   void set_middle(std::span<const Frame> frames);
 
   std::span<const GroupRate> groups() const noexcept { return groups_; }
-  /// A power of two that takes the model's coordinates to 1 or less, so that squares stay in the range of doubles.
+  /// Power of two that scales the model's coordinates to 1 or less, so that squares stay in the range of doubles.
   double scale() const noexcept { return scale_; }
-  /// The longest side of the box around the model at the reference, model length unit.
+  /// Longest side of the model's bounding box at the reference, model length unit.
   double extent() const noexcept { return extent_; }
 
  private:
-  /// In the group's frame, scaled.
+  /// Constants in the group's frame, scaled.
   struct Body {
     Vec3 axis = Vec3::Zero(), point = Vec3::Zero(), centre = Vec3::Zero();
-    double step = 0.0;       ///< from the parent's reference point to this one while the joint is at 0
-    double departure = 0.0;  ///< of the joint's origin from a rotation
+    double step = 0.0;       ///< from the parent's reference point to this one at joint value 0
+    double departure = 0.0;  ///< deviation of the joint's origin from a rotation
     std::size_t dof = 0;
   };
   template <Primitive P>
@@ -97,7 +97,7 @@ class GroupRates {
   void add_joint(std::size_t g, const RigidGroup& group);
 
   std::vector<Body> bodies_;
-  std::shared_ptr<const std::vector<Outline>> outlines_;  // by group; groups_ point to them
+  std::shared_ptr<const std::vector<Outline>> outlines_;  // per group; groups_ point to them
   std::vector<GroupRate> groups_;
   double scale_ = 1.0;
   double extent_ = 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ListedPairs: the pairs that a segment of a path might bring too close, but for those that are proved apart at once.
+// ListedPairs: collects the pairs that may come too close in a segment, except those proved apart at once.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@
 
 namespace hinge::detail {
 
-/// Do two points that are at least this far apart at the middle of a segment keep their threshold in all of it? By what
-/// their groups can approach each other by; a lower bound of the distance, model length unit.
+/// Returns true if two points, at least `least` (model length unit) apart at the middle of a segment, keep their
+/// threshold in the whole segment. It uses the largest approach of their groups.
 template <Primitive P, DistanceMatrix D>
 struct StaysApart {
   const SelectedModel<P>& model;
@@ -38,12 +38,12 @@ struct StaysApart {
 template <Primitive P, DistanceMatrix D>
 StaysApart(const SelectedModel<P>&, const D&, const GroupRates&, RelativeMotions&, double) -> StaysApart<P, D>;
 
-/// A collector. `stays_apart` is asked for pairs that come with a measured distance.
+/// A collector. It calls `stays_apart` for pairs with a measured distance.
 template <class Proof>
 class ListedPairs {
  public:
   static constexpr bool ranks = false;
-  /// Adds to `pairs`.
+  /// Appends to `pairs`.
   ListedPairs(std::vector<PathPair>& pairs, Proof stays_apart) : pairs_(pairs), stays_apart_(std::move(stays_apart)) {}
   void add(const Hit& hit) { pairs_.push_back({hit.first, hit.second}); }
   void add_measured(const Hit& hit, double error) {
@@ -55,7 +55,7 @@ class ListedPairs {
   double cutoff() const noexcept { return 0.0; }
   bool done() const noexcept { return false; }
 
-  /// How many were left out.
+  /// Number of pairs that were proved apart and left out.
   std::uint64_t proved() const noexcept { return proved_; }
 
  private:

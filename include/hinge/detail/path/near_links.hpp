@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// NearLinks: what is near of two links: bodies of many primitives are proved apart as wholes.
+// NearLinks: collects near pairs of two links, so that links with many primitives can be proved apart as a whole.
 #pragma once
 
 #include <cstddef>
@@ -12,11 +12,11 @@
 
 namespace hinge::detail {
 
-/// The collector of the pairs of two links with d - M < margin, up to a number of them.
+/// A collector of the pairs of two links with d - M < margin. It stops after `most` + 1 pairs.
 class NearLinks {
  public:
   static constexpr bool ranks = false;
-  /// links: of every primitive. `found` is cleared.
+  /// links: per primitive. `found` is cleared.
   NearLinks(std::span<const LinkId> links, const PathPair& pair, double margin, std::size_t most,
             std::vector<PathPair>& found) noexcept
       : links_(links),

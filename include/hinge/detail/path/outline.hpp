@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Outline: points around a rigid group, sixteen at a time, whose largest speed bounds that of everything in it.
+// Outline: points around a rigid group, in lanes of sixteen. Their largest speed bounds the speed of the whole group.
 #pragma once
 
 #include <algorithm>
@@ -14,15 +14,15 @@
 
 namespace hinge::detail {
 
-/// The speed of x is |v + w x (x - c)|: where the two cancel, and far from the axis they do in half of the directions,
-/// that is less than |v| + |w| |x - c|. Convex in x, so corners of a box around the points are as good as they are,
-/// when those are many. Groups of few points have none: there it is not worth the time.
+/// The speed of x is |v + w x (x - c)|. It is less than |v| + |w| |x - c| if the two terms partly cancel, as they do in
+/// half of the directions far from the axis. The speed is convex in x, so the corners of a box bound it for many
+/// points. Groups with few points have no outline: the gain is not worth the time.
 class Outline {
  public:
   Outline() = default;
 
-  /// Of points (and all between them) and what is at most `size` away from them; the bound of `extent` holds for all of
-  /// that from the centre. One unit of length.
+  /// Covers the convex hull of `points`, inflated by `size`. extent: largest distance of this set from `centre`. All
+  /// lengths in one unit.
   Outline(std::span<const Vec3> points, const Vec3& centre, double size, double extent) : extent_(extent), size_(size) {
     if (points.size() < fewest || !(extent > 0.0)) return;
     std::vector<Vec3> around(points.begin(), points.end());
@@ -35,7 +35,7 @@ class Outline {
                             (corner & 2U) != 0 ? box.upper[1] : box.lower[1],
                             (corner & 4U) != 0 ? box.upper[2] : box.lower[2]);
     }
-    // The last block is filled up with its own points.
+    // The last block is padded with a repeated point.
     const std::size_t blocks = (around.size() + simd::width - 1) / simd::width;
     at_.resize(blocks * 3 * simd::width);
     for (std::size_t k = 0; k < blocks * simd::width; ++k) {
@@ -48,10 +48,10 @@ class Outline {
 
   bool is_empty() const noexcept { return at_.empty(); }
 
-  /// Velocity of the centre and turn, in the group's own axes; loose: a bound of the speed that takes no heed of
-  /// directions, |velocity| + |turn| extent, finite and above 0.
+  /// Bound of the speed. velocity: of the centre; turn: angular velocity; both in the group's axes. loose: |velocity| +
+  /// |turn| extent, finite and above 0.
   double largest_speed(const Vec3& velocity, const Vec3& turn, double loose) const noexcept {
-    // As shares of the loose bound, so that no float leaves its range.
+    // Divide by the loose bound, so that no float overflows.
     using simd::Float16;
     const auto share = [&](double x) { return Float16(static_cast<float>(x / loose)); };
     const Float16 v0 = share(velocity[0]), v1 = share(velocity[1]), v2 = share(velocity[2]);
@@ -68,12 +68,12 @@ class Outline {
 
  private:
   static constexpr std::size_t fewest = 12;
-  static constexpr std::size_t most = 256;  // points, of which corners of a box take the place
-  // Every number in it is below 4, corners included, and speeds are off by at most 32 half ulps of a float, 2^-19.
+  static constexpr std::size_t most = 256;  // with more points, the corners of their box are used
+  // All numbers are below 4, corners included. Speeds are off by at most 32 half ulps of a float, 2^-19.
   static constexpr double rounding = 0x1p-18;
 
   double extent_ = 0.0, size_ = 0.0;
-  simd::AlignedVector<float> at_;  // per block x, y and z of sixteen, from the centre, as shares of the extent
+  simd::AlignedVector<float> at_;  // per block x, y, z of sixteen points, relative to the centre, divided by the extent
 };
 
 }  // namespace hinge::detail

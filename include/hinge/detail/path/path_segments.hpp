@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PathSegments: the stretches of a path that are still to be proved, first in, first out.
+// PathSegments: the queue of path segments still to be proved, first in, first out.
 #pragma once
 
 #include <algorithm>
@@ -13,12 +13,13 @@
 
 namespace hinge::detail {
 
+/// A pair to be proved apart.
 struct PathPair {
   PrimitiveId first{}, second{};
-  bool stands_for_links = false;  ///< for every pair of their two links
+  bool stands_for_links = false;  ///< represents all pairs of the two links
 };
 
-/// Parameters of the path. Either nothing is known of the segment, or all but some pairs are proved apart in it.
+/// Parameters low .. high of the path. If knows_pairs, all pairs except the listed ones are proved apart in it.
 struct PathSegment {
   double low = 0.0, high = 1.0;
   bool knows_pairs = false;
@@ -26,14 +27,14 @@ struct PathSegment {
 
   double length() const noexcept { return high - low; }
   double middle() const noexcept { return low + (high - low) / 2; }
-  /// Rounded up: whatever is in the segment is no farther from its middle.
+  /// Rounded up: every parameter of the segment is within this distance of the middle.
   double half() const noexcept { return next_up(std::max(middle() - low, high - middle())); }
   bool is_whole() const noexcept { return low == 0.0 && high == 1.0; }
 };
 
 class PathSegments {
  public:
-  /// Only the whole path is left.
+  /// Resets the queue to the whole path.
   void start() {
     segments_.assign(1, PathSegment{});
     pairs_.clear();
@@ -41,7 +42,7 @@ class PathSegments {
 
   std::size_t size() const noexcept { return segments_.size(); }
   PathSegment operator[](std::size_t k) const noexcept { return segments_[k]; }
-  /// Copies the pairs that are left of a segment that knows them.
+  /// Copies the pairs of a segment that knows them.
   void get_pairs(const PathSegment& segment, std::vector<PathPair>& to) const {
     const auto at = [&](std::size_t k) { return pairs_.begin() + static_cast<std::ptrdiff_t>(k); };
     to.assign(at(segment.first_pair), at(segment.end_pair));
@@ -52,7 +53,7 @@ class PathSegments {
     segments_.push_back({segment.middle(), segment.high});
   }
 
-  /// The whole path in `count` equal pieces; those in the middle of what is not looked at first.
+  /// Splits the whole path into `count` equal segments, pushed in order of bisection.
   void push_pieces(std::uint64_t count) {
     const auto push = [&](std::uint64_t k) {
       const auto end = [&](std::uint64_t n) { return static_cast<double>(n) / static_cast<double>(count); };
@@ -63,7 +64,7 @@ class PathSegments {
     push(0);
   }
 
-  /// What is left to prove of these pairs.
+  /// Pushes a segment in which only these pairs are unproved.
   void push(double low, double high, const std::vector<PathPair>& pairs) {
     if (pairs.empty()) return;
     segments_.push_back({low, high, true, pairs_.size(), pairs_.size() + pairs.size()});

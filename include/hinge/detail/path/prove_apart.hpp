@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// prove_apart: how long two primitives surely keep their distance, from their motion against each other.
+// prove_apart: finds how long two primitives surely keep a distance, from their relative motion.
 #pragma once
 
 #include <algorithm>
@@ -14,13 +14,14 @@
 
 namespace hinge::detail {
 
-/// From the middle of a segment towards smaller and larger parameters.
+/// Radii around the middle of a segment, towards smaller and larger parameters t.
 struct ProvedRadii {
   double before = 0.0;
   double after = 0.0;
 };
 
-/// Corners of a primitive along a direction: at(s) = value + s rate, and how far they are from a reference point.
+/// Corners of a primitive projected on a direction: at(s) = value + s rate. radius: their largest distance from
+/// `reference`.
 template <std::size_t N>
 struct CornersAlong {
   std::array<double, N> value, rate;
@@ -47,8 +48,8 @@ struct CornersAlong {
   }
 };
 
-/// Are p and q, which are points with a radius, so far apart that what comes closer by `closer` (scaled) is still at
-/// least m apart? Not where rounding of this very sum leaves it open.
+/// True if p and q (points with a radius) stay at least m apart when they approach by `closer` (scaled). False if
+/// rounding of this sum leaves it open.
 template <Certifiable P>
 requires has_one_point<P>
 bool farther_than(const P& p, const P& q, double m, double closer, double scale) noexcept {
@@ -56,13 +57,13 @@ bool farther_than(const P& p, const P& q, double m, double closer, double scale)
   return squared_norm(Vec3((q.hull()[0] - p.hull()[0]) * scale)) > least * least * (1.0 + 0x1p-40);
 }
 
-/// The same of two points that are at least `least` apart, model length unit.
+/// The same for two points at least `least` apart, model length unit.
 inline bool farther_than(double least, double m, double closer, double scale) noexcept {
   return least * scale > (m * scale + closer) * (1.0 + 0x1p-40);
 }
 
-/// p and q are at least m apart, as placed by whoever places them, for every parameter within these radii of the
-/// middle, at which p and q are given; at most `half`. All comparisons fail for NaN, which proves nothing.
+/// Returns the radii around the middle, at most `half`, within which placed p and q surely stay at least m apart. p and
+/// q are given at the middle. All comparisons fail for NaN: the radii are 0 then.
 template <Certifiable P>
 ProvedRadii prove_apart(const P& p, const P& q, double m, const RelativeMotion& motion, double half,
                         double scale) noexcept {
@@ -80,7 +81,7 @@ ProvedRadii prove_apart(const P& p, const P& q, double m, const RelativeMotion& 
   along /= length;
   const CornersAlong<n> a(x, scale, along, motion.first_point, motion.first),
       b(y, scale, along, motion.second_point, motion.second);
-  // (m may be a rounded sum.)
+  // m may be a rounded sum.
   const double less = (p.hull_radius() + q.hull_radius() + m) * (1.0 + 0x1p-50) * scale + motion.rounding;
   if (!(b.smallest(0.0) - a.largest(0.0) - less > 0.0)) return {};
   const double second = (motion.points + motion.first_unit * a.radius + motion.second_unit * b.radius) * bound_above;
@@ -90,7 +91,7 @@ ProvedRadii prove_apart(const P& p, const P& q, double m, const RelativeMotion& 
     double shortest = half;
     for (std::size_t k = 0; k < n; ++k)
       for (std::size_t l = 0; l < n; ++l) {
-        // The smaller root of gap + rate s - second s^2 / 2, without cancellation; rounded down.
+        // Smaller root of gap + rate s - second s^2 / 2, computed without cancellation, rounded down.
         const double gap = b.value[l] - a.value[k] - less, rate = sign * (b.rate[l] - a.rate[k]);
         const double root = 2.0 * gap / (std::sqrt(rate * rate + 2.0 * second * gap) - rate);
         if (!(root * (1.0 - 0x1p-40) >= shortest)) shortest = root * (1.0 - 0x1p-40);

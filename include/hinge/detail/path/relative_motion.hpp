@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// RelativeMotion: how two rigid groups move against each other, by the joints between them alone.
+// RelativeMotion: the motion of two rigid groups relative to each other, from the joints between them only.
 #pragma once
 
 #include <cstddef>
@@ -13,22 +13,23 @@
 
 namespace hinge::detail {
 
-/// Both against a third group that is held, one on the way from the first to the second. Scaled as GroupRate.
+/// Both motions are relative to a third group on the path between the two, which is held. Scaled like GroupRate.
 struct RelativeMotion {
   std::uint32_t held = 0;
   Twist first, second;                                           ///< at the middle of the segment
-  Vec3 first_point = Vec3::Zero(), second_point = Vec3::Zero();  ///< fixed in the two groups, there
+  Vec3 first_point = Vec3::Zero(), second_point = Vec3::Zero();  ///< points fixed in the two groups, at the middle
   double first_unit = 0.0, second_unit = 0.0;  ///< second derivative of a vector fixed in the group, per length
-  double approach = 0.0;                       ///< of anything in the two groups, soon found
-  double points = 0.0;                         ///< second derivatives of both points, summed
-  double rounding = 0.0;                       ///< of any gap between the two, at any state of the segment
-  bool still = true;                           ///< no joint between the two moves
+  double approach = 0.0;                       ///< cheap upper bound of the approach of any two points of the groups
+  double points = 0.0;                         ///< sum of the second derivatives of both points
+  /// rounding of any gap between the two groups, at any state of the segment
+  double rounding = 0.0;
+  bool still = true;  ///< true if no joint between the two moves
 };
 
-/// Finds them, with scratch of its own.
+/// Computes RelativeMotion; owns scratch memory.
 class FindRelativeMotion {
  public:
-  /// Of groups a and b within `half` of the middle that `groups` were set to.
+  /// For groups a and b, within `half` of the middle that `groups` are set to.
   void operator()(std::span<const GroupRate> groups, std::uint32_t a, std::uint32_t b, double half,
                   RelativeMotion& motion);
 
@@ -43,7 +44,7 @@ inline void FindRelativeMotion::operator()(std::span<const GroupRate> groups, st
   down_.clear();
   double turning = 0.0;
   motion.still = true;
-  // Parents have smaller numbers: the larger one is never the common group.
+  // Parents have smaller indices, so the larger index is never the common ancestor.
   while (a != b) {
     std::uint32_t& later = a > b ? a : b;
     const GroupRate& group = groups[later];
@@ -54,20 +55,21 @@ inline void FindRelativeMotion::operator()(std::span<const GroupRate> groups, st
   }
   const std::size_t up = way_.size();
   way_.insert(way_.end(), down_.rbegin(), down_.rend());
-  // Held is the group half way, so that on neither side much turning adds up.
+  // Hold the group half way, so that little rotation adds up on either side.
   std::size_t held = 0;
   for (double passed = 0.0; held < way_.size(); ++held) {
     const GroupRate& group = groups[way_[held]];
     if (!group.slides) passed += group.speed;
     if (passed > 0.5 * turning) break;
   }
-  // The group behind the last joint before the split: a joint of the first's way has its parent there.
+  // The group behind the last joint before the split. A joint on the side of `first` has this group as its parent.
   motion.held = held == 0 ? first : held <= up ? groups[way_[held - 1]].parent : way_[held - 1];
   const double share = groups[first].rounding + groups[second].rounding;
-  const auto link = [&](std::size_t k) {  // from joint k - 1 of the way to joint k
+  const auto link = [&](std::size_t k) {  // from joint k - 1 of the path to joint k
     if (k < up) return groups[way_[k - 1]].step;
     if (k > up) return groups[way_[k]].step;
-    // Both hang on the common group. Where one slides, its reference point need not stay this far away.
+    // Both joints belong to children of the common ancestor. The reference point of a sliding joint may move farther
+    // away.
     const GroupRate &x = groups[way_[k - 1]], &y = groups[way_[k]];
     return norm(Vec3(x.at - y.at)) * bound_above + (x.slides ? 2.0 * x.step : 0.0) + (y.slides ? 2.0 * y.step : 0.0) +
            share * (x.reach + y.reach);
@@ -91,7 +93,7 @@ inline void FindRelativeMotion::operator()(std::span<const GroupRate> groups, st
   }
   motion.first_point = groups[first].at;
   motion.second_point = groups[second].at;
-  // A group that the other one hangs on: the joint that is next on the way lies in it as well.
+  // If one group is an ancestor of the other, the next joint on the path is fixed in it: use that joint's point.
   const auto end_at_joint = [&](const GroupRate& joint, Vec3& point, Change& change) {
     if (joint.slides)
       change.point += joint.step * change.unit();
@@ -107,8 +109,8 @@ inline void FindRelativeMotion::operator()(std::span<const GroupRate> groups, st
   motion.rounding = share_of_rounding * turns * turns * share * (groups[first].reach + groups[second].reach);
 }
 
-/// How much closer anything in two groups can come in a segment in which their speeds add up to this much at most at
-/// its middle; scaled as they are.
+/// Bound of how much closer any two points of the groups can come in the segment, if their speeds at its middle add up
+/// to at most `speed`. Scaled like the groups.
 inline double approach(const RelativeMotion& motion, const GroupRate& a, const GroupRate& b, double half,
                        double speed) noexcept {
   const double first_radius = norm(Vec3(motion.first_point - a.centre)) + a.extent;
@@ -116,15 +118,15 @@ inline double approach(const RelativeMotion& motion, const GroupRate& a, const G
   const double second = motion.points + motion.first_unit * first_radius + motion.second_unit * second_radius;
   return (half * speed + 0.5 * half * half * second) * bound_above + motion.rounding;
 }
-/// The same by the closest bounds of speeds.
+/// The same with the tightest speed bounds.
 inline double approach(const RelativeMotion& motion, const GroupRate& a, const GroupRate& b, double half) noexcept {
   return approach(motion, a, b, half, a.largest_speed(motion.first) + b.largest_speed(motion.second));
 }
 
-/// Those of one segment, the latest of them kept: pairs of primitives come in the order of their groups.
+/// A cache of the relative motions in one segment: pairs of primitives come in the order of their groups.
 class RelativeMotions {
  public:
-  /// To be called when the middle or the half width has changed.
+  /// Call this when the middle or the half width changed.
   void forget() noexcept { ++present_; }
 
   /// Valid until the next call.

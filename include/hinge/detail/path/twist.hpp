@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Twist and Change: velocities of rigid bodies at one state, and bounds on how they change around it.
+// Twist and Change: velocities of rigid bodies at one state, and bounds of their change around it.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace hinge::detail {
 
-/// A point x of the body moves at turn x x + shift.
+/// The velocity of a point x of the body is turn x x + shift (cross product).
 struct Twist {
   Vec3 turn = Vec3::Zero();
   Vec3 shift = Vec3::Zero();
@@ -18,18 +18,18 @@ struct Twist {
   friend Twist operator-(const Twist& a, const Twist& b) noexcept { return {a.turn - b.turn, a.shift - b.shift}; }
 };
 
-/// Bounds that hold all over a segment of the path, for one body against another one that is held.
+/// Bounds over a whole segment of the path, for one body relative to a body that is held fixed.
 struct Change {
-  double turning = 0.0;         ///< speed of turning
-  double turning_change = 0.0;  ///< length of its derivative
-  double point = 0.0;           ///< length of the second derivative of the position of the body's reference point
+  double turning = 0.0;         ///< angular speed
+  double turning_change = 0.0;  ///< magnitude of the angular acceleration
+  double point = 0.0;           ///< magnitude of the second derivative of the body's reference point
 
-  /// Length of the second derivative of a vector of length 1 that turns with the body.
+  /// Magnitude of the second derivative of a unit vector fixed in the body.
   double unit() const noexcept { return turning_change + turning * turning; }
 };
 
-/// Passes a joint of this speed, from a body that moves as `change` says to the one behind the joint. Half width of the
-/// segment; turn: length of the turn of the body behind the joint, at the middle of the segment.
+/// Extends the bounds `change` of a body across a joint to the next body. half: half width of the segment. turn:
+/// angular speed of the next body at the middle of the segment.
 template <class JointRate>
 void pass_joint(const JointRate& joint, double half, double turn, Change& change) noexcept {
   if (joint.slides) {
@@ -40,13 +40,13 @@ void pass_joint(const JointRate& joint, double half, double turn, Change& change
   change.turning = std::min(change.turning + joint.speed, turn + half * change.turning_change);
 }
 
-/// Above the relative rounding of bounds, which are sums and products of positive numbers: 8 u for each of 2^29 joints.
+/// Covers the rounding of bounds, which are sums and products of positive numbers: 8 u for each of 2^29 joints.
 inline constexpr double bound_above = 1.0 + 0x1p-20;
 
-// Rounding of what is computed of a group, in half ulps of its reach; docs/explanation/certified_paths.md.
+// Rounding of computed points of a group, in half ulps of its reach; see docs/explanation/certified_paths.md.
 inline constexpr double rounding_per_joint = 64.0;
 inline constexpr double rounding_of_values = 8.0;  ///< per rad or length of a joint's value
-inline constexpr double per_departure = 3.1;       ///< for an origin that is not quite a rotation
-inline constexpr double share_of_rounding = 4.0;   ///< at the middle, at the state in question, and to spare
+inline constexpr double per_departure = 3.1;       ///< for an origin that deviates from a rotation
+inline constexpr double share_of_rounding = 4.0;   ///< at the middle, at the state in question, and a reserve
 
 }  // namespace hinge::detail
