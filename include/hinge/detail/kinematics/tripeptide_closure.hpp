@@ -54,8 +54,8 @@ class TrigonometricRoots {
     }
   }
 
-  /// Returns the roots (rad). A root is isolated by derivative bounds, or is the midpoint of an interval of 1e-7 rad
-  /// that may contain a double root.
+  /// Returns the roots (rad). A root is isolated by derivative bounds, or is the midpoint of a small interval that may
+  /// contain a double root: half width below 1e-7 rad, or up to 5e-3 rad where values are below the rounding error.
   std::vector<double> find() {
     constexpr std::size_t pieces = 32;
     constexpr double half = std::numbers::pi / pieces;
