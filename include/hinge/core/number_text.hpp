@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// number_text: a number as text, for messages and files.
+// number_text and fixed_text: numbers as text, for messages and files.
 #pragma once
 
 #include <array>
@@ -16,9 +16,9 @@ std::string number_text(Number number) {
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
 }
 
-/// With so many digits behind the point, at most 15.
+/// Returns the number with `digits` (0 to 15) digits after the decimal point, independent of the locale.
 inline std::string fixed_text(double number, int digits) {
-  std::array<char, 328> text{};  // the largest double has 309 in front of it
+  std::array<char, 328> text{};  // sign, at most 309 digits, point, 15 digits
   return {text.data(),
           std::to_chars(text.data(), text.data() + text.size(), number, std::chars_format::fixed, digits).ptr};
 }
