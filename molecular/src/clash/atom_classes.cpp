@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Atom classes from elements and bonds alone, so that any molecule gets them. A carbonyl or a carboxylate that a metal
-// is bound to is what it is without.
+// Assigns atom classes by elements and bonds, so that any molecule gets them. Coordination to a metal does not change
+// the class of a carbonyl or carboxylate.
 #include <algorithm>
 #include <cstdint>
 #include <string_view>
@@ -18,8 +18,8 @@ namespace {
 
 using Neighbours = std::vector<std::vector<std::uint32_t>>;
 
-/// Aromatic carbons of amino acids; planar rings of other residues count as aliphatic here, whose radii differ by 0.05
-/// A in one set only.
+/// Returns true for aromatic carbons of amino acids. Aromatic rings of other residues count as aliphatic here; the
+/// radii differ by 0.05 angstrom, in one set only.
 bool is_aromatic(std::string_view residue, std::string_view atom) {
   if (residue == "PHE" || residue == "TYR" || residue == "PTR")
     return atom == "CG" || atom == "CD1" || atom == "CD2" || atom == "CE1" || atom == "CE2" || atom == "CZ";
@@ -36,7 +36,8 @@ AtomClass classify_oxygen(const Structure& s, const Neighbours& near, std::uint3
   const std::string_view residue = s.residues[s.atoms[i].residue].name, atom = s.atoms[i].name;
   bool hydroxyl =
       (residue == "SER" && atom == "OG") || (residue == "THR" && atom == "OG1") || (residue == "TYR" && atom == "OH");
-  // Hydrogens that the file leaves out: the oxygens of sugars, and terminal ones as far from carbon as single bonds.
+  // If the file leaves out hydrogens, these are hydroxyl: oxygens of sugars, and terminal oxygens at single-bond
+  // distance from carbon.
   const ResidueKind kind = s.residues[s.atoms[i].residue].kind;
   if (kind == ResidueKind::nucleotide && near[i].size() == 1) hydroxyl = atom.ends_with('\'') || atom.ends_with('*');
   if (kind == ResidueKind::other && near[i].size() == 1 && s.atoms[near[i].front()].element == "C")
@@ -59,7 +60,7 @@ AtomClass classify_nitrogen(const Structure& s, const Neighbours& near, std::uin
     if (s.atoms[j].element == "H") return AtomClass::nitrogen;
     ++heavy;
   }
-  // Without hydrogens in the file the protonation is unknown, and the hydrogen-bond rule has nothing to work on.
+  // Without hydrogens in the file, the protonation is unknown and the hydrogen-bond rule does not apply.
   return heavy == 2 && has_hydrogens ? AtomClass::nitrogen_acceptor : AtomClass::nitrogen;
 }
 
@@ -89,7 +90,7 @@ std::vector<AtomClass> classify_atoms(const Structure& structure) {
     const std::string_view element = structure.atoms[i].element;
     AtomClass c = AtomClass::other;
     if (element == "C") c = classify_carbon(structure, near, i);
-    if (element == "N") c = classify_nitrogen(structure, bonded, i, hydrogens);  // a metal takes the lone pair
+    if (element == "N") c = classify_nitrogen(structure, bonded, i, hydrogens);  // a metal uses the lone pair
     if (element == "O") c = classify_oxygen(structure, near, i);
     if (element == "S") c = AtomClass::sulphur;
     if (element == "P") c = AtomClass::phosphorus;

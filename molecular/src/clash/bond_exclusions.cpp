@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Breadth-first search over the bond graph, a few bonds deep from every atom.
+// Searches the bond graph breadth first from every atom, to the depth at which pairs start to count.
 #include "hinge/molecular/bond_exclusions.hpp"
 
 #include <algorithm>
@@ -12,7 +12,8 @@ namespace hinge::molecular {
 
 namespace {
 
-/// Atoms within `depth` bonds of `start` (itself first), level by level; `ends[k]` is where level k ends.
+/// Returns the atoms within `depth` bonds of `start`, level by level, `start` first; ends[k] is one past the last atom
+/// of level k. seen: all zero, one per atom; zero again on return.
 std::vector<std::uint32_t> around(const std::vector<std::vector<std::uint32_t>>& neighbours, std::uint32_t start,
                                   int depth, std::vector<std::uint8_t>& seen, std::vector<std::size_t>& ends) {
   std::vector<std::uint32_t> reached{start};
@@ -58,7 +59,7 @@ int bond_distance(const Structure& structure, std::uint32_t i, std::uint32_t j, 
 BondExclusions::BondExclusions(const Structure& structure, MinBonds min_bonds,
                                std::span<const std::pair<PrimitiveId, PrimitiveId>> exempt, PairScope scope)
     : scope_(std::move(scope)) {
-  // Beyond 16 bonds a list per atom is the wrong tool: it would hold a large part of the molecule.
+  // Beyond 16 bonds a list per atom would hold a large share of the molecule: use another data structure.
   for (const int bonds : {min_bonds.heavy, min_bonds.hydrogen})
     if (bonds < 1 || bonds > 16)
       throw ModelError("minimal bond distance " + std::to_string(bonds) + ": expected 1 to 16");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one place where the molecular hierarchies are instantiated.
+// Instantiates the molecular hierarchies, in this file only.
 #include "hinge/molecular/checker.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ std::vector<Point> as_points(std::span<const Vec3> positions) {
   return points;
 }
 
-/// Pairs inside residues, where the rules leave them out.
+/// Returns the pairs inside residues if the rules exclude them, otherwise nothing.
 std::vector<std::pair<PrimitiveId, PrimitiveId>> never_counted(const Structure& structure, const ClashRules& rules) {
   std::vector<std::pair<PrimitiveId, PrimitiveId>> pairs;
   if (rules.inside_residues) return pairs;
@@ -30,11 +30,12 @@ std::vector<std::pair<PrimitiveId, PrimitiveId>> never_counted(const Structure& 
   return pairs;
 }
 
-/// Those of the hits that are exempt: what files put beside each other, or a placement does, is no part of a molecule.
+/// Returns the hits that are exempt. Without `interfaces`, both atoms of an exempt pair come from the same file and the
+/// same placed part: contacts between files or with a placed part come from the arrangement, not from the molecule.
 std::vector<std::pair<PrimitiveId, PrimitiveId>> exempt_pairs(const Molecule& molecule, const std::vector<Hit>& hits,
                                                               bool interfaces) {
   const Structure& s = molecule.structure();
-  // By atom: its file, and the placed part it is in.
+  // Per atom: its file, and 1 + the index of its placed part, or 0.
   std::vector<std::pair<std::uint32_t, std::size_t>> body(s.atoms.size());
   for (std::size_t i = 0; i < body.size(); ++i) body[i].first = s.chains[s.residues[s.atoms[i].residue].chain].file;
   for (std::size_t k = 0; k < molecule.placed_parts().size(); ++k) {
@@ -48,14 +49,14 @@ std::vector<std::pair<PrimitiveId, PrimitiveId>> exempt_pairs(const Molecule& mo
   return pairs;
 }
 
-/// The rule of a check: what coordinates and thresholds, as doubles, stand for.
+/// Decides whether a pair is closer than a distance, in decimals or in doubles.
 struct Rule {
-  bool as_written = false;  ///< decimals, where they are (closer_as_written); else the doubles themselves
-  double largest = 0.0;     ///< threshold, angstrom
+  bool as_written = false;  ///< decimals where there are three (closer_as_written); otherwise doubles
+  double largest = 0.0;     ///< largest threshold, angstrom
 
-  /// No pair that is closer in decimals is farther as doubles by more than this (angstrom). Coordinates on the grid are
-  /// below 2^31 and off by 2^-23 at most, distances by 2^-21; thresholds stand for numbers 17 half ulps away at most,
-  /// and three sums are rounded on the way.
+  /// Returns by how much the distance of a pair, as a double, can exceed its threshold although the pair is closer in
+  /// decimals (angstrom). Coordinates on the grid are below 2^31 and off by at most 2^-23, so distances are off by at
+  /// most 2^-21. Thresholds are at most 17 half ulps from their decimals, and three sums are rounded.
   double hair(double margin) const noexcept { return as_written ? 0x1p-20 + 32 * 0x1p-53 * (largest + margin) : 0.0; }
   bool closer(const Point& p, const Point& q, double m) const noexcept {
     return as_written ? detail::closer_as_written(p, q, m) : closer_than(p, q, m);
@@ -68,13 +69,13 @@ Rule as_written(const Thresholds& thresholds) {
   return rule;
 }
 
-/// Pairs with d < M + margin, sorted.
+/// Returns the pairs with d < M + margin, sorted.
 template <class H>
 std::vector<Contact> contacts(H& hierarchy, const Rule& rule, double margin) {
   const std::vector<Hit> hits = hierarchy.self_within(margin + rule.hair(margin));
   std::vector<Contact> found;
   found.reserve(hits.size());
-  if (!rule.as_written && margin == 0.0) {  // the query has decided it
+  if (!rule.as_written && margin == 0.0) {  // the query has decided them
     for (const Hit& hit : hits) found.push_back({hit, true});
     return found;
   }
@@ -87,7 +88,8 @@ std::vector<Contact> contacts(H& hierarchy, const Rule& rule, double margin) {
   return found;
 }
 
-/// The closest pair, one that collides where there is one: the doubles of several may agree.
+/// Returns the closest pair; if any pair collides, the closest colliding pair. Two pairs can have the same gap in
+/// doubles although only one of them collides in decimals.
 template <class H>
 std::optional<Contact> closest(H& hierarchy, const Rule& rule) {
   const std::optional<Hit> hit = hierarchy.self_closest();
@@ -100,7 +102,7 @@ std::optional<Contact> closest(H& hierarchy, const Rule& rule) {
                            [](const Contact& a, const Contact& b) { return a.hit.gap() < b.hit.gap(); });
 }
 
-/// Yes or no, decided as written: stops at the first pair that collides.
+/// Collects a verdict decided in decimals; stops at the first pair that collides.
 class AnyAsWritten {
  public:
   static constexpr bool ranks = false;
@@ -150,7 +152,7 @@ Checker::Checker(std::shared_ptr<const Molecule> molecule, DofSelection selectio
     : molecule_(std::move(molecule)) {
   if (molecule_ == nullptr) throw ModelError("checker: expected a molecule, got none");
   ThresholdOptions chosen = options.thresholds;
-  if (chosen.rules == "auto" && options.min_bonds) chosen.rules = "biocd";  // whose option it is
+  if (chosen.rules == "auto" && options.min_bonds) chosen.rules = "biocd";  // min_bonds belongs to these rules
   thresholds_ = std::make_shared<const Thresholds>(make_thresholds(molecule_->structure(), chosen));
   if (options.min_bonds && thresholds_->rules->name != "biocd")
     throw ModelError("clash rules " + options.thresholds.rules +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ChimeraX's default radii: of atoms whose hydrogens are there, of united atoms, of ions.
+// Assigns ChimeraX's default radii: for atoms with explicit hydrogens, for united atoms and for ions.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -17,7 +17,7 @@ namespace hinge::molecular {
 
 namespace {
 
-/// Angstrom, for atoms with all their hydrogens; none: as without.
+/// Returns the radius (angstrom) of an atom with all its hydrogens present, or nothing if united_radius applies.
 std::optional<double> explicit_radius(std::string_view element, const Valence& v) {
   if (element == "H") return 1.0;
   if (element == "C") return 1.7;
@@ -32,7 +32,7 @@ std::optional<double> explicit_radius(std::string_view element, const Valence& v
   return std::nullopt;
 }
 
-/// Ionic radii (CRC Handbook 2001, charge +2 or the lowest there is) by coordination number, angstrom.
+/// Ionic radii by coordination number, angstrom (CRC Handbook 2001, charge +2 or the lowest listed charge).
 struct Ion {
   std::string_view element;
   double up_to_four;
@@ -51,12 +51,12 @@ double ionic_radius(std::string_view element, std::size_t coordination) {
   for (const Ion& ion : table)
     if (ion.element == element)
       return coordination <= 4 ? ion.up_to_four : coordination >= 8 ? ion.from_eight : ion.six;
-  return 1.8;  // ChimeraX's own for elements it has no figure for
+  return 1.8;  // ChimeraX's default for all other elements
 }
 
 double united_radius(std::string_view element, const Valence& v, bool bears_hydrogen, std::size_t all_bonds) {
   if (element == "H") return 1.0;
-  if (element == "C") {  // Tsai et al., J. Mol. Biol. 290:253 (1999), as all below but P and the halogens
+  if (element == "C") {  // Tsai et al., J. Mol. Biol. 290:253 (1999); also for N, O, S
     if (v.shape == 4 || v.carboxylate) return 1.88;
     return v.present < 3 || bears_hydrogen ? 1.76 : 1.61;
   }
@@ -64,7 +64,7 @@ double united_radius(std::string_view element, const Valence& v, bool bears_hydr
   if (element == "O") return v.bonds == 2 ? 1.46 : 1.42;
   if (element == "S") return 1.77;
   if (element == "P") return 2.1;
-  // Ions, or twice the bond radii of Allen et al., Acta Cryst. B 35:2331 (1979).
+  // Ions without bonds, otherwise twice the bond radius of Allen et al., Acta Cryst. B 35:2331 (1979).
   if (element == "F") return v.present == 0 ? 1.33 : 1.28;
   if (element == "Cl") return v.present == 0 ? 1.81 : 1.98;
   if (element == "Br") return v.present == 0 ? 1.96 : 2.42;

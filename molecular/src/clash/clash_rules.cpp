@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The named rules, and the thresholds that make an engine's verdict theirs.
+// Defines the named clash rules and computes thresholds that reproduce their verdicts.
 #include "hinge/molecular/clash_rules.hpp"
 
 #include <algorithm>
@@ -17,34 +17,34 @@ namespace hinge::molecular {
 
 namespace {
 
-/// Angstrom. MolProbity and ChimeraX call an overlap of exactly the cutoff a clash, the engines d < M. Distances of
-/// atoms on thousandths, and sums of radii, which are thousandths too, differ by 1e-7 at least where they differ, and
-/// thresholds may have nine decimals.
+/// Angstrom, added to thresholds. MolProbity and ChimeraX count an overlap equal to the cutoff as a clash; the engines
+/// test d < M. Coordinates and radii are multiples of 0.001, so a distance that is not equal to a sum of radii differs
+/// from it by at least 1e-7. Thresholds may have nine decimals.
 constexpr double included = 1e-9;
 
-constexpr double molprobity_cutoff = 0.4;        // angstrom of overlap: a "bad overlap" of Probe, a clash of MolProbity
-constexpr double severe_cutoff = 0.9;            // angstrom of overlap: what no bond and no hydrogen bond explains
-constexpr double molprobity_regular_bond = 0.6;  // angstrom of overlap that Probe allows a hydrogen bond
-constexpr double molprobity_charged_bond = 0.8;  // the same between opposite charges
-constexpr double chimerax_cutoff = 0.6;          // angstrom of overlap, default of the command `clashes`
-constexpr double chimerax_bond = 0.4;            // angstrom, its default hbondAllowance
-constexpr double posebusters_relative_distance = 0.75;  // its clash_cutoff
+constexpr double molprobity_cutoff = 0.4;        // angstrom of overlap: Probe's "bad overlap", MolProbity's clash
+constexpr double severe_cutoff = 0.9;            // angstrom of overlap: no bond or hydrogen bond explains it
+constexpr double molprobity_regular_bond = 0.6;  // angstrom of overlap that Probe allows for a hydrogen bond
+constexpr double molprobity_charged_bond = 0.8;  // the same, between opposite charges
+constexpr double chimerax_cutoff = 0.6;          // angstrom of overlap: default of the command `clashes`
+constexpr double chimerax_bond = 0.4;            // angstrom: default hbondAllowance of `clashes`
+constexpr double posebusters_relative_distance = 0.75;  // PoseBusters' clash_cutoff
 
-/// The nearest double to a number of nine decimals.
+/// Returns the double nearest to x rounded to nine decimals.
 double decimal(double x) { return std::round(x * 1e9) / 1e9; }
 
 bool may_bond(const AtomTraits& a, const AtomTraits& b) { return (a.donor && b.acceptor) || (b.donor && a.acceptor); }
 
-/// What one rule makes of two atoms, angstrom.
+/// The distances that a rule assigns to two atom types, angstrom.
 struct Entry {
-  double contact = 0.0;    ///< distance at which the overlap is 0
-  double allowance = 0.0;  ///< taken off for a hydrogen bond
+  double contact = 0.0;    ///< distance of overlap 0
+  double allowance = 0.0;  ///< subtracted for a hydrogen bond
   double threshold = 0.0;
 };
 
 Entry probe_overlap(const AtomTraits& a, const AtomTraits& b, double cutoff) {
   double allowance = 0.0;
-  // Two charges of one sign make no hydrogen bond.
+  // Charges of the same sign make no hydrogen bond.
   if (may_bond(a, b) && a.charge * b.charge <= 0)
     allowance = a.charge * b.charge < 0 ? molprobity_charged_bond : molprobity_regular_bond;
   const double contact = a.radius + b.radius - allowance;

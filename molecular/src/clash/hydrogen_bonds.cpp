@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Kabsch and Sander's hydrogen bonds.
+// Finds the backbone hydrogen bonds of Kabsch and Sander, Biopolymers 22:2577 (1983), as DSSP does.
 #include "hinge/molecular/hydrogen_bonds.hpp"
 
 #include <algorithm>
@@ -14,12 +14,12 @@ namespace hinge::molecular {
 
 namespace {
 
-constexpr double weakest = -0.5;                  // kcal/mol; above it there is no bond
-constexpr double strength = 0.42 * 0.20 * 332.0;  // charges (e) and the Coulomb constant, kcal A/mol
-/// Farther apart than this (N to O, angstrom) no energy is below `weakest`: H is 1 A from N and C at most 1.3 A from O,
-/// so E > -27.9 * (1/(r - 1) - 1/r + 1/(r - 1.3) - 1/r) > -0.5 from 12 A on.
+constexpr double weakest = -0.5;                  // kcal/mol; a bond needs a lower energy
+constexpr double strength = 0.42 * 0.20 * 332.0;  // two partial charges (e) times the Coulomb constant, kcal A/mol
+/// Largest distance from N to O (angstrom) at which the energy can be below `weakest`. H is 1 A from N and C at most
+/// 1.3 A from O, so E > -27.9 * (1/(r - 1) - 1/r + 1/(r - 1.3) - 1/r) > -0.5 for r >= 12 A.
 constexpr double farthest = 12.0;
-/// Atoms nearer than this are taken for as far as this, as DSSP does (angstrom).
+/// Smaller distances (angstrom) are raised to this value, as in DSSP.
 constexpr double nearest = 0.5;
 
 }  // namespace

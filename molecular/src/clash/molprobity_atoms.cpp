@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What Probe sees in atoms: radii, who takes part in hydrogen bonds, and charges.
+// Assigns Probe's atom properties: radii, hydrogen-bond donors and acceptors, and charges.
 #include <algorithm>
 #include <cstdint>
 #include <string>
@@ -14,12 +14,12 @@ namespace hinge::molecular {
 
 namespace {
 
-/// Of the atom, in the residue it belongs to: its own charge or that of the group it is part of.
+/// Formal charges of atoms: each atom has the charge of its charged group.
 class Charges {
  public:
   explicit Charges(const Structure& structure) : s_(structure), near_(covalent_neighbours(structure)) {}
 
-  /// A hydrogen has the charge of what bears it.
+  /// Returns -1, 0 or 1. A hydrogen has the charge of the atom it is bonded to.
   int of(std::uint32_t i) const {
     if (s_.atoms[i].element == "H") return near_[i].empty() ? 0 : of_heavy(near_[i].front());
     return of_heavy(i);
@@ -30,7 +30,7 @@ class Charges {
     return static_cast<std::size_t>(
         std::count_if(near_[i].begin(), near_[i].end(), [&](std::uint32_t j) { return s_.atoms[j].element == "H"; }));
   }
-  /// Of the ring: does it have both its N-H?
+  /// Returns true if both ring nitrogens bear a hydrogen.
   bool is_histidinium(const Residue& residue) const {
     std::size_t bearing = 0;
     for (std::uint32_t i = residue.first_atom; i < residue.last_atom; ++i)
@@ -51,7 +51,7 @@ class Charges {
       if (element == "N" && (of == "LYS" || of == "ARG") && atom != "N") return 1;
       if (of.starts_with('H') && element == "N" && atom != "N") return is_histidinium(residue) ? 1 : 0;
       if (atom == "N") return near_[i].size() == 4 ? 1 : 0;
-      // Asp, Glu and the end of the chain.
+      // Carboxylates of Asp, Glu and the C-terminus.
       return element == "O" && is_terminal_oxygen(i) ? -1 : 0;
     }
     if (residue.kind == ResidueKind::nucleotide) return element == "O" && is_terminal_oxygen(i) ? -1 : 0;
@@ -62,12 +62,12 @@ class Charges {
   std::vector<std::vector<std::uint32_t>> near_;
 };
 
-bool is_one_of(std::string_view name, std::string_view list) {  // ":A:DA:"
+bool is_one_of(std::string_view name, std::string_view list) {  // list: ":A:DA:"
   return list.find(':' + std::string(name) + ':') != std::string_view::npos;
 }
 
-/// Residues whose names Probe knows. Others are atoms to it: no aromatic rings, no carbonyls. It knows no other names
-/// of protonation states, either; ours are those of their residue.
+/// Names of the residues that Probe knows. In any other residue it sees no aromatic rings and no carbonyls. The names
+/// of protonation states that Probe does not know are listed too, so that they count as their residue.
 constexpr std::string_view amino_acids =
     ":GLY:ALA:VAL:PHE:PRO:MET:ILE:LEU:ASP:GLU:LYS:ARG:SER:THR:TYR:HIS:CYS:ASN:GLN:TRP:ASX:GLX:ACE:FOR:NH2:NME:MSE:AIB:"
     "ABU:PCA:HSD:HSE:HSP:HID:HIE:HIP:CYX:CYM:ASH:GLH:LYN:LSN:";
@@ -86,7 +86,7 @@ bool is_base(std::string_view residue) {
          is_one_of(residue, cytosines);
 }
 
-/// Ring atoms of bases and of haem's pyrroles.
+/// Returns true for ring atoms of bases and of the pyrroles of haem.
 bool is_base_ring(std::string_view residue, std::string_view atom) {
   if (residue == "HEM")
     return is_one_of(atom, ":NA:NB:NC:ND:C1A:C2A:C3A:C4A:C1B:C2B:C3B:C4B:C1C:C2C:C3C:C4C:C1D:C2D:C3D:C4D:");
@@ -95,7 +95,7 @@ bool is_base_ring(std::string_view residue, std::string_view atom) {
          (is_purine(residue) && is_one_of(atom, ":N7:C8:N9:"));
 }
 
-/// Their hydrogens on carbon.
+/// Returns true for hydrogens on carbons of base rings.
 bool is_base_hydrogen(std::string_view residue, std::string_view atom) {
   if (is_one_of(residue, adenines) || is_one_of(residue, inosines)) return atom == "H8" || atom == "H2";
   if (is_one_of(residue, guanines)) return atom == "H8";
@@ -104,7 +104,7 @@ bool is_base_hydrogen(std::string_view residue, std::string_view atom) {
   return is_one_of(residue, thymines) && atom == "H6";
 }
 
-/// Faces of aromatic rings accept hydrogen bonds, those of His do not.
+/// Returns true for atoms of aromatic rings, whose faces accept hydrogen bonds; those of His do not.
 bool is_face(const Structure& s, std::uint32_t i, AtomClass c) {
   const std::string_view residue = s.residues[s.atoms[i].residue].name, atom = s.atoms[i].name;
   if (is_one_of(residue, amino_acids))
@@ -112,8 +112,9 @@ bool is_face(const Structure& s, std::uint32_t i, AtomClass c) {
   return is_base_ring(residue, atom);
 }
 
-/// Nitrogen that Probe's tables do not call a donor accepts, whatever it is bonded to: in residues it does not know all
-/// of it, in nucleotides what is in no ring and no amino group.
+/// Returns true for nitrogens that accept in Probe because its tables do not call them donors, whatever they are bonded
+/// to: all nitrogens of residues it does not know (except N3 of H2U), and N2 of M2G, which is neither in a ring nor in
+/// an amino group.
 bool is_unknown_nitrogen(const Structure& s, std::uint32_t i) {
   const std::string_view residue = s.residues[s.atoms[i].residue].name, atom = s.atoms[i].name;
   if (s.atoms[i].element != "N" || is_one_of(residue, amino_acids)) return false;

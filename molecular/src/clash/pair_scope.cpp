@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Atoms by the parts that hold them, and which kinds are asked about.
+// Classifies atoms by the parts that contain them, and finds the pairs of classes to test.
 #include "hinge/molecular/pair_scope.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace hinge::molecular {
 PairScope::PairScope(const Structure& structure, std::span<const std::pair<Part, Part>> between,
                      std::span<const Part> inside) {
   if (between.empty() && inside.empty()) return;
-  // Per atom: in which of the parts, in order: two of every `between`, then those of `inside`.
+  // Per atom: is it in part k? Order: the two parts of each `between`, then the parts of `inside`.
   const std::size_t parts = 2 * between.size() + inside.size();
   std::vector<std::vector<bool>> held(structure.atoms.size(), std::vector<bool>(parts, false));
   const auto hold = [&](const Part& part, std::size_t position) {

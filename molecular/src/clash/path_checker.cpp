@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one place where certified paths of molecules are instantiated.
+// Instantiates certified path queries for molecules, in this file only.
 #include "hinge/molecular/path_checker.hpp"
 
 #include "hinge/path/check_sampled.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// RDKit's radii, which PoseBusters compares distances with.
+// Assigns RDKit's radii, to which PoseBusters compares distances.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -12,12 +12,12 @@ namespace hinge::molecular {
 
 namespace {
 
-/// Angstrom, RDKit's periodic table.
+/// Radii of RDKit's periodic table, angstrom.
 struct Element {
   std::string_view symbol;
   double covalent;
   double van_der_waals;
-  bool ion = false;  ///< an "inorganic cofactor" where it is a residue of its own
+  bool ion = false;  ///< PoseBusters' "inorganic cofactor" if it is a residue of its own
 };
 
 Element element_of(std::string_view symbol) {
@@ -34,7 +34,7 @@ Element element_of(std::string_view symbol) {
       {"Pt", 1.5, 2.05},        {"Hg", 1.7, 2.05},
   }};
   const auto found = std::find_if(table.begin(), table.end(), [&](const Element& e) { return e.symbol == symbol; });
-  return found != table.end() ? *found : Element{symbol, 1.5, 2.0};  // of most heavy elements there
+  return found != table.end() ? *found : Element{symbol, 1.5, 2.0};  // RDKit's radii of most other heavy elements
 }
 
 }  // namespace

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Overlaps, and the words that the named rules have for them.
+// Computes overlaps, and classifies pairs by the categories of the named rules.
 #include "hinge/molecular/severity.hpp"
 
 namespace hinge::molecular {
 
 namespace {
 
-/// Angstrom: overlaps of atoms on thousandths that differ from a bound do so by more than 1e-7, and their doubles are
-/// right to 1e-14.
+/// Angstrom. With coordinates on thousandths, an overlap not equal to a bound differs from it by more than 1e-7;
+/// overlaps computed in doubles are accurate to 1e-14.
 constexpr double tie = 1e-9;
 
-/// plain: without what a hydrogen bond is allowed. Probe's categories, by its -DIVHigh and the reach of its probe.
+/// Returns Probe's category. plain: overlap without the hydrogen-bond allowance. The bounds are Probe's -DIVHigh and
+/// twice its probe radius.
 std::string_view molprobity(double overlap, double plain, bool may_bond) {
   constexpr double close = -0.25, reach = -0.5;  // angstrom
   if (may_bond && plain >= -tie && overlap <= tie) return "hydrogen_bond";
@@ -19,7 +20,7 @@ std::string_view molprobity(double overlap, double plain, bool may_bond) {
   return plain >= reach - tie ? "wide_contact" : "apart";
 }
 
-/// The command `contacts`, whose hbondAllowance is 0.
+/// Returns the category of the command `contacts`, which has no hydrogen-bond allowance.
 std::string_view chimerax(double plain) {
   constexpr double contact = -0.4;  // angstrom
   return plain >= contact - tie ? "contact" : "apart";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counting residues and torsions.
+// Counts residues by class and torsions by kind.
 #include "hinge/molecular/summary.hpp"
 
 #include "hinge/molecular/nucleotide_table.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies joined to segments along torsions, segments to groups through space.
+// Joins rigid bodies to segments along torsions, and segments to groups through space.
 #include "hinge/molecular/ensemble_groups.hpp"
 
 #include <algorithm>
@@ -19,11 +19,12 @@ namespace hinge::molecular {
 
 namespace {
 
-/// How far atoms beside a torsion's axis are from it, angstrom: a C-C bond of 1.53 at the tetrahedral angle. What a
-/// torsion does to these it does to the smallest of bodies, however little their distances tell of it.
+/// Distance (angstrom) from a torsion's axis to atoms bonded to it: a C-C bond of 1.53 at the tetrahedral angle. The
+/// circular standard deviation times this length is the motion of the smallest body at that axis, even if its distances
+/// hardly change.
 constexpr double beside_axis = 1.44;
 
-/// Sets of bodies, all of whose pairs stay together.
+/// Disjoint sets of bodies; the distances between all bodies of a set vary by at most the tolerance.
 class RigidSets {
  public:
   RigidSets(const EnsembleSpread& spread, double tolerance) : tolerance_(tolerance), set_of_(spread.bodies().size()) {
@@ -38,7 +39,8 @@ class RigidSets {
 
   std::uint32_t set_of(std::size_t body) const noexcept { return set_of_[body]; }
   const std::vector<std::uint32_t>& members(std::size_t set) const noexcept { return members_[set]; }
-  /// The largest spread of a pair of points, one in each set (or both in one).
+  /// Returns the largest standard deviation (angstrom) of a distance between a point of one set and a point of the
+  /// other.
   float spread(std::size_t first, std::size_t second) const noexcept {
     float most = 0.0F;
     for (const std::uint32_t a : members_[first])
@@ -60,19 +62,20 @@ class RigidSets {
   }
 
   double tolerance_;
-  std::vector<std::uint32_t> set_of_;                // by body
-  std::vector<std::vector<std::uint32_t>> members_;  // by set; empty: joined to another
-  std::vector<float> spread_;                        // by pair of bodies
+  std::vector<std::uint32_t> set_of_;                // per body
+  std::vector<std::vector<std::uint32_t>> members_;  // per set; empty if it was merged into another
+  std::vector<float> spread_;                        // per pair of bodies, angstrom
 };
 
-/// Segments of fewer bodies are not joined through space: what is small and near moves little, whatever turns between.
-/// Four are two residues of a backbone.
+/// Segments of fewer bodies are not joined through space: small segments close together have nearly constant distances
+/// even if torsions between them move. Four bodies are two residues of a backbone.
 constexpr std::size_t fewest_bodies = 4;
 
-/// Lower number first.
+/// Pairs of segments, the lower index first.
 using SegmentPairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 
-/// Segments joined through space, nearest to rigid first; never two that a torsion between them turns.
+/// Joins segments through space, the pair with the smallest spread first; never two sets with a moving torsion between
+/// them.
 void join_segments(RigidSets& sets, const std::vector<std::uint32_t>& segment_of, const SegmentPairs& turning,
                    double tolerance) {
   std::vector<std::uint32_t> segments;
@@ -84,7 +87,7 @@ void join_segments(RigidSets& sets, const std::vector<std::uint32_t>& segment_of
       if (const float spread = sets.spread(segments[i], segments[j]); static_cast<double>(spread) <= tolerance)
         near.emplace_back(spread, segments[i], segments[j]);
   std::sort(near.begin(), near.end());
-  // A segment is a body of itself: its set changes as others are joined.
+  // A segment is named by one of its bodies; set_of gives its current set, which changes as sets are merged.
   const auto apart = [&](std::uint32_t first, std::uint32_t second) {
     return std::none_of(turning.begin(), turning.end(), [&](const auto& pair) {
       const std::uint32_t a = sets.set_of(pair.first), b = sets.set_of(pair.second);
@@ -145,7 +148,7 @@ EnsembleGroups find_ensemble_groups(const EnsembleSpread& spread, double toleran
   }
   join_segments(sets, segment_of, turning, tolerance);
 
-  std::vector<std::vector<std::uint32_t>> atoms(bodies.size());  // by segment
+  std::vector<std::vector<std::uint32_t>> atoms(bodies.size());  // per segment
   for (std::uint32_t i = 0; i < bodies.of_atom().size(); ++i) atoms[segment_of[bodies.of_atom()[i]]].push_back(i);
   for (std::size_t set = 0; set < bodies.size(); ++set) {
     EnsembleGroup group;
@@ -166,7 +169,7 @@ EnsembleGroups find_ensemble_groups(const EnsembleSpread& spread, double toleran
 
 std::vector<HeldPlacement> held_placements(const Molecule& molecule, const EnsembleGroups& groups) {
   const std::vector<Vec3>& x = molecule.structure().models.front();
-  // Atoms on an axis are placed with one of its sides and bonded into the other: they do not tell which is meant.
+  // An atom on an axis belongs to one side but is bonded to the other, so it does not identify a segment.
   std::vector<bool> on_axis(x.size(), false);
   for (const Torsion& torsion : molecule.torsions()) on_axis[torsion.atoms[1]] = on_axis[torsion.atoms[2]] = true;
   const auto aside = [&](const std::vector<std::uint32_t>& segment) {
@@ -176,7 +179,8 @@ std::vector<HeldPlacement> held_placements(const Molecule& molecule, const Ensem
   for (const EnsembleGroup& group : groups.groups)
     for (std::size_t k = 1; k < group.segments.size(); ++k) {
       const std::vector<std::uint32_t>&first = group.segments[0], &other = group.segments[k];
-      // Far apart: the ends of its longest way, then what is farthest from their line and from the plane of these.
+      // Four points far apart: two ends of a long diameter, the atom farthest from their line, and the atom farthest
+      // from the plane of these three.
       const auto farthest = [&](const auto& measure) {
         std::uint32_t best = first[0];
         for (const std::vector<std::uint32_t>* atoms : {&first, &other})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies between torsions, and running means over conformations.
+// Divides atoms into rigid bodies between torsions, and accumulates statistics over conformations.
 #include "hinge/molecular/ensemble_spread.hpp"
 
 #include <algorithm>
@@ -16,8 +16,8 @@ namespace hinge::molecular {
 
 namespace {
 
-/// Atoms farther than this (angstrom) from the line of two others say how a body is turned about it; those of bonds at
-/// the usual angles are 0.8 and more away.
+/// Atoms farther than this (angstrom) from the line through two others determine the rotation of a body about that
+/// line. Atoms bonded at the usual angles are at least 0.8 from it.
 constexpr double off_line = 0.3;
 
 double squared_distance_from_line(const Vec3& x, const Vec3& a, const Vec3& b) {
@@ -25,7 +25,7 @@ double squared_distance_from_line(const Vec3& x, const Vec3& a, const Vec3& b) {
   return squared_norm(cross(along, Vec3(x - a))) / squared_norm(along);
 }
 
-/// Position of the pair i < j.
+/// Returns the index of the pair i < j.
 std::size_t at(std::size_t i, std::size_t j) noexcept { return j * (j - 1) / 2 + i; }
 
 }  // namespace
@@ -35,7 +35,7 @@ TorsionBodies::TorsionBodies(const Molecule& molecule, std::span<const std::size
   const KinematicTree& tree = molecule.model().tree();
   std::vector<std::size_t> position(tree.dof_count(), torsions.size());
   for (std::size_t k = 0; k < torsions.size(); ++k) position[index(molecule.dof(torsions[k]))] = k;
-  // What hangs on the world is a body of its own: nothing joins it to the others.
+  // Each link attached to the world starts a new body: no torsion joins it to another.
   std::vector<std::uint32_t> body(tree.link_count(), 0);
   for (std::size_t l = 1; l < tree.link_count(); ++l) {
     const LinkId link = id<LinkId>(l), parent = tree.parent(link);
@@ -58,7 +58,7 @@ TorsionBodies::TorsionBodies(const Molecule& molecule, std::span<const std::size
   for (std::uint32_t atom = 0; atom < of_atom_.size(); ++atom) atoms[of_atom_[atom]].push_back(atom);
   for (std::size_t b = 0; b < size_; ++b) {
     std::vector<std::uint32_t>& points = points_[b];
-    // Of a body without torsions: its first atom and the one farthest from it, so that there is a line.
+    // A body without torsions gets its first atom and the atom farthest from it, which define a line.
     const auto farthest = [&](const auto& measure) {
       return *std::max_element(atoms[b].begin(), atoms[b].end(),
                                [&](std::uint32_t i, std::uint32_t j) { return measure(i) < measure(j); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// BioCD section III: the atom groups that become leaves.
+// Divides atoms into basic groups, which become the leaves (BioCD section III).
 #include <array>
 #include <cstdint>
 #include <numeric>
@@ -27,7 +27,7 @@ bool in_nucleotide_backbone(std::string_view atom) { return atom.find_first_of("
 }  // namespace
 
 std::vector<std::uint32_t> basic_groups(const Structure& structure) {
-  // Two labels per residue: backbone 2r, the rest 2r + 1.
+  // Two labels per residue: 2r for the backbone, 2r + 1 for the other atoms.
   std::vector<std::uint32_t> merged(2 * structure.residues.size());
   std::iota(merged.begin(), merged.end(), 0U);
   const auto find = [&](std::uint32_t label) {

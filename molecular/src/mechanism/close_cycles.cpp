@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From torsions and bonds that the tree left out to closures.
+// Makes closures from the torsions and bonds that the spanning tree leaves out.
 #include "mechanism/close_cycles.hpp"
 
 #include <optional>
@@ -17,14 +17,14 @@ class Closer {
   Closer(const Structure& s, std::span<const std::uint32_t> link_of_atom, std::vector<std::string>& notes)
       : s_(s), link_(link_of_atom), notes_(notes) {}
 
-  /// The bond a-b, which may turn and nothing else.
+  /// Adds a closure for the bond a-b: both atoms coincide in the two links, so only rotation about the bond is free.
   void close(std::uint32_t a, std::uint32_t b, const char* what) {
     Closure closure;
     closure.in_first = closure.in_second = {at(a), at(b)};
     add(a, b, std::move(closure), what);
   }
 
-  /// A torsion is no DOF here: omega is kept, any other follows from the rest of its cycle.
+  /// Adds the closure of a torsion that is not a DOF. omega is fixed as well; any other torsion follows from its cycle.
   void close(const Torsion& torsion) {
     const auto& a = torsion.atoms;
     close(a[1], a[2], "the bond");
@@ -32,13 +32,13 @@ class Closer {
     notes_.push_back("torsion " + torsion.name + " of " + label(s_, a[1]) + ": closes a cycle of torsions and " +
                      (kept ? "stays at its reference" : "follows from the others"));
     if (!kept) return;
-    // Beside the bond's two atoms, the two that say what omega is.
+    // The outer two atoms of the torsion fix omega, in addition to the two atoms of the bond.
     Closure closure;
     closure.in_first = closure.in_second = {at(a[0]), at(a[3])};
     add(a[1], a[2], std::move(closure), "omega of the bond");
   }
 
-  /// Length and angles are kept, no torsion is.
+  /// Fixes the bond length and both bond angles (as three distances), but no torsion.
   void close_disulphide(const Bond& bond) {
     const auto a = beta(bond.first), b = beta(bond.second);
     if (!a || !b) return close(bond.first, bond.second, "the bond");
@@ -51,7 +51,7 @@ class Closer {
     add(bond.first, bond.second, std::move(closure), "the bond");
   }
 
-  /// Four points that stay together.
+  /// Adds two closures of two points each: together they fix the relative pose of the two links.
   void hold(const HeldPlacement& held) {
     for (const std::size_t k : {0U, 2U}) {
       Closure closure;
@@ -74,7 +74,8 @@ class Closer {
     return std::nullopt;
   }
 
-  /// what: for the note; none where the same was said of the closure before.
+  /// Does nothing if one link holds both atoms. what: for the note; null for the second closure of a pair, which gets
+  /// no note.
   void add(std::uint32_t a, std::uint32_t b, Closure closure, const char* what) {
     if (link_[a] == link_[b]) return;
     closure.first = id<LinkId>(link_[a]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The closures of a molecule: what its spanning tree leaves out.
+// Makes the closures of a molecule: constraints for the torsions and bonds that the spanning tree leaves out.
 #pragma once
 
 #include <array>
@@ -15,21 +15,22 @@
 
 namespace hinge::molecular {
 
+/// The cycles that the spanning tree leaves open. Indices of torsions are those of the list given to close_cycles.
 struct OpenCycles {
-  std::vector<std::uint32_t> loop_ends;  ///< torsions at which loops were cut
-  std::vector<std::uint32_t> torsions;   ///< others that would close a cycle
-  std::vector<Bond> bonds;               ///< that do not turn
-  bool hydrogen_bonds = false;           ///< close those of the backbone too
-  std::span<const HeldPlacement> held;   ///< what torsions lie between
+  std::vector<std::uint32_t> loop_ends;  ///< torsions at which loops are cut
+  std::vector<std::uint32_t> torsions;   ///< other torsions that would close a cycle
+  std::vector<Bond> bonds;               ///< bonds that would close a cycle and are not torsions
+  bool hydrogen_bonds = false;           ///< also close hydrogen bonds of the backbone
+  std::span<const HeldPlacement> held;   ///< relative placements to hold
 };
 
 struct ClosedCycle {
   Closure closure;
-  std::array<std::uint32_t, 2> atoms{};  ///< that it joins
+  std::array<std::uint32_t, 2> atoms{};  ///< the two atoms that the closure joins
 };
 
-/// link_of_atom: the link each atom's rigid fragment is. Adds a note for each closure. What lies in one fragment is
-/// left out: nothing can open it.
+/// Returns the closures of `cycles` and adds one note per closure. link_of_atom: per atom, the link of its rigid
+/// fragment. Closures within one link are left out, since nothing can open them.
 std::vector<ClosedCycle> close_cycles(const Structure& structure, std::span<const Torsion> torsions,
                                       const OpenCycles& cycles, std::span<const std::uint32_t> link_of_atom,
                                       std::vector<std::string>& notes);

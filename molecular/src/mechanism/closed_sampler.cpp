@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Closed conformations, and the torsions that closed cycles hold.
+// Samples closed conformations, and finds the torsions that closed cycles hold fixed.
 #include "hinge/molecular/closed_sampler.hpp"
 
 #include <algorithm>
@@ -51,7 +51,7 @@ ClosedSampler::ClosedSampler(const Molecule& molecule, const DofSelection& selec
       most_tries_(most_tries) {
   if (most_tries == 0) throw ModelError("0 tries a sample: expected at least one");
   if (selection.size() == 0) throw ModelError("no torsion is free: expected some to sample");
-  static_cast<void>(sample_configuration(sampling, 0, molecule, selection, ranges));  // refuses ranges that are none
+  static_cast<void>(sample_configuration(sampling, 0, molecule, selection, ranges));  // validates the ranges
 }
 
 std::vector<std::size_t> find_held_torsions(const Molecule& molecule, std::span<const std::size_t> torsions) {
@@ -60,7 +60,8 @@ std::vector<std::size_t> find_held_torsions(const Molecule& molecule, std::span<
 
 std::vector<std::size_t> find_held_torsions(const Molecule& molecule, std::span<const std::size_t> torsions,
                                             std::span<const std::size_t> closures) {
-  // Coordinates are off by half a thousandth in each of three directions, an axis by two of them over a bond of 1.2 A.
+  // Uncertainty of coordinates with three decimals: a point is off by sqrt(3) * 0.0005 angstrom; an axis by twice that
+  // over a bond of 1.2 angstrom (rad).
   constexpr double point = 8.7e-4, axis = 2.0 * point / 1.2;
   std::vector<std::size_t> held;
   for (const DofId dof :

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dihedral angles against the reference's, and the closest rotation.
+// Fits torsions and placements to coordinates, by dihedral angles and by least-squares superposition.
 #include "hinge/molecular/fit_torsions.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -24,15 +24,15 @@ Vec3 centre(std::span<const Vec3> positions) {
   return sum / static_cast<double>(positions.size());
 }
 
-/// The rotation about their centres that brings `moved` closest to `onto`: the quaternion of the largest eigenvalue
-/// (Horn, J. Opt. Soc. Am. A 4:629, 1987).
+/// Returns the least-squares rotation from `moved` to `onto`, each relative to its centre: the quaternion of the
+/// largest eigenvalue (Horn, J. Opt. Soc. Am. A 4:629, 1987).
 Eigen::Matrix3d closest_rotation(std::span<const Vec3> moved, const Vec3& centre_moved, std::span<const Vec3> onto,
                                  const Vec3& centre_onto) {
   Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < moved.size(); ++i)
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c) m(r, c) += (moved[i][r] - centre_moved[r]) * (onto[i][c] - centre_onto[c]);
-  // In long double, which nothing vectorises: g++ 12 takes AVX-512's undefined registers for uninitialized ones.
+  // long double prevents vectorisation: with AVX-512, g++ 12 warns that Eigen's undefined registers are uninitialized.
   Eigen::Matrix<long double, 4, 4> n;
   n << m(0, 0) + m(1, 1) + m(2, 2), m(1, 2) - m(2, 1), m(2, 0) - m(0, 2), m(0, 1) - m(1, 0),  //
       m(1, 2) - m(2, 1), m(0, 0) - m(1, 1) - m(2, 2), m(0, 1) + m(1, 0), m(2, 0) + m(0, 2),   //
@@ -84,7 +84,7 @@ std::vector<std::array<double, 6>> fit_placements(const Molecule& molecule, std:
     }
     return !moved.empty();
   };
-  // From the frame of the positions to that of the rest, which stands still.
+  // Transform from the frame of `positions` to the frame of the atoms that are not placed, which stay fixed.
   Eigen::Matrix3d back = Eigen::Matrix3d::Identity();
   Vec3 from = Vec3::Zero(), to = Vec3::Zero();
   if (gather([&](std::size_t i) {
@@ -101,7 +101,8 @@ std::vector<std::array<double, 6>> fit_placements(const Molecule& molecule, std:
     const Vec3 here = centre(moved), there = centre(onto), c = molecule.placed_parts()[k].centre;
     const Eigen::Matrix3d r = closest_rotation(moved, here, onto, there);
     const Vec3 move = r * (c - here) + there - c;
-    // r = Rx(a) Ry(b) Rz(c): each angle from what the ones before leave, which needs no b off a right angle.
+    // Solves r = Rx(a) Ry(b) Rz(c). Each angle is computed from the matrix left by the previous ones, so b = pi/2 needs
+    // no special case.
     const double a = std::atan2(-r(1, 2), r(2, 2)), sin = std::sin(a), cos = std::cos(a);
     const double b = std::atan2(r(0, 2), cos * r(2, 2) - sin * r(1, 2));
     const double turn = std::atan2(cos * r(1, 0) + sin * r(2, 0), cos * r(1, 1) + sin * r(2, 1));

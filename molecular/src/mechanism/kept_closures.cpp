@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses the closures that a solver keeps.
+// Chooses the closures that a solver keeps closed.
 #include "hinge/molecular/kept_closures.hpp"
 
 #include <algorithm>
@@ -15,9 +15,9 @@ namespace hinge::molecular {
 
 namespace {
 
-constexpr double open_from = 1e-6;                              // angstrom: residuals above are open
-constexpr std::size_t start_count = 16;                         // that are tried
-constexpr std::uint64_t first_start = std::uint64_t{1} << 63U;  // no sample's stream
+constexpr double open_from = 1e-6;                              // angstrom; a closure with a larger residual is open
+constexpr std::size_t start_count = 16;                         // random starts per attempt
+constexpr std::uint64_t first_start = std::uint64_t{1} << 63U;  // stream index beyond those of samples
 
 bool ends_loop(const Molecule& molecule, std::size_t closure) {
   const auto [i, j] = molecule.closure_atoms()[closure];
@@ -57,7 +57,7 @@ KeptClosures find_kept_closures(const Molecule& molecule, std::span<const std::s
     else
       candidates.push_back(c);
   }
-  // A loop of six turns is held as well, but has other conformations to jump to.
+  // A loop with six torsions is held as well, but it has other conformations to jump to.
   if (molecule.loops().empty()) kept.held = find_held_torsions(molecule, torsions, candidates);
   for (const std::size_t t : torsions)
     if (!std::ranges::binary_search(kept.held, t)) kept.torsions.push_back(t);
@@ -83,7 +83,7 @@ std::vector<std::size_t> find_unclosable(const Molecule& molecule, const DofSele
       for (std::size_t c = 0; c < kept.size(); ++c)
         if (solver.residual(c) > open_from) ++failures[c];
     }
-    // At most half of those that fail, the worst of them first.
+    // Gives up half of the failing closures, rounded up: those that fail most often.
     std::vector<std::size_t> failing;
     for (std::size_t c = 0; c < kept.size(); ++c)
       if (failures[c] > 0 && !ends_loop(molecule, kept[c])) failing.push_back(c);

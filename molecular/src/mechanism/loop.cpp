@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds loops and their torsions.
+// Finds the loops that an expression names, and their torsions.
 #include "hinge/molecular/loop.hpp"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ std::string name_of(const Structure& s, std::uint32_t r) {
   throw ModelError(text + "': " + what);
 }
 
-/// For each residue the one its C is bonded to by a peptide bond.
+/// Returns, per residue, the residue to which a peptide bond joins its C.
 std::vector<std::optional<std::uint32_t>> residues_behind(const Structure& s) {
   std::vector<std::optional<std::uint32_t>> next(s.residues.size());
   for (const Bond& bond : s.bonds) {
@@ -52,7 +52,7 @@ void check_backbone(const Structure& s, std::uint32_t r, std::string_view word) 
   }
 }
 
-/// The residues of a term, which follow one another.
+/// Returns the residues that a term selects. Throws ModelError if they are not contiguous.
 Loop stretch_of(const Structure& s, const SelectionTerm& term) {
   const auto begin = std::ranges::find(term.selected, true);
   if (begin == term.selected.end()) refuse_loop(term.text, "selects no residues, expected CHAIN:FIRST-LAST");
@@ -111,7 +111,7 @@ std::vector<std::size_t> select_loop_torsions(const Molecule& molecule, std::str
                        label(molecule.structure(), torsions[k].atoms[1]) +
                        ": beside a loop only side chains (chi) can be free, all else outside it stands still");
   for (const Loop& loop : molecule.loops()) {
-    std::size_t turns = 1;  // psi of the last residue follows from the others and is no DOF
+    std::size_t turns = 1;  // psi of the last residue: it follows from the others and is no DOF
     for (std::size_t k = 0; k < torsions.size(); ++k) {
       const Torsion& torsion = torsions[k];
       if (torsion.residue < loop.first || torsion.residue > loop.last) continue;
@@ -121,7 +121,8 @@ std::vector<std::size_t> select_loop_torsions(const Molecule& molecule, std::str
         ++turns;
       }
     }
-    // A closed cycle of k turns has k - 6 degrees of freedom; with six it has other conformations, with fewer none.
+    // A closed cycle of k torsions has k - 6 degrees of freedom. With k = 6 it has other isolated conformations; with
+    // fewer, none.
     if (turns < 6)
       refuse_loop(
           label(molecule.structure(), loop),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From bonds and torsions to a kinematic tree: rigid fragments, a spanning tree over them, closures for the rest.
+// Builds the kinematic tree of a molecule: rigid fragments, a spanning tree over them, closures for the other bonds.
 #include "hinge/molecular/molecule.hpp"
 
 #include <algorithm>
@@ -20,16 +20,16 @@ namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-/// Bonds between residues, but for those of a backbone from one residue to the next.
+/// Returns true for a bond between residues that is no backbone bond between consecutive residues.
 bool is_cross_link(const Structure& s, const Bond& bond) {
   const std::uint32_t r = s.atoms[bond.first].residue, t = s.atoms[bond.second].residue;
   const bool backbone = bond.origin == BondOrigin::peptide || bond.origin == BondOrigin::phosphodiester;
-  return r != t && (!backbone || (r < t ? t - r : r - t) > 1);  // far apart: the bond that closes a cyclic backbone
+  return r != t && (!backbone || (r < t ? t - r : r - t) > 1);  // > 1: the bond that closes a cyclic backbone
 }
 
 }  // namespace
 
-/// One use: builds the links and joints of a Molecule.
+/// Builds the links and joints of one Molecule; call build() once.
 class MoleculeBuilder {
  public:
   MoleculeBuilder(Molecule& molecule, const MoleculeOptions& options)
@@ -45,7 +45,7 @@ class MoleculeBuilder {
     split_bonds();
     find_fragments();
     for (const std::uint32_t root : roots())
-      if (!reached_.contains(root)) grow(root);  // around a cyclic backbone both sides of a cut are one part
+      if (!reached_.contains(root)) grow(root);  // both sides of a cut in a cyclic backbone are one component
     close_open_cycles();
     add_atoms();
     molecule_.model_ = model_.finish();
@@ -53,7 +53,7 @@ class MoleculeBuilder {
   }
 
  private:
-  /// Disjoint sets of atoms.
+  /// Disjoint-set forest over atoms.
   class Fragments {
    public:
     explicit Fragments(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0U); }
@@ -61,7 +61,7 @@ class MoleculeBuilder {
       while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
       return a;
     }
-    /// False when the two were one already.
+    /// Merges the sets of a and b. Returns false if they are the same set already.
     bool join(std::uint32_t a, std::uint32_t b) {
       a = find(a);
       b = find(b);
@@ -73,14 +73,14 @@ class MoleculeBuilder {
     std::vector<std::uint32_t> parent_;
   };
 
-  struct Hinge {  // a torsion's central bond
+  struct Hinge {  // the central bond of a torsion, seen from one end
     std::uint32_t torsion;
     std::uint32_t from, to;  // atoms
   };
 
   const Vec3& at(std::uint32_t atom) const { return s_.models.front()[atom]; }
 
-  /// The torsions loops are cut at: psi of their last residue.
+  /// Finds the torsions at which loops are cut: psi of the last residue of each loop.
   void find_cuts() {
     for (const Loop& loop : options_.loops) {
       const auto& all = molecule_.torsions_;
@@ -99,8 +99,9 @@ class MoleculeBuilder {
   }
   bool is_cut(std::uint32_t torsion) const { return std::find(cuts_.begin(), cuts_.end(), torsion) != cuts_.end(); }
 
-  /// Cross-links that would close a cycle are set aside, and disulphides of loops, on which nothing shall hang; all
-  /// other bonds make the graph the tree is taken from.
+  /// Splits the bonds into bonds_, from which the spanning tree is built, and cross_links_: cross-links that would
+  /// close a cycle, and disulphides of loops, since nothing may be attached to a loop through them. Sets whole_: the
+  /// components of bonds_ without the cut bonds.
   void split_bonds() {
     Fragments whole(s_.atoms.size());
     for (const Bond& bond : s_.bonds)
@@ -126,7 +127,8 @@ class MoleculeBuilder {
         whole_.join(bond.first, bond.second);
   }
 
-  /// Atoms joined by bonds that do not turn. A torsion whose two ends stay joined lies in a ring and is no DOF.
+  /// Merges atoms joined by non-rotatable bonds into rigid fragments. A torsion whose two ends are in one fragment lies
+  /// in a ring and is no DOF.
   void find_fragments() {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> turning;
     for (std::uint32_t t = 0; t < molecule_.torsions_.size(); ++t) {
@@ -146,13 +148,13 @@ class MoleculeBuilder {
     }
   }
 
-  /// One fragment per connected part: the one that holds its middle atom, which halves the longest lever arm; or, in
-  /// front of a loop, the one the loop starts from, which stands still.
+  /// Returns the root fragment of each connected component. It holds the first N of a loop that starts in the
+  /// component, because that atom is fixed; otherwise the component's middle atom, which halves the longest lever arm.
   std::vector<std::uint32_t> roots() {
     std::map<std::uint32_t, std::vector<std::uint32_t>> parts;
     for (std::uint32_t atom = 0; atom < s_.atoms.size(); ++atom) parts[whole_.find(atom)].push_back(atom);
     std::vector<std::uint32_t> roots;
-    std::map<std::uint32_t, std::uint32_t> starts;  // part -> N of a loop's first residue
+    std::map<std::uint32_t, std::uint32_t> starts;  // component -> N of the first residue of a loop
     for (const Loop& loop : options_.loops)
       for (std::uint32_t i = s_.residues[loop.first].first_atom; i < s_.residues[loop.first].last_atom; ++i)
         if (s_.atoms[i].name == "N") starts.emplace(whole_.find(i), i);
@@ -163,8 +165,9 @@ class MoleculeBuilder {
     return roots;
   }
 
-  /// A spanning tree over hinges from a root fragment, found breadth first, its links added depth first and small
-  /// branches first: what hangs on the chain stays beside it. Link frames are the structure's frame at the reference.
+  /// Builds the spanning tree over hinges from a root fragment. The search is breadth first; links are added depth
+  /// first, small branches first, so that side chains are numbered next to their backbone link. All link frames equal
+  /// the frame of the structure at the reference.
   void grow(std::uint32_t root) {
     struct Branch {
       std::uint32_t fragment;
@@ -204,13 +207,13 @@ class MoleculeBuilder {
   }
 
   void add_joint(std::uint32_t fragment, std::uint32_t parent, const Hinge& hinge) {
-    // Turning the far side by +q about the axis pointing at it raises the dihedral by q, from either end.
+    // Rotating the far side by +q about the axis pointing at it adds q to the dihedral angle, from either end.
     const Vec3 axis = at(hinge.to) - at(hinge.from);
     done_[hinge.torsion] = id<DofId>(model_.tree().dof_count());
     const std::string& name = molecule_.torsions_[hinge.torsion].name;
     link_[fragment] = static_cast<std::uint32_t>(
         index(model_.add_link(id<LinkId>(parent), Revolute{axis, at(hinge.from), {}, name})));
-    // The far atom of the bond does not move against the near side either, and belongs to its pseudo-backbone.
+    // The far atom lies on the axis and is fixed in the near link; it belongs to the pseudo-backbone there.
     on_axis_[hinge.to] = parent;
   }
 
@@ -226,9 +229,9 @@ class MoleculeBuilder {
   void close_open_cycles() {
     for (const std::uint32_t t : cuts_) {
       const auto& a = molecule_.torsions_[t].atoms;
-      on_axis_[a[1]] = link_[rigid_.find(a[2])];  // the end of a loop stands still
+      on_axis_[a[1]] = link_[rigid_.find(a[2])];  // CA at the end of a loop is fixed, like C
     }
-    const auto is_hinge = [&](const Bond& bond) {  // a joint, or closed with the torsions
+    const auto is_hinge = [&](const Bond& bond) {  // a joint, or closed as a torsion
       const std::vector<Hinge>& near = hinges_[rigid_.find(bond.first)];
       return std::any_of(near.begin(), near.end(), [&](const Hinge& h) {
         return std::minmax(h.from, h.to) == std::minmax(bond.first, bond.second);
@@ -249,7 +252,7 @@ class MoleculeBuilder {
     molecule_.notes_.push_back("torsion " + t.name + " of " + label(s_, t.atoms[1]) + ": " + what);
   }
 
-  /// Keeps the torsions that became joints.
+  /// Removes the torsions that are not joints, and sets the maps between torsions and DOF.
   void order_torsions() {
     std::vector<Torsion> kept;
     molecule_.torsion_of_.assign(molecule_.model_->tree().dof_count(), Molecule::no_torsion);
@@ -271,13 +274,13 @@ class MoleculeBuilder {
   std::vector<Bond> cross_links_;
   Fragments whole_{0};
   Fragments rigid_;
-  std::map<std::uint32_t, std::vector<Hinge>> hinges_;  // by fragment
-  std::vector<std::uint32_t> link_;                     // by fragment
+  std::map<std::uint32_t, std::vector<Hinge>> hinges_;  // by root atom of the fragment
+  std::vector<std::uint32_t> link_;                     // by root atom of the fragment
   PartPlacer placer_;
-  std::set<std::uint32_t> reached_;                     // fragments
-  std::map<std::uint32_t, std::uint32_t> on_axis_;      // atom -> link of the near side
-  std::map<std::uint32_t, std::optional<DofId>> done_;  // torsion -> its DOF, if it got one
-  std::vector<std::uint32_t> cuts_, closing_;           // torsions that are no joints of the tree
+  std::set<std::uint32_t> reached_;                     // root atoms of the fragments that are in a tree
+  std::map<std::uint32_t, std::uint32_t> on_axis_;      // atom -> link on the near side of its axis
+  std::map<std::uint32_t, std::optional<DofId>> done_;  // torsion -> its DOF, if it has one
+  std::vector<std::uint32_t> cuts_, closing_;           // torsions that are no joints: at loop ends, closing a cycle
 };
 
 Molecule::Molecule(Structure structure, const MoleculeOptions& options)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parts: residues that words select.
+// Finds the residues of a part by an expression.
 #include "hinge/molecular/part.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Three slides, then three turns about the part's centre.
+// Adds the six joints of a placed part: three prismatic joints, then three revolute joints about the centre of the
+// part.
 #include "mechanism/place_parts.hpp"
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rule, and what it needs to know: rings, orders, which residues it is for.
+// Applies the rule for rotatable bonds: finds rings, bond orders and the residues to which the rule applies.
 #include "mechanism/rotatable_bonds.hpp"
 
 #include <algorithm>
@@ -52,7 +52,9 @@ class BondRule {
     return s_.bonds[k].first == i ? s_.bonds[k].second : s_.bonds[k].first;
   }
 
-  /// Residues whose bonds the rule looks at. Inside residues that our tables know, every bond comes from there.
+  /// Marks the residues to which the rule applies: residues of kind `other`, and residues with a bond that comes
+  /// neither from our tables nor from a polymer or coordination bond. All other residues get their torsions from the
+  /// tables.
   void find_open() {
     open_.resize(s_.residues.size());
     for (std::uint32_t r = 0; r < s_.residues.size(); ++r) open_[r] = s_.residues[r].kind == ResidueKind::other;
@@ -63,12 +65,13 @@ class BondRule {
     }
   }
 
-  /// A bond is in a ring unless the bonds of its residue fall apart without it (Tarjan's bridges, depth first).
+  /// Marks the ring bonds: a bond is in a ring unless removing it disconnects the bonds of its residue (Tarjan's bridge
+  /// search, depth first).
   void find_rings() {
     constexpr std::uint32_t unseen = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> order(s_.atoms.size(), unseen), low(s_.atoms.size(), unseen);
     struct Visit {
-      std::uint32_t atom, by;  // the bond it was reached by
+      std::uint32_t atom, by;  // bond through which the search reached the atom
       std::size_t next = 0;
     };
     std::uint32_t count = 0;
@@ -101,7 +104,7 @@ class BondRule {
     }
   }
 
-  /// Does the atom have a heavy neighbour beyond bond k? A metal it coordinates is unseen.
+  /// Returns true if the atom has a heavy neighbour across a bond other than k. Coordination bonds do not count.
   bool continues(std::uint32_t atom, std::uint32_t k) const {
     return std::any_of(bonds_of_[atom].begin(), bonds_of_[atom].end(), [&](std::uint32_t other_bond) {
       return other_bond != k && s_.bonds[other_bond].order != BondOrder::coordination;
@@ -114,7 +117,8 @@ class BondRule {
     return d >= single_bond_from(element(bond.first), element(bond.second));
   }
 
-  /// Nitrogen beside a carbon that has a double bond to O, S or N outside of rings.
+  /// Returns true if `nitrogen` is N, `carbon` is C, and the carbon has a double bond outside rings to O, S or another
+  /// N.
   bool is_amide(std::uint32_t nitrogen, std::uint32_t carbon) const {
     if (element(nitrogen) != "N" || element(carbon) != "C") return false;
     return std::any_of(bonds_of_[carbon].begin(), bonds_of_[carbon].end(), [&](std::uint32_t k) {
@@ -125,9 +129,9 @@ class BondRule {
   }
 
   const Structure& s_;
-  std::vector<bool> open_;                            // by residue
-  std::vector<std::vector<std::uint32_t>> bonds_of_;  // by atom: heavy-atom bonds looked at
-  std::vector<bool> in_ring_;                         // by bond
+  std::vector<bool> open_;                            // per residue: does the rule apply?
+  std::vector<std::vector<std::uint32_t>> bonds_of_;  // per atom: its bonds to heavy atoms under the rule
+  std::vector<bool> in_ring_;                         // per bond
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random conformations from the counter-based stream.
+// Draws random conformations from the counter-based random stream.
 #include "hinge/molecular/sampler.hpp"
 
 #include <algorithm>
@@ -20,7 +20,8 @@ double sample_turn(const Sampling& sampling, SampleStream& stream) {
   return sampling.sigma ? *sampling.sigma * stream.normal() : std::numbers::pi * (1.0 - 2.0 * stream.uniform());
 }
 
-/// sin^2 of half the angle of Rx(a) Ry(b) Rz(c): the squared vector part of the product of the three quaternions.
+/// Returns sin^2 of half the rotation angle of Rx(a) Ry(b) Rz(c): the squared vector part of the product of the three
+/// quaternions.
 double squared_half_sine(double a, double b, double c) noexcept {
   const detail::SinCos x = detail::sincos(a / 2), y = detail::sincos(b / 2), z = detail::sincos(c / 2);
   const double i = x.sin * y.cos * z.cos + x.cos * y.sin * z.sin;
@@ -42,7 +43,7 @@ std::vector<double> sample_configuration(const Sampling& sampling, std::uint64_t
   return draw_configuration(sampling, stream, dof_count);
 }
 
-// By rejection, which keeps to arithmetic that gives the same bits everywhere: at least a ninth of all tries stay.
+// Rejection sampling: its arithmetic gives the same bits on every machine. At least one ninth of the tries is accepted.
 std::array<double, 6> sample_placement(SampleStream& stream, const PlacementRange& range) {
   std::array<double, 6> q{};
   if (range.distance > 0.0) {
@@ -57,8 +58,8 @@ std::array<double, 6> sample_placement(SampleStream& stream, const PlacementRang
     q[2] = range.distance * z;
   }
   if (range.turn > 0.0) {
-    // The invariant measure of rotations is |cos b| da db dc. No rotation by up to a quarter turn needs a larger angle:
-    // it takes no axis farther from where it was.
+    // The invariant measure of rotations is |cos b| da db dc. A rotation by at most a quarter turn moves no axis by
+    // more than its own angle, so none of its angles a, b, c is larger: draw them from [-side, side].
     const double quarter = std::numbers::pi / 2;
     const double side = range.turn <= quarter ? range.turn : std::numbers::pi;
     const double half_sine = detail::sincos(range.turn / 2).sin;

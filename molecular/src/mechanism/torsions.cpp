@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Torsions from names and bonds.
+// Finds torsions by atom names and bonds.
 #include "hinge/molecular/torsions.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace hinge::molecular {
 double dihedral(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) noexcept {
   const Vec3 u = b - a, v = c - b, w = d - c;
   const Vec3 m = cross(u, v), n = cross(v, w);
-  // A cross product is the rounding of its terms when it is this much smaller than they are.
+  // A cross product this much smaller than its factors consists of rounding errors only.
   const auto undefined = [](const Vec3& product, const Vec3& p, const Vec3& q) {
     return !(squared_norm(product) > 0x1p-90 * squared_norm(p) * squared_norm(q));
   };
@@ -48,7 +48,7 @@ class Finder {
  private:
   using Atom = std::optional<std::uint32_t>;
 
-  /// previous_[r] and next_[r]: residues joined to r by a bond of the backbone.
+  /// Sets previous_[r] and next_[r]: the residues joined to r by a backbone bond.
   void find_neighbours() {
     previous_.resize(s_.residues.size());
     next_.resize(s_.residues.size());
@@ -72,7 +72,7 @@ class Finder {
       if (nucleotide ? is_nucleotide_atom(s_.atoms[i].name, name) : s_.atoms[i].name == name) return i;
     return std::nullopt;
   }
-  /// The first of these names that the residue has.
+  /// Returns the atom with the first of these names that the residue has.
   Atom find_any(std::uint32_t residue, std::initializer_list<std::string_view> names) const {
     Atom found;
     for (const std::string_view name : names)
@@ -111,7 +111,7 @@ class Finder {
       for (Atom& atom : atoms) {
         const std::string_view name = names.substr(0, names.find('-'));
         atom = find(r, name);
-        if (!atom && name == "CD1") atom = find(r, "CD");  // CHARMM's isoleucine
+        if (!atom && name == "CD1") atom = find(r, "CD");  // name in CHARMM's isoleucine
         names.remove_prefix(std::min(name.size() + 1, names.size()));
       }
       add(r, "chi" + std::to_string(k), atoms[0], atoms[1], atoms[2], atoms[3]);
@@ -133,7 +133,7 @@ class Finder {
     add(r, "kappa", c1, c2, find(r, "O2'"), find_any(r, {"HO2'", "HO'2", "2HO'"}));
   }
 
-  /// chi: O4' C1' N9 C4 of purines, O4' C1' N1 C2 of pyrimidines, O4' C1' C5 C4 of pseudouridine.
+  /// Adds chi: O4' C1' N9 C4 of purines, O4' C1' N1 C2 of pyrimidines, O4' C1' C5 C4 of pseudouridine.
   void add_glycosidic(std::uint32_t r, Atom o4, Atom c1) {
     if (!c1) return;
     for (const auto& [joined, next] : {std::pair("N9", "C4"), std::pair("N1", "C2"), std::pair("C5", "C4")}) {
@@ -150,8 +150,8 @@ class Finder {
     return at != s_.bonds.end() && std::pair(at->first, at->second) == wanted;
   }
 
-  /// Rotatable bonds without a name: they are called by their atoms, "C5-C6", and belong to the residue outside of
-  /// the polymer, else to the later one.
+  /// Adds the rotatable bonds that have no named torsion. Their atoms give the name, as in "C5-C6". A torsion belongs
+  /// to the residue outside the polymer if only one residue is, otherwise to the later residue.
   void add_bonds() {
     const std::vector<Bond> bonds = rotatable_bonds(s_, named_);
     if (bonds.empty()) return;
@@ -184,7 +184,7 @@ class Finder {
 
 std::string torsion_label(const Structure& structure, const Torsion& torsion) {
   std::string text = label(structure, structure.residues[torsion.residue].first_atom);
-  text.resize(text.rfind(':') + 1);  // without the atom
+  text.resize(text.rfind(':') + 1);  // without the atom name
   return text += torsion.name;
 }
 
