@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// AnyHierarchy: a hierarchy of triangles on links, with the engine chosen at run time.
+// AnyHierarchy: a hierarchy of a robot's triangles whose engine is chosen at run time.
 #pragma once
 
 #include <string>
@@ -17,12 +17,15 @@
 
 namespace hinge::robotics {
 
+/// A hierarchy over a robot's triangles: pairs admitted by link, thresholds from LinkMargins.
 template <template <class, class, class> class EngineOf>
 using RobotHierarchy = Hierarchy<Triangle, LinkPairFilter, LinkMargins, EngineOf>;
 
+/// One of the three engines.
 using AnyHierarchy = std::variant<RobotHierarchy<Simd>, RobotHierarchy<Lazy>, RobotHierarchy<Brute>>;
 
-/// All DOF free. engine: "simd", "lazy" (the paper's) or "brute"; ModelError otherwise.
+/// Returns a hierarchy of `model` with every DOF free. engine: "simd", "lazy" (the paper's engine) or "brute". Throws
+/// ModelError for any other name, or if filter or margins were made for another number of triangles.
 AnyHierarchy make_hierarchy(const std::string& engine, const Model<Triangle>& model, const LinkPairFilter& filter,
                             const LinkMargins& margins);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// find_collision_matrix: which pairs of links need testing: seen in samples, or proved never to meet within the limits.
+// find_collision_matrix: finds the pairs of links that need testing, by sampling and by proofs over the joint limits.
 #pragma once
 
 #include <cstddef>
@@ -14,61 +14,68 @@
 
 namespace hinge::robotics {
 
-/// What is known of a pair of links; the first that holds.
+/// What is known about a pair of links. If several kinds apply, the first one in this list is reported.
 enum class PairKind : std::uint8_t {
-  adjacent,    ///< of one rigid group, or of two groups joined by one movable joint
-  always,      ///< closer than the clearance in every sample
-  in_default,  ///< closer than the clearance in the default configuration
-  sometimes,   ///< closer than the clearance in a sample, or in a configuration the search came by
-  never,       ///< proved: nowhere within the joint limits closer than the clearance
-  unseen       ///< neither seen closer than the clearance nor proved never to be
+  adjacent,    ///< both in one rigid group, or in two groups that one movable joint connects
+  always,      ///< too close in every sample
+  in_default,  ///< too close in the default configuration
+  sometimes,   ///< too close in a sample, or in a configuration that the search evaluated
+  never,       ///< proved: nowhere within the joint limits too close
+  unseen       ///< never found too close, but not proved either
 };
 
+/// Options of find_collision_matrix().
 struct MatrixOptions {
-  std::size_t samples = 100'000;  ///< random configurations, uniform within the limits
-  std::uint64_t seed = 1;
-  /// Boxes of joint values a proof may try, per pair; 0: no proofs. See docs/explanation/collision_matrix.md for what
-  /// more of them buy.
+  std::size_t samples = 100'000;  ///< number of random configurations, uniform within the limits
+  std::uint64_t seed = 1;         ///< seed of the random configurations
+  /// Largest number of boxes of joint values that the proof may try per pair; 0 disables proofs. The benefit of more
+  /// boxes is measured in docs/explanation/collision_matrix.md.
   std::size_t cells = 20'000;
-  double clearance = 0.0;  ///< m, finite, >= 0; two links that touch are too close whatever it is
-  /// Pairs of which no proof is wanted, as of an SRDF file that disables them: samples are looked at all the same.
-  /// Empty: none.
+  double clearance = 0.0;  ///< m, finite, >= 0; links closer than this are too close, and links that touch always are
+  /// Pairs that need no proof, for example because an SRDF file disables them. They are still sampled. Empty: none.
   LinkPairs settled{};
 };
 
+/// The result for one pair of links.
 struct MatrixEntry {
-  LinkId link1{};  ///< link1 < link2
+  LinkId link1{};  ///< always less than link2
   LinkId link2{};
-  PairKind kind = PairKind::unseen;
-  std::size_t samples = 0;  ///< configurations looked at; 0 for adjacent pairs
-  std::size_t hits = 0;     ///< samples in which the links were too close
-  std::size_t cells = 0;    ///< boxes of joint values the search tried
-  /// m, the smallest distance between surfaces that the search computed at a configuration: the true smallest one is at
-  /// most this. None where volumes around the links were enough, or nothing was searched.
+  PairKind kind = PairKind::unseen;  ///< what is known about the pair
+  std::size_t samples = 0;           ///< number of samples tested; 0 for adjacent pairs
+  std::size_t hits = 0;              ///< number of samples in which the links were too close
+  std::size_t cells = 0;             ///< number of boxes of joint values that the search tried
+  /// Smallest distance (m) between the two surfaces that the search computed at a configuration. It is an upper bound
+  /// on the true smallest distance. Empty if the search computed no distance: bounding volumes were sufficient, or the
+  /// pair was not searched.
   std::optional<double> smallest_gap{};
 };
 
+/// The result of find_collision_matrix().
 struct CollisionMatrix {
-  std::vector<MatrixEntry> entries;  ///< every pair of links with geometry once, sorted by (link1, link2)
+  std::vector<MatrixEntry> entries;  ///< every pair of links with geometry, once, sorted by (link1, link2)
 };
 
-/// What is being done and how much of it is done, 0 to 1.
+/// Progress of find_collision_matrix().
 struct MatrixProgress {
-  enum class Stage : std::uint8_t { sampling, proving } stage = Stage::sampling;
-  double fraction = 0.0;
+  enum class Stage : std::uint8_t { sampling, proving } stage = Stage::sampling;  ///< the present stage
+  double fraction = 0.0;  ///< completed fraction of the stage, 0 to 1
 };
 
-/// The same for the same robot and options, on every machine. The default configuration is 0 for every independent
-/// joint, the middle of its limits where 0 is outside. ModelError: a clearance that is not finite or below 0; `settled`
-/// made for another number of links.
+/// Classifies every pair of links with geometry. The result depends only on the robot and the options, not on the
+/// machine. In the default configuration each independent joint is 0, or in the middle of its limits if 0 is outside
+/// them. Calls `progress`, if it is not empty, on the calling thread. Throws ModelError if the clearance is negative or
+/// not finite, or if `settled` was made for another number of links.
 CollisionMatrix find_collision_matrix(const Robot& robot, const MatrixOptions& options = {},
                                       const std::function<void(const MatrixProgress&)>& progress = {});
 
-/// Pairs that nobody saw meet and nobody proved apart: left to be tested (the safe choice), or disabled like the rest.
+/// The treatment of unseen pairs: still tested (the safe choice), or disabled like the others.
 enum class UnseenPairs : std::uint8_t { tested, disabled };
 
-/// The pairs a collision check may leave out: adjacent, always, in_default, never; unseen ones only when asked.
+/// Returns true if a collision check may skip pairs of this kind: adjacent, always, in_default, never, and unseen if
+/// `unseen` is UnseenPairs::disabled.
 bool is_disabled(PairKind kind, UnseenPairs unseen) noexcept;
+/// Returns the pairs of `matrix` for which is_disabled() is true. Throws ModelError if a pair names a link that the
+/// robot does not have.
 LinkPairs disabled_pairs(const Robot& robot, const CollisionMatrix& matrix, UnseenPairs unseen = UnseenPairs::tested);
 
 }  // namespace hinge::robotics

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What robot queries answer with: pairs of links, or of a link and a body, and the closest of them. Metres, world
-// frame.
+// Results of robot queries: contacts and closest pairs of links and bodies. Lengths in m, points in the world frame.
 #pragma once
 
 #include <compare>
@@ -13,55 +12,59 @@
 
 namespace hinge::robotics {
 
-/// A body of an Environment. Never given out twice.
+/// Names a body of an Environment. An environment never reuses an id.
 enum class BodyId : std::uint32_t {};
 
-/// Two links too close, and one pair of triangles that shows it (any of them), hit.first on link1. Within a robot
-/// link1 < link2; between two robots link1 is of the one asked. hit.distance is that of the triangles, radii not taken
-/// off.
+/// Two links that are too close, with one arbitrary pair of triangles that shows it. hit.first belongs to link1. Within
+/// one robot link1 < link2; between two robots link1 belongs to the queried robot. hit.distance is the distance of the
+/// triangles, without subtracting their radii; it is 0 if one link is inside a solid of the other.
 struct LinkContact {
   LinkId link1{};
   LinkId link2{};
-  Hit hit;
+  Hit hit;  ///< triangles as indices into Robot::model() of their robots
 };
 
-/// The closest pair of links. Triangles by their positions in Robot::model(). collides() and this never contradict each
-/// other: the pair collides exactly when gap < 0 or distance == 0.
+/// The closest pair of links. Consistent with the yes/no queries: the pair collides if and only if gap < 0 or distance
+/// == 0.
 struct ClosestLinks {
   LinkId link1{};
   LinkId link2{};
-  PrimitiveId triangle1{};
-  PrimitiveId triangle2{};
-  /// Of the surfaces, radii taken off; >= 0, and 0 exactly when they meet. Right to a few ulps of the coordinates.
+  PrimitiveId triangle1{};  ///< index into Robot::model() of link1's robot
+  PrimitiveId triangle2{};  ///< index into Robot::model() of link2's robot
+  /// m, distance of the surfaces, radii subtracted. >= 0, and 0 if and only if the links touch or overlap. Accurate to
+  /// a few ulps of the coordinates.
   double distance = 0.0;
-  double gap = 0.0;            ///< d - M: distance minus clearance where the surfaces are apart
-  Vec3 point1 = Vec3::Zero();  ///< on link1; where the two meet, one point twice
-  Vec3 point2 = Vec3::Zero();
+  double gap = 0.0;            ///< m, d - M: distance minus clearance if the surfaces are apart
+  Vec3 point1 = Vec3::Zero();  ///< on link1, world frame; equal to point2 if the links touch or overlap
+  Vec3 point2 = Vec3::Zero();  ///< on link2, world frame
 
+  /// Returns true if the pair touches, overlaps or is closer than its clearance.
   bool collides() const noexcept { return gap < 0.0 || distance == 0.0; }
 };
 
-/// A link too close to a body or, when `held` is there, a body that hangs on `link` too close to another body.
-/// hit.first is a triangle of the link (or the held body), hit.second one of `body`.
+/// A link that is too close to a body. If `held` is set: the body `held`, attached to `link`, is too close to another
+/// body. hit.first is a triangle of the link (or of the held body), hit.second a triangle of `body`.
 struct BodyContact {
   LinkId link{};
-  std::optional<BodyId> held{};
+  std::optional<BodyId> held{};  ///< the attached body; empty: the link itself
   BodyId body{};
-  Hit hit;
+  Hit hit;  ///< as in LinkContact
 };
 
-/// The closest of those pairs; numbers as in ClosestLinks, point1 on the link (or the held body).
+/// The closest pair of a link (or held body) and a body. Numbers as in ClosestLinks; point1 is on the link (or held
+/// body), point2 on `body`.
 struct ClosestBody {
-  LinkId link{};
+  LinkId link{};  ///< the attached body; empty: the link itself
   std::optional<BodyId> held{};
   BodyId body{};
-  PrimitiveId triangle1{};
-  PrimitiveId triangle2{};
-  double distance = 0.0;
-  double gap = 0.0;
+  PrimitiveId triangle1{};  ///< of the link or held body
+  PrimitiveId triangle2{};  ///< of `body`
+  double distance = 0.0;    ///< m, as in ClosestLinks
+  double gap = 0.0;         ///< m, as in ClosestLinks
   Vec3 point1 = Vec3::Zero();
   Vec3 point2 = Vec3::Zero();
 
+  /// Returns true if the pair touches, overlaps or is closer than its clearance.
   bool collides() const noexcept { return gap < 0.0 || distance == 0.0; }
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Containment: is a surface closed, and does another one lie inside it? Exact for the coordinates given, no tolerance.
+// Tests whether a mesh is closed and whether it contains another mesh. Exact for the given coordinates, no tolerance.
 #pragma once
 
 #include <cstddef>
@@ -13,38 +13,44 @@
 
 namespace hinge::robotics {
 
-/// An edge that is run through more often in this direction than in the other.
+/// A directed edge that occurs in the mesh more often than its reverse. Coordinates in the frame and unit of the mesh.
 struct OpenEdge {
-  std::size_t triangle = 0;  ///< one it belongs to
-  Vec3 from = Vec3::Zero();
-  Vec3 to = Vec3::Zero();
+  std::size_t triangle = 0;  ///< index of a triangle that has the edge
+  Vec3 from = Vec3::Zero();  ///< first vertex of the edge
+  Vec3 to = Vec3::Zero();    ///< second vertex of the edge
 
-  /// "edge (0, 0, 0) - (1, 0, 0) of triangle 3"
+  /// Returns a description such as "edge (0, 0, 0) - (1, 0, 0) of triangle 3".
   std::string text() const;
 };
 
-/// The first edge that keeps the triangles from being closed; none: they are. Closed: every edge is run through equally
-/// often in both directions, vertices being equal when their coordinates are. Coordinates finite.
+/// Returns the first open edge of the mesh, or nothing if the mesh is closed. A mesh is closed if every edge occurs
+/// equally often in both directions. Vertices are identified by equal coordinates, which must be finite. O(n log n) for
+/// n triangles.
 std::optional<OpenEdge> open_edge(std::span<const Triangle> mesh);
+/// Returns true if the mesh has no open edge.
 inline bool closed(std::span<const Triangle> mesh) { return !open_edge(mesh).has_value(); }
 
-/// For each triangle the first triangle of its part; triangles that share a vertex are of one part.
+/// Returns for each triangle the index of the first triangle of its connected component. Triangles that share a vertex
+/// are connected. Result: mesh.size() values.
 std::vector<std::size_t> part_numbers(std::span<const Triangle> mesh);
-/// The first triangle of each part, sorted.
+/// Returns the index of the first triangle of each connected component, sorted.
 std::vector<std::size_t> parts(std::span<const Triangle> mesh);
 
+/// Position of a point relative to a closed mesh.
 enum class Place : unsigned char { outside, on_surface, inside };
 
-/// Where a point lies against a closed mesh. Inside: the surface winds around it, so that overlapping or nested parts
-/// count as their union and a cavity, whose surface is oriented against its outer one, as outside. Finite coordinates.
+/// Returns the position of a point relative to a closed mesh, both in one frame, finite coordinates. A point is inside
+/// if the winding number of the surface about it is not 0. Overlapping or nested components therefore act as their
+/// union. A cavity, oriented opposite to its outer surface, is outside.
 Place place_of(const Vec3& point, std::span<const Triangle> closed_mesh) noexcept;
 
+/// How much of a mesh lies inside another one: no connected component, some of them, or all.
 enum class Containment : unsigned char { none, some_parts, whole };
 
-/// How much of `inner` lies inside the closed `outer`, when their surfaces do not meet: with no contact each part is
-/// inside or outside as one of its vertices is.
+/// Returns how much of `inner` lies inside the closed mesh `outer`. Both meshes are in one frame and their surfaces
+/// must not touch: a component is then inside if one of its vertices is.
 Containment contains(std::span<const Triangle> closed_outer, std::span<const Triangle> inner);
-/// The same with parts(inner) at hand.
+/// The same, with precomputed inner_parts = parts(inner).
 Containment contains(std::span<const Triangle> closed_outer, std::span<const Triangle> inner,
                      std::span<const std::size_t> inner_parts) noexcept;
 

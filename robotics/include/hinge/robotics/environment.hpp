@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Environment: bodies around a robot, each with a shape of its own, that come and go, move, or hang on a robot's link.
+// Environment: bodies around a robot, which can be added, removed, moved, or attached to a link of a robot.
 #pragma once
 
 #include <cstddef>
@@ -21,49 +21,62 @@
 
 namespace hinge::robotics {
 
-/// Metres, world frame. Adding, moving or attaching a body touches no other body and no robot. One per thread; copies
-/// share the meshes and what was built from them. A body that does not exist (any more): ModelError, by every function.
+/// Bodies around robots, each with its own shape. Lengths in m, poses in the world frame. Adding, moving or attaching a
+/// body changes no other body and no robot. One per thread; copies share the meshes and the data built from them. Every
+/// function with a BodyId throws ModelError if the body does not exist or was removed.
 class Environment {
  public:
-  /// clearance: bodies have to stay that far from robots and from bodies held, finite, >= 0. engine: that of the robots
-  /// that will ask, "simd", "lazy" or "brute". Else ModelError.
+  /// clearance: distance (m) that bodies must keep from robots and from held bodies; finite, >= 0. engine: "simd",
+  /// "lazy" or "brute", equal to the engine of every robot that queries this environment. Throws ModelError otherwise.
   explicit Environment(double clearance = 0.0, std::string engine = "simd");
 
-  /// The shape is in the body's own frame. Boxes, spheres, cylinders, capsules and solid meshes are solid, as those of
-  /// links are. ModelError, naming the body: what tessellate() refuses, a solid mesh that is open, a pose that is not
-  /// rigid. The name is for messages and reports, may be empty, and need not be unique.
+  /// Adds a body and returns its id. The shape is given in the body's frame, `pose` places this frame in the world.
+  /// Boxes, spheres, cylinders, capsules and solid meshes are solid, as in a robot. The name appears in messages and
+  /// reports; it may be empty and need not be unique. Throws ModelError, naming the body, if tessellate() rejects the
+  /// shape, a solid mesh is open, or the pose is not rigid.
   BodyId add(const Shape& shape, const Pose& pose = {}, std::string name = {}, const Tessellation& tessellation = {});
+  /// The same for a mesh in the body's frame (m), not solid.
   BodyId add(std::shared_ptr<const TriangleMesh> mesh, const Pose& pose = {}, std::string name = {}) {
     return add(Shape(MeshShape{std::move(mesh)}), pose, std::move(name));
   }
-  /// These links of the robot may touch the body from now on: the base that stands on it, say. ModelError: a link the
-  /// robot does not have.
+  /// Allows these links of the robot to touch the body, for example a base that stands on it. Adds to earlier calls.
+  /// Throws ModelError if the robot is null or does not have a link.
   void allow(BodyId body, const std::shared_ptr<const Robot>& robot, const std::vector<LinkId>& links);
+  /// Removes a body. Its id stays invalid.
   void remove(BodyId body);
 
-  /// ConfigurationError, naming the body: not a rigid placement, or the body hangs on a link. The old pose is kept.
+  /// Moves a body to a pose in the world frame. Throws ConfigurationError, naming the body, if the pose is not rigid or
+  /// the body is attached to a link; the old pose is kept then.
   void set_pose(BodyId body, const Pose& pose);
-  /// Of a body that hangs on a link: the pose it had in the last query.
+  /// Returns the pose in the world frame. An attached body has the pose of the last query by its robot. The reference
+  /// is valid until a body is added or this one is removed.
   const Pose& pose(BodyId body) const { return at(body).pose; }
 
-  /// From the next query of this robot on the body is at link pose * in_link. It may touch the links named; those of
-  /// the link's rigid group when none are given. Two robots need a Robot each, even if of one kind. ModelError: a link
-  /// the robot does not have. ConfigurationError: in_link not rigid. Attaching again replaces what was before.
+  /// Attaches a body to a link: in later queries of this robot its pose is link pose * in_link. The body may touch the
+  /// links in `may_touch`, by default all links of the link's rigid group. Robots are distinguished by address: two
+  /// robots of the same kind need two Robot objects. Attaching again replaces the earlier attachment. Throws ModelError
+  /// if the robot is null or does not have a link, ConfigurationError if in_link is not rigid.
   void attach(BodyId body, std::shared_ptr<const Robot> robot, LinkId link, const Pose& in_link,
               std::optional<std::vector<LinkId>> may_touch = {});
-  /// The body stays where the last query saw it.
+  /// Detaches a body. It keeps the pose of the last query.
   void detach(BodyId body);
-  /// The link a body hangs on.
+  /// Returns the link to which the body is attached, or nothing.
   std::optional<LinkId> attached_to(BodyId body) const;
 
+  /// Returns the clearance in m.
   double clearance() const noexcept { return clearance_; }
+  /// Returns the name of the engine.
   const std::string& engine() const noexcept { return engine_; }
+  /// Returns the number of bodies.
   std::size_t size() const noexcept;
-  /// In the order they were added.
+  /// Returns the ids of all bodies, in the order of addition.
   std::vector<BodyId> bodies() const;
+  /// Returns the name given to add(). The reference is valid until a body is added or this one is removed.
   const std::string& name(BodyId body) const { return at(body).name; }
+  /// Returns the number of triangles of the body's tessellated shape.
   std::size_t triangle_count(BodyId body) const { return at(body).shape->model().size(); }
-  /// What keeps the body's mesh from being closed (body's frame); none: nothing does.
+  /// Returns an open edge of the body's mesh (m, body frame), or nothing if the mesh is closed. Computed at the first
+  /// call.
   std::optional<OpenEdge> open_edge(BodyId body) const;
 
  private:
@@ -73,12 +86,12 @@ class Environment {
     std::shared_ptr<const Robot> robot;
     LinkId link{};
     Pose in_link{};
-    std::vector<bool> may_touch;  // by link
-    GroupId group{};              // of the link
+    std::vector<bool> may_touch;  // by link of the robot
+    GroupId group{};              // rigid group of the link
   };
   struct Allowed {
     std::shared_ptr<const Robot> robot;
-    std::vector<bool> may_touch;  // by link
+    std::vector<bool> may_touch;  // by link of the robot
   };
   struct Topology {
     std::optional<OpenEdge> open;
@@ -86,31 +99,31 @@ class Environment {
   };
   struct Body {
     std::string name;
-    std::shared_ptr<const Robot> shape;  // a root without geometry, and one link that is free against it
+    std::shared_ptr<const Robot> shape;  // a root without geometry, and one link that moves freely against it
     AnyHierarchy hierarchy;
     Pose pose{};
-    Aabb local{};  // around the shape, in the body's frame
-    Aabb box{};    // around the placed shape
+    Aabb local{};  // bounds of the shape in the body's frame
+    Aabb box{};    // bounds of the placed shape in the world
     std::optional<Attachment> attachment{};
-    std::vector<Allowed> allowed{};                      // by robot
-    mutable std::shared_ptr<const Topology> topology{};  // found when first asked for
+    std::vector<Allowed> allowed{};                      // one entry per robot
+    mutable std::shared_ptr<const Topology> topology{};  // computed when first needed
   };
   Body& at(BodyId body);
   const Body& at(BodyId body) const;
-  /// The link of a body's shape that has the triangles.
+  /// The link of Body::shape that owns the triangles.
   static constexpr LinkId body_link{2};
-  /// Does the body hang on this robot?
+  /// Returns true if the body is attached to this robot.
   static bool held_by(const Body& body, const Robot* robot) noexcept {
     return body.attachment && body.attachment->robot.get() == robot;
   }
-  /// By link of the robot: may it touch the body? Empty: none may.
+  /// Returns for each link of the robot whether it may touch the body. Empty: no link may.
   static std::vector<bool> may_touch(const Body& body, const Robot& robot);
   static void place(Body& body, const Pose& pose);
   static const Topology& topology(const Body& body);
 
   double clearance_;
   std::string engine_;
-  std::vector<std::optional<Body>> bodies_;  // by BodyId
+  std::vector<std::optional<Body>> bodies_;  // by BodyId; empty: removed
 };
 
 }  // namespace hinge::robotics

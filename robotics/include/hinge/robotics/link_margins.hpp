@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// LinkMargins: the distance matrix of robots: radii of grown triangles, and clearances between links.
+// LinkMargins: the distance matrix of robots, from radii of triangles and clearances between links.
 #pragma once
 
 #include <algorithm>
@@ -19,50 +19,56 @@
 
 namespace hinge::robotics {
 
-/// How far two links have to stay apart, m; takes the place of the clearance of all pairs.
+/// The distance (m) that two links must keep. It replaces the general clearance for this pair.
 struct PairClearance {
   LinkId link1{};
   LinkId link2{};
-  double clearance = 0.0;
+  double clearance = 0.0;  ///< m, finite, >= 0
 };
 
-/// M(i, j) = radius(i) + radius(j) + clearance of their links, m, which verdicts take for the real sum. Copies share
-/// one constant table.
+/// Distance matrix M(i, j) = radius(i) + radius(j) + clearance of the two links, in m. Verdicts use the exact real sum,
+/// not a rounded one. Copies share one constant table, so reading is thread-safe.
 class LinkMargins {
  public:
-  /// ModelError, naming the links: a clearance or radius that is not finite or below 0, a link the robot does not have,
-  /// a pair of a link with itself or named twice.
+  /// clearance: for all pairs of links without an override, m. Throws ModelError, naming the links, if a clearance or
+  /// radius is negative or not finite, a link does not exist, or an override names one link twice or a pair that was
+  /// named before.
   explicit LinkMargins(const Robot& robot, double clearance = 0.0, std::span<const PairClearance> overrides = {});
 
+  /// Returns the threshold of two triangles of one robot, as an unrounded sum.
   RadiusSum sum(PrimitiveId i, PrimitiveId j) const noexcept {
     if (data_->plain) return {0.0, 0.0, data_->clearance};
     return {radius(i), radius(j), clearance(link_of(i), link_of(j))};
   }
-  /// Between two models: each brings half of its clearance of all pairs, the most that boxes grown by reach() bear.
-  /// RobotChecker adds what is missing to the larger of the two clearances.
+  /// Threshold between two models: each contributes half of its general clearance. Boxes inflated by reach() cover no
+  /// more than that. RobotChecker passes the difference to the larger clearance as an extra clearance of the query.
   RadiusSum sum(PrimitiveId i, const LinkMargins& other, PrimitiveId j) const noexcept {
     return {radius(i), other.radius(j), data_->clearance / 2 + other.data_->clearance / 2};
   }
-  /// Both rounded.
+  /// The same thresholds, rounded to one double, m.
   double threshold(PrimitiveId i, PrimitiveId j) const noexcept { return sum(i, j); }
   double threshold(PrimitiveId i, const LinkMargins& other, PrimitiveId j) const noexcept { return sum(i, other, j); }
+  /// Always true: two robots may be queried against each other.
   bool compatible(const LinkMargins&) const noexcept { return true; }
+  /// Returns a length (m) such that M(i, j) <= reach(i) + reach(j) for all j: half the largest threshold, rounded up.
   double reach(PrimitiveId i) const noexcept { return data_->plain ? data_->plain_reach : data_->reach[index(i)]; }
+  /// Returns the number of triangles.
   std::size_t size() const noexcept { return data_->model->size(); }
 
-  /// Of all pairs without one of their own.
+  /// Returns the clearance (m) of all pairs without an override.
   double clearance() const noexcept { return data_->clearance; }
+  /// Returns the clearance (m) of two links.
   double clearance(LinkId a, LinkId b) const noexcept {
     return data_->table.empty() ? data_->clearance : data_->table[index(a) * data_->link_count + index(b)];
   }
-  /// What the triangle is grown by.
+  /// Returns the radius (m) by which a triangle is inflated: that of its sphere or capsule, otherwise 0.
   double radius(PrimitiveId i) const noexcept { return data_->radii.empty() ? 0.0 : data_->radii[index(i)]; }
 
  private:
   struct Data {
-    std::optional<Model<Triangle>> model;  // for its links
+    std::optional<Model<Triangle>> model;  // maps triangles to links
     double clearance = 0.0;
-    bool plain = true;  // neither radii nor clearances of pairs
+    bool plain = true;  // no radii and no overrides
     double plain_reach = 0.0;
     std::vector<double> radii;  // by triangle; empty: all 0
     std::vector<double> reach;  // by triangle; empty when plain

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// LinkPairs: a symmetric set of pairs of links, as bits.
+// LinkPairs: a symmetric set of pairs of links, stored as bits.
 #pragma once
 
 #include <cstddef>
@@ -13,23 +13,28 @@
 
 namespace hinge::robotics {
 
-/// Pairs of the links 0 .. link_count - 1. A link with itself is never a pair.
+/// A set of unordered pairs of the links 0 .. link_count - 1. A pair of a link with itself is ignored. Copies are
+/// independent.
 class LinkPairs {
  public:
+  /// Makes an empty set.
   explicit LinkPairs(std::size_t link_count = 0)
       : link_count_(link_count), words_(link_count / 64 + 1), bits_(link_count * words_, 0) {}
 
-  /// ModelError: a link that does not exist.
+  /// Adds a pair. Throws ModelError if a link is not below link_count().
   void insert(LinkId a, LinkId b) { set(a, b, true); }
+  /// Removes a pair. Throws ModelError if a link is not below link_count().
   void erase(LinkId a, LinkId b) { set(a, b, false); }
 
+  /// Returns true if the set has the pair. Both links must be below link_count().
   bool contains(LinkId a, LinkId b) const noexcept {
     return (bits_[index(a) * words_ + index(b) / 64] >> (index(b) % 64) & 1U) != 0;
   }
+  /// Returns the number of links, the world included.
   std::size_t link_count() const noexcept { return link_count_; }
-  /// Number of unordered pairs.
+  /// Returns the number of unordered pairs.
   std::size_t size() const noexcept { return size_; }
-  /// Every pair once, first < second, sorted.
+  /// Returns every pair once, with first < second, sorted.
   std::vector<std::pair<LinkId, LinkId>> list() const {
     std::vector<std::pair<LinkId, LinkId>> pairs;
     for (std::size_t a = 0; a < link_count_; ++a)
@@ -51,7 +56,7 @@ class LinkPairs {
   }
 
   std::size_t link_count_;
-  std::size_t words_;  // of a row
+  std::size_t words_;  // number of words per row
   std::vector<std::uint64_t> bits_;
   std::size_t size_ = 0;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PathChecker: straight paths of a robot, among bodies or alone, proved free or looked at, state by state.
+// PathChecker: checks straight paths of a robot, alone or among bodies, by proof or by sampling.
 #pragma once
 
 #include <memory>
@@ -25,43 +25,54 @@ class Environment;
 class RobotChecker;
 class SolidPairs;
 
-/// Either of two that come too close: a link of the robot or a body.
+/// One side of a contact: a link of the robot or a body.
 using LinkOrBody = std::variant<LinkId, BodyId>;
 
+/// Two links or bodies that are too close.
 struct PathContact {
   LinkOrBody first, second;
-  double distance = 0.0;   ///< of one pair of triangles, radii not taken off, m; 0 where one lies inside the other
-  double threshold = 0.0;  ///< radii and clearance, m
+  double distance =
+      0.0;  ///< m, of one pair of triangles, radii not subtracted; 0 if one is inside a solid of the other
+  double threshold = 0.0;  ///< m, sum of the two radii and the clearance
 };
 
-/// As PathAnswer, in terms of the robot.
+/// The answer for a path: a PathAnswer in terms of the robot.
 struct RobotPathAnswer {
   PathVerdict verdict = PathVerdict::undecided;
-  double parameter = 0.0;              ///< colliding: t; undecided: the middle of a stretch that is not
-  double half_width = 0.0;             ///< undecided: of that stretch, else 0
-  std::vector<double> configuration;   ///< at t, one value per independent joint; empty when the path is free
-  std::optional<PathContact> contact;  ///< colliding: two that do; undecided: two of which nothing is proved
-  PathCounts counts;
+  double parameter = 0.0;   ///< colliding: t of the collision; undecided: t in the middle of an undecided segment
+  double half_width = 0.0;  ///< undecided: half the length of that segment; otherwise 0
+  std::vector<double> configuration;  ///< at `parameter`, one value per independent joint (rad or m); empty if free
+  std::optional<PathContact>
+      contact;        ///< colliding: a pair that collides; undecided: a pair not proved apart, if known
+  PathCounts counts;  ///< states tested and work done
 
+  /// Returns true if the verdict is free.
   bool is_free() const noexcept { return verdict == PathVerdict::free; }
 };
 
-/// Paths join values of the independent joints, rad or m; followers follow all the way, limits are not looked at. The
-/// checker's pairs and margins decide, and with an environment its clearance; bodies stand where they are when this is
-/// made, those held follow their link, and the robot stays on its base (a base that is not the identity moves the
-/// bodies instead, which rounds). What is solid for RobotChecker is solid here: with no surfaces that meet on the way,
-/// what is outside a solid at the start stays outside. Bodies that touch what never moves against them make every path
-/// collide. One per thread; copies share everything constant.
+/// Checks straight paths between configurations of the independent joints (rad or m). Mimic joints follow along the
+/// whole path; joint limits are not checked. Pairs and margins are those of the RobotChecker; with an environment the
+/// larger clearance applies between links and bodies. Bodies keep the poses that they have at construction, held bodies
+/// follow their link, and the robot keeps its base. If the base is not the identity, the bodies are moved into its
+/// frame, which rounds. Solids are those of RobotChecker: a component outside a solid at the start stays outside while
+/// no surfaces touch. If a body touches a link that never moves against it, every path collides. One per thread; copies
+/// share constant data.
 class PathChecker {
  public:
+  /// Checks the robot against itself.
   explicit PathChecker(const RobotChecker& checker);
+  /// Checks the robot against itself and against the bodies. Copies what it needs from both arguments. Throws
+  /// ModelError if the environment uses another engine than the checker.
   PathChecker(const RobotChecker& checker, const Environment& environment);
 
-  /// For every state between the two. A stretch, as a share of the path, is not cut any more when it is no longer than
-  /// `smallest_step`. ConfigurationError: another number of values, one that is not finite; a step not above 0.
+  /// Decides for every state between `from` and `to` (independent_joints().size() values each). A segment no longer
+  /// than `smallest_step`, a fraction of the path, is not divided further. Throws ConfigurationError if a length is
+  /// wrong, a value is not finite, or smallest_step is not above 0.
   RobotPathAnswer certify(std::span<const double> from, std::span<const double> to,
                           double smallest_step = smallest_path_step);
-  /// At states no joint of which, followers included, is more than `resolution` (rad or m) from that of the next.
+  /// Tests states along the path. No joint, mimic joints included, changes by more than `resolution` (rad or m) between
+  /// neighbouring states. Throws ConfigurationError as certify() does, and if resolution is not finite, not above 0, or
+  /// needs more than 2^53 states.
   RobotPathAnswer sample(std::span<const double> from, std::span<const double> to, double resolution);
 
  private:
@@ -72,8 +83,8 @@ class PathChecker {
   template <class Check>
   RobotPathAnswer answer(std::span<const double> from, std::span<const double> to, const Check& check);
 
-  std::shared_ptr<const Robot> robot_;  // with the bodies as further links
-  std::vector<LinkOrBody> owners_;      // by link
+  std::shared_ptr<const Robot> robot_;  // the robot, with every body added as a link
+  std::vector<LinkOrBody> owners_;      // by link of robot_
   std::optional<PathContact> always_;   // a contact that no joint can change
   RobotHierarchy<Simd> hierarchy_;
   std::shared_ptr<const SolidPairs> solid_pairs_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// read_mesh: the triangles of STL, OBJ, DAE and PLY files, none dropped, none mended, none invented.
+// read_mesh: reads all triangles of STL, OBJ, DAE and PLY files, without dropping or repairing any.
 #pragma once
 
 #include <filesystem>
@@ -10,11 +10,12 @@
 
 namespace hinge::robotics {
 
-/// In metres: STL, OBJ and PLY as they are, DAE times its <unit>. Node transforms of a DAE are applied, its up axis is
-/// not (the convention of ROS: x, y, z of the file are x, y, z of the link). Coordinates are read in single precision.
-/// Polygons are cut into triangles. Lines and points are no surface and are left out; one sentence in `notes`, which
-/// names the file, says how many. An STL file is binary when its size is 84 + 50 n bytes, whatever it begins with.
-/// LoadError, one line: no such file, another format, cut short, damaged, no triangles, a vertex that is not finite.
+/// Returns the triangles of a mesh file, in m. STL, OBJ and PLY coordinates are taken as metres, DAE coordinates are
+/// multiplied by <unit>. Node transforms of a DAE file are applied; its up axis is ignored, as ROS does (x, y, z of the
+/// file are x, y, z of the link). Coordinates have single precision. Polygons are divided into triangles. Lines and
+/// points are skipped; if `notes` is not null, it receives one sentence with the file name and their number. An STL
+/// file is binary if its size is 84 + 50 n bytes, whatever its first word is. Throws LoadError (one line) if the file
+/// is missing, in another format, truncated or damaged, has no triangles, or has a vertex that is not finite.
 TriangleMesh read_mesh(const std::filesystem::path& path, std::vector<std::string>* notes = nullptr);
 
 }  // namespace hinge::robotics

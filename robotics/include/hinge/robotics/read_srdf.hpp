@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// read_srdf: disabled pairs of links, groups of joints and named configurations from an SRDF file.
+// read_srdf: reads disabled pairs of links, groups of joints and named configurations from an SRDF file.
 #pragma once
 
 #include <cstddef>
@@ -15,53 +15,58 @@
 
 namespace hinge::robotics {
 
+/// A named group of joints.
 struct JointGroup {
   std::string name;
-  std::vector<std::size_t> joints;  ///< movable ones, followers included: positions in description().joints, sorted
+  std::vector<std::size_t>
+      joints;  ///< movable joints, mimic joints included: indices into description().joints, sorted
 };
 
-/// Values (rad or m) of independent joints; followers follow.
+/// Values (rad or m) of some independent joints. Mimic joints follow.
 struct NamedConfiguration {
   std::string name;
   std::string group;                                   ///< empty: the file names none
-  std::vector<std::pair<std::size_t, double>> values;  ///< position in independent_joints(), value
+  std::vector<std::pair<std::size_t, double>> values;  ///< index into independent_joints(), value
 
-  /// GROUP/NAME; NAME alone when the file gives it no group.
+  /// Returns GROUP/NAME, or NAME if the group is empty.
   std::string full_name() const { return group.empty() ? name : group + "/" + name; }
 
-  /// Puts its values into a configuration of the independent joints, leaving the others.
+  /// Writes the values into a configuration of independent_joints().size() values; all other values are kept.
   void apply(std::span<double> independent) const noexcept {
     for (const auto& [position, value] : values) independent[position] = value;
   }
 };
 
+/// The contents of an SRDF file.
 struct Srdf {
-  LinkPairs disabled;
-  LinkPairs enabled;  ///< by enable_collisions, and not disabled after all
+  LinkPairs disabled;  ///< pairs that the file disables
+  LinkPairs enabled;   ///< by enable_collisions, unless disable_collisions disables them again
   std::vector<JointGroup> groups;
   std::vector<NamedConfiguration> configurations;
-  std::vector<std::string> notes;  ///< what was left out, one sentence each
+  std::vector<std::string> notes;  ///< one sentence for each kind of skipped element
 };
 
-/// What to do when a pair names a link the robot does not have. SRDF files of several variants of a robot do.
+/// What to do if a pair names an unknown link: throw LoadError, or skip the pair with a note. An SRDF file for several
+/// variants of a robot has such pairs.
 enum class UnknownLinks : std::uint8_t { refused, noted };
 
-/// Virtual joints, end effectors and passive joints have no part in collisions and are passed over. So are, with a
-/// note, joints, links, chains and subgroups in groups and configurations that the robot or the file does not have:
-/// they change no verdict. Of a joint that a configuration names twice the last value counts. LoadError, one line
-/// naming file, line and element: bad XML, a pair with an unknown link (unless noted), a group that contains itself, a
-/// value that is not a finite number of at most 1e15.
+/// Reads an SRDF file for `robot`. Virtual joints, end effectors and passive joints do not affect collisions and are
+/// ignored. Joints, links, chains and subgroups of groups and configurations that the robot or the file does not have
+/// are skipped with a note, because they change no verdict. If a configuration names a joint twice, the last value
+/// counts. Throws LoadError (one line with file, line and element) for bad XML, a pair with an unknown link (unless
+/// noted), a group that contains itself, or a value that is not a finite number of at most 1e15.
 Srdf read_srdf(const std::filesystem::path& path, const Robot& robot, UnknownLinks unknown = UnknownLinks::refused);
 
+/// A pair of names from a text file.
 struct NamedPair {
   std::string first, second;
-  int line = 0;  ///< in the file
+  int line = 0;  ///< line number in the file, from 1
 };
 
-/// The pairs of a text file, two names a line, separated by blanks or a comma; `#` starts a comment. LoadError: a line
-/// with other than two names.
+/// Reads pairs from a text file: two names per line, separated by blanks or a comma; `#` starts a comment. Throws
+/// LoadError if the file cannot be read or a line does not have two names.
 std::vector<NamedPair> read_named_pairs(const std::filesystem::path& path);
-/// Adds them, as names of links. LoadError: also an unknown link.
+/// Reads pairs of link names and adds them to `pairs`. Throws LoadError as read_named_pairs(), and for an unknown link.
 void read_link_pairs(const std::filesystem::path& path, const Robot& robot, LinkPairs& pairs);
 
 }  // namespace hinge::robotics

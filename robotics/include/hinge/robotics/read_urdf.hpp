@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// read_urdf: a robot's description and its meshes from a URDF file.
+// read_urdf: reads a robot's description and its meshes from a URDF file.
 #pragma once
 
 #include <filesystem>
@@ -9,27 +9,28 @@
 
 namespace hinge::robotics {
 
+/// Options of read_urdf().
 struct UrdfOptions {
-  /// Folders that hold packages, or are one: package://NAME/REST is FOLDER/NAME/REST, or FOLDER/REST when the folder is
-  /// called NAME. The first that has the file counts. Then come the package that the URDF file lies in (a folder above
-  /// it with a package.xml) and its neighbours.
+  /// Folders that contain packages or are packages themselves. package://NAME/REST is FOLDER/NAME/REST, or FOLDER/REST
+  /// if the folder is called NAME; the first existing file is used. If none exists, the package around the URDF file (a
+  /// parent folder with package.xml) and the packages next to it are searched.
   std::vector<std::filesystem::path> package_folders{};
-  /// Leave out geometry whose mesh is absent, has no triangles or is of a format that is not read, and shapes that are
-  /// not read. The links are listed in RobotDescription::incomplete, with a note each.
+  /// Skips shapes of unknown type, and meshes that are missing, have no triangles or have an unknown format. The links
+  /// are listed in RobotDescription::incomplete, with one note each.
   bool skip_missing_meshes = false;
 };
 
-/// Of the environment, for whoever wants them in UrdfOptions: the folders in ROS_PACKAGE_PATH, then the folder `share`
-/// of each one in AMENT_PREFIX_PATH.
+/// Returns package folders from the environment: those in ROS_PACKAGE_PATH, then the folder `share` of each prefix in
+/// AMENT_PREFIX_PATH. read_urdf() does not call it.
 std::vector<std::filesystem::path> ros_package_path();
 
-/// Links, joints and collision geometry (m, rad) in the file's order; visuals, inertias and extensions are not looked
-/// at, but for <capsule radius length> (its length without the caps). Mesh paths are relative to the URDF file,
-/// absolute, file:// or package://. A floating or planar joint that carries all the geometry is taken as fixed. What
-/// cannot change a verdict is no error; where it may surprise, a note says so.
-/// LoadError, one line naming file, line and element: bad XML, input for xacro, unknown or repeated names, links that
-/// make no tree, other floating and planar joints, axes and scales of zero, sizes below 0, numbers that are not finite,
-/// shapes that are not read, meshes that are missing (unless skipped) or bad.
+/// Reads links, joints and collision geometry (m, rad), in the order of the file. Visuals, inertias and extensions are
+/// ignored, except <capsule radius length> (length without the caps). A mesh path is relative to the URDF file,
+/// absolute, file:// or package://. A floating or planar joint above all geometry is treated as fixed. A fault that
+/// cannot change a verdict is not an error; a note reports it if it may surprise.
+/// Throws LoadError (one line with file, line and element) for bad XML, xacro input, unknown or repeated names, links
+/// that do not form a tree, other floating or planar joints, a zero axis or scale, negative sizes, numbers that are not
+/// finite, shapes of unknown type, and missing (unless skipped) or bad meshes.
 RobotDescription read_urdf(const std::filesystem::path& path, const UrdfOptions& options = {});
 
 }  // namespace hinge::robotics

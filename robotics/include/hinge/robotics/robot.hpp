@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Robot: a checked description as an articulated model of triangles, with names, limits and followers.
+// Robot: a validated description as an articulated model of triangles, with names, limits and mimic joints.
 #pragma once
 
 #include <cstddef>
@@ -20,60 +20,75 @@ namespace hinge::robotics {
 
 class Solids;
 
-/// Every movable joint, followers included, is a DOF of the model; the root link is fixed in the world. Metres,
-/// radians. "Joint k" is position k in description().joints.
+/// A robot as an articulated model. Every movable joint, mimic joints included, is a DOF of the model; the root link is
+/// fixed to the world. Lengths in m, angles in rad. A joint index is an index into description().joints. Constant after
+/// construction, so any thread may read it. Spans and references are valid as long as the robot.
 class Robot {
  public:
-  /// ModelError names link or joint: see check_description.hpp for what is refused.
+  /// Tessellates the shapes and builds the model. Throws ModelError, naming the link or joint, for every fault listed
+  /// in check_description.hpp, a solid mesh that is not closed, and more than 10^6 triangles from tessellation.
   explicit Robot(RobotDescription description, const Tessellation& tessellation = {});
 
+  /// Returns the robot's name.
   const std::string& name() const noexcept { return description_.name; }
+  /// Returns the description that the robot was made from.
   const RobotDescription& description() const noexcept { return description_; }
+  /// Returns the tessellation that the robot was made with.
   const Tessellation& tessellation() const noexcept { return tessellation_; }
-  /// Links parents first, otherwise in the description's order; triangles in the order of their links.
+  /// Returns the model. A parent link comes before its children, otherwise links keep the order of the description.
+  /// Triangles have the order of their links and are in link frames.
   const Model<Triangle>& model() const noexcept { return *model_; }
 
-  // --- links; LinkId as in model(), 0 is the world and has no name ---
+  // --- Links. LinkId as in model(); link 0 is the world and has no name. ---
 
+  /// Returns the number of links, the world included.
   std::size_t link_count() const noexcept { return link_names_.size(); }
+  /// Returns the name of a link below link_count(); "" for the world.
   const std::string& link_name(LinkId link) const noexcept { return link_names_[index(link)]; }
+  /// Returns the link with this name, or nothing.
   std::optional<LinkId> find_link(std::string_view name) const noexcept;
-  /// Number of triangles; 0: the link takes part in no test.
+  /// Returns the number of triangles. A link with 0 triangles takes part in no test.
   std::size_t triangle_count(LinkId link) const noexcept { return triangle_counts_[index(link)]; }
-  /// Radius per triangle, m: spheres and capsules are points and segments grown by it. Empty: all 0.
+  /// Returns one radius (m) per triangle, or an empty span if all are 0. Spheres and capsules are points and segments
+  /// inflated by their radius.
   std::span<const double> radii() const noexcept { return radii_; }
-  /// Which triangles enclose a solid: for the library's own use.
+  /// Returns the solids of the links. For internal use.
   const Solids& solids() const noexcept { return *solids_; }
-  /// Triangles of zero area and radius 0, kept as the segments or points they span.
+  /// Returns the number of triangles with zero area and radius 0. They are kept as segments or points.
   std::size_t degenerate_count() const noexcept { return degenerate_count_; }
 
-  // --- joints ---
+  // --- Joints ---
 
+  /// Returns the joint index of the joint with this name, or nothing.
   std::optional<std::size_t> find_joint(std::string_view name) const noexcept;
+  /// Returns the joint index of a DOF of the model.
   std::size_t joint_of(DofId dof) const noexcept { return joint_of_dof_[index(dof)]; }
 
-  /// The movable joints that follow no other, in the description's order.
+  /// Returns the joint indices of the movable joints that mimic no other joint, in the order of the description.
   std::span<const std::size_t> independent_joints() const noexcept { return independent_; }
+  /// Returns the name of independent joint k, k < independent_joints().size().
   const std::string& independent_name(std::size_t k) const noexcept {
     return description_.joints[independent_[k]].name;
   }
-  /// Limits of the independent joints, rad or m; -pi and pi for continuous ones.
+  /// Limits of the independent joints, rad or m, independent_joints().size() values; -pi and pi for continuous joints.
   std::span<const double> lower() const noexcept { return lower_; }
+  /// Upper limits, as lower().
   std::span<const double> upper() const noexcept { return upper_; }
 
-  /// A DOF's value is multiplier * value of an independent joint + offset.
+  /// Relates a DOF to an independent joint: DOF value = multiplier * joint value + offset.
   struct Drive {
-    std::size_t independent = 0;  ///< position in independent_joints()
+    std::size_t independent = 0;  ///< index into independent_joints()
     double multiplier = 1.0;
-    double offset = 0.0;
+    double offset = 0.0;  ///< rad or m
   };
-  /// By DOF: what followers follow in the end.
+  /// Returns one Drive per DOF, with chains of mimic joints resolved.
   std::span<const Drive> drives() const noexcept { return drives_; }
 
-  /// The model's full configuration (one value per DOF) from values of the independent joints. Limits are not looked
-  /// at, neither theirs nor the followers'. ConfigurationError: wrong length, or a value that is not finite.
+  /// Returns the full configuration (one value per DOF of model()) for values of the independent joints, rad or m.
+  /// Limits are not checked. Throws ConfigurationError, naming the joint, if the length is wrong or a value is not
+  /// finite.
   std::vector<double> expand(std::span<const double> independent) const;
-  /// The same into `full`, which has one place per DOF.
+  /// The same, written into `full`, which must have one element per DOF.
   void expand(std::span<const double> independent, std::span<double> full) const;
 
  private:

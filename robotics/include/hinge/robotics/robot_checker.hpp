@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// RobotChecker: a robot, the pairs of links to test and their margins put together, the engine chosen at run time.
+// RobotChecker: collision and distance queries of a robot against itself, an environment or another robot.
 #pragma once
 
 #include <array>
@@ -35,140 +35,163 @@ struct Inside;
 
 using hinge::Mode;
 
+/// Options of RobotChecker.
 struct CheckOptions {
-  std::string engine = "simd";  ///< "simd", "lazy" (the paper's) or "brute"
+  std::string engine = "simd";  ///< "simd", "lazy" (the paper's engine) or "brute"
 };
 
-/// The answer for one configuration. `pairs` holds the pairs of links that the mode lists, sorted (all: colliding;
-/// within: closer than the margin; any: none, it stops at the first), `closest` only in mode closest.
+/// The answer of RobotChecker::check(). `pairs` is sorted. Mode all: pairs of links that collide; mode within: pairs
+/// closer than the margin; modes any and closest: empty.
 struct Verdict {
-  bool collides = false;
+  bool collides = false;  ///< true if any tested pair collides
   std::vector<LinkContact> pairs;
-  std::vector<ClosestLinks> distances;  ///< within: the closest points of each of the pairs, in the same order
-  std::optional<ClosestLinks> closest;
+  std::vector<ClosestLinks> distances;  ///< mode within: closest points of the pairs, in the same order
+  std::optional<ClosestLinks> closest;  ///< mode closest: the closest pair; otherwise empty
 };
 
-/// `inner`, or parts of it, inside the closed mesh of `outer`.
+/// `inner`, or some of its connected components, lies inside the closed mesh of `outer`.
 struct LinkContainment {
   LinkId outer{};
   LinkId inner{};
-  bool whole = true;  ///< all parts of inner
+  bool whole = true;  ///< true: all connected components of inner
 };
 
-/// A link and a body, one inside the closed mesh of the other; with `held` a body that hangs on `link` instead of it.
+/// A link and a body, one inside the closed mesh of the other. If `held` is set, the body attached to `link` replaces
+/// it.
 struct BodyContainment {
   LinkId link{};
   std::optional<BodyId> held{};
   BodyId body{};
-  bool body_is_outer = true;
-  bool whole = true;  ///< all parts of the inner one
+  bool body_is_outer = true;  ///< true: the body contains the link (or held body)
+  bool whole = true;          ///< true: all connected components of the inner one
 };
 
-/// A link whose mesh is open: nothing can be said to be inside it.
+/// A link whose mesh is open. Containment in it is undefined.
 struct OpenLink {
   LinkId link{};
-  OpenEdge edge;  ///< in the link's frame, m; triangles counted from the link's first
+  OpenEdge edge;  ///< in the link's frame, m; triangle index from the link's first triangle
 };
 
-/// Robot queries at one configuration. Meshes are surfaces; boxes, spheres, cylinders, capsules and solid meshes (see
-/// MeshShape) are solid: a link that lies wholly inside one collides, at distance 0. One per thread; copies share
-/// everything constant. Links are the original ones, those on fixed joints included. Lengths in m, angles in rad.
-/// Starts with every independent joint at 0.
+/// Queries of a robot at one configuration. Meshes are surfaces. Boxes, spheres, cylinders, capsules and solid meshes
+/// (see MeshShape) are solid: a link wholly inside one collides, at distance 0. Links are those of the description,
+/// links on fixed joints included. Lengths in m, angles in rad, poses and points in the world frame. Initially every
+/// independent joint is 0 and the base is the identity. One per thread; copies share constant data.
 class RobotChecker {
  public:
-  /// ModelError: no robot, unknown engine, pairs or margins made for another robot.
+  /// Throws ModelError if the robot is null, the engine is unknown, or pairs or margins were made for another robot.
   RobotChecker(std::shared_ptr<const Robot> robot, LinkPairs tested, LinkMargins margins,
                const CheckOptions& options = {});
 
+  /// Returns the robot; also the shared pointer that owns it, which Environment::attach() takes.
   const Robot& robot() const noexcept { return *robot_; }
   const std::shared_ptr<const Robot>& shared_robot() const noexcept { return robot_; }
+  /// Returns the pairs of links that are tested.
   const LinkPairs& tested() const noexcept { return filter_.tested(); }
+  /// Returns radii and clearances.
   const LinkMargins& margins() const noexcept { return margins_; }
+  /// Returns the name of the engine.
   const std::string& engine() const noexcept { return engine_; }
 
-  // --- state; ConfigurationError names the joint (or base) at fault, and the previous state is kept ---
+  // --- State. Errors are ConfigurationError and name the joint or the base; the previous state is kept then. ---
 
-  /// One value per independent joint; limits are not looked at.
+  /// Sets the configuration: one value per independent joint, rad or m. Limits are not checked. Throws if the length is
+  /// wrong, a value is not finite, or a joint value exceeds 1e300.
   void update(std::span<const double> independent);
-  /// World pose of the root link, the identity at first. The first call rebuilds the engine, once, with the root link
-  /// free in the world; from then on update() places every link anew, so that small steps cost what large ones do.
+  /// Sets the world pose of the root link. The first call rebuilds the engine with a root link that is free in the
+  /// world. From then on update() computes all link poses, so small steps cost as much as large ones. Throws if the
+  /// pose is not rigid.
   void set_base(const Pose& base);
+  /// Returns the world pose of the root link.
   const Pose& base() const noexcept { return base_; }
-  /// World pose of a link's frame. ModelError: a link the robot does not have.
+  /// Returns the world pose of a link's frame. Throws ModelError if the robot does not have the link.
   Pose link_pose(LinkId link);
 
-  // --- queries at the current state ---
+  // --- Queries at the current state ---
 
-  /// Learns from the current state which pairs of links yes/no queries try first (Hierarchy::calibrate_pair_order): to
-  /// be called at some hundred states like those to come. Answers stay the same.
+  /// Learns from the current state which pairs of links the yes/no queries test first (see
+  /// Hierarchy::calibrate_pair_order). Call it at some hundred typical states. Answers do not change.
   void calibrate_pair_order();
+  /// Returns true if any tested pair of links collides. Stops at the first hit.
   bool collides();
-  /// Pairs of links that collide, sorted.
+  /// Returns the pairs of links that collide, sorted.
   std::vector<LinkContact> colliding_links() { return within(0.0); }
-  /// Pairs of links with d - M < margin, sorted. ConfigurationError: margin not finite or below 0.
+  /// Returns the pairs of links with d - M < margin (m), sorted. Throws ConfigurationError if margin is negative or not
+  /// finite.
   std::vector<LinkContact> within(double margin);
-  /// Every pair of triangles that collides, sorted. What lies inside a solid has none.
+  /// Returns every pair of triangles that collides, sorted. A link inside a solid without touching its surface has
+  /// none.
   std::vector<Hit> triangle_pairs();
-  /// The same pairs of links, each with its smallest d - M and its closest points, which are points of the world. Far
-  /// from the world's origin (behind a long slide, say) distances are computed in the frame of one of the two links, so
-  /// that they keep their digits; the points have those of the world's coordinates.
+  /// Returns the pairs of links of within(margin), each with its smallest d - M and its closest points (world frame).
+  /// Far from the world origin, for example behind a long slide, distances are computed in the frame of one of the two
+  /// links, to keep their accuracy. The points keep the accuracy of world coordinates.
   std::vector<ClosestLinks> distances(double margin);
-  /// The pair with the smallest d - M, computed alike; none when no pair is tested.
+  /// Returns the pair with the smallest d - M, computed like distances(), or nothing if no pair is tested.
   std::optional<ClosestLinks> closest();
 
-  /// update() and the queries of a mode.
+  /// Calls update() and the queries of `mode`.
   Verdict check(std::span<const double> independent, const Mode& mode);
 
-  // --- against an environment. Bodies attached to this robot follow it, and are tested against its links and the other
-  // bodies. The clearance is the larger of the environment's and margins().clearance(). ModelError: another engine ---
+  // --- Against an environment. Bodies attached to this robot follow it and are tested against its links and the other
+  // bodies. Between links and bodies the clearance is the larger of the environment's and margins().clearance();
+  // between bodies it is the environment's. All functions throw ModelError if the environment uses another engine. ---
 
-  /// The same for collides(environment): which links are tried first, whatever the body.
+  /// The same as calibrate_pair_order() for collides(environment): the order of links, for all bodies.
   void calibrate_pair_order(Environment& environment);
+  /// Returns true if any link or held body collides with a body.
   bool collides(Environment& environment);
-  /// Pairs of link and body (first links, then held bodies; each sorted).
+  /// Returns the colliding pairs of link and body, then of held body and body, each sorted.
   std::vector<BodyContact> collisions(Environment& environment) { return within(environment, 0.0); }
+  /// Returns the pairs with d - M < margin (m), in the order of collisions(). Throws ConfigurationError as
+  /// within(margin).
   std::vector<BodyContact> within(Environment& environment, double margin);
+  /// Returns the pairs of within(environment, margin) with their smallest d - M and closest points (world frame).
   std::vector<ClosestBody> distances(Environment& environment, double margin);
+  /// Returns the pair with the smallest d - M, or nothing if no pair is tested.
   std::optional<ClosestBody> closest(Environment& environment);
 
-  // --- against another robot, each at its base; link1 of this one, link2 of the other. The clearance is the larger of
-  // the two margins().clearance(). ModelError: another engine ---
+  // --- Against another robot, each at its base. link1 belongs to this robot, link2 to the other. All pairs of links
+  // are tested. The clearance is the larger of the two margins().clearance(). Throws ModelError if the other uses
+  // another engine or is this checker itself. ---
 
+  /// Returns true if any two links of the robots collide.
   bool collides(RobotChecker& other);
+  /// Returns the pairs of links that collide, sorted.
   std::vector<LinkContact> collisions(RobotChecker& other) { return within(other, 0.0); }
+  /// Returns the pairs of links with d - M < margin (m), sorted. Throws ConfigurationError as within(margin).
   std::vector<LinkContact> within(RobotChecker& other, double margin);
+  /// Returns the pair with the smallest d - M, or nothing if a robot has no geometry.
   std::optional<ClosestLinks> closest(RobotChecker& other);
 
-  // --- what lies wholly inside a closed mesh that is not solid touches nothing, and no query above reports it ---
+  // --- Containment in closed meshes that are not solid; no query above reports it ---
 
-  /// Among tested pairs whose surfaces are not too close: links inside others, solid or not, sorted by (outer, inner).
-  /// Open meshes are never an outer one: see not_closed(). Costs time proportional to the number of triangles.
+  /// Returns the tested pairs of links whose surfaces do not collide while one is inside the other, solid or not,
+  /// sorted by (outer, inner). Open meshes never count as outer, see not_closed(). O(number of triangles).
   std::vector<LinkContainment> contained();
-  /// The same between links (and held bodies) and bodies. Open bodies: Environment::open_edge().
+  /// The same between links (or held bodies) and bodies. For open meshes of bodies see Environment::open_edge().
   std::vector<BodyContainment> contained(Environment& environment);
-  /// Links with geometry whose meshes are not closed, sorted.
+  /// Returns the links whose meshes are not closed, sorted. The span is valid as long as this checker or a copy of it.
   std::span<const OpenLink> not_closed();
 
  private:
   friend class Environment;
-  struct Topology {  // of the meshes, by link, found when first asked for
+  struct Topology {  // of the meshes, by link; computed when first needed
     std::vector<OpenLink> open;
-    std::vector<std::size_t> first;  // triangle in Robot::model()
+    std::vector<std::size_t> first;  // index of the link's first triangle in Robot::model()
     std::vector<std::uint8_t> is_closed;
     std::vector<std::vector<std::size_t>> parts;
   };
   void place(AnyHierarchy& hierarchy, const Pose& base, detail::PoseSource& kinematics);
   void find_solid_pairs();
   std::optional<ClosestLinks> closest_surfaces(AnyHierarchy& hierarchy);
-  // Coordinates of what was found are so large that its distance has lost digits.
+  // True if the coordinates of the result are so large that its distance has lost digits.
   bool is_far(const ClosestLinks& found) const;
-  // Places nearby_ in the frame of the link's rigid group, and says where that is in the world.
+  // Places nearby_ in the frame of the link's rigid group and returns the world pose of this frame.
   Pose place_nearby(LinkId anchor_link);
-  // There: the pairs whose first link this is, as of distances(), a hair beyond the margin too.
+  // Queries nearby_: the pairs of distances() whose first link is `link`. The margin is slightly enlarged.
   std::vector<ClosestLinks> surfaces_nearby(LinkId link, double margin);
-  // Puts what was found there in place of `found`, points in the world, unless verdicts differ.
+  // Replaces `found` by the result from nearby_, points moved to the world, unless the verdicts differ.
   static void take_nearby(ClosestLinks& found, const ClosestLinks& closer, const Pose& frame);
-  // What lies inside solids; `found` is told until it says true.
+  // Calls found(...) for each component inside a solid, until it returns true. Returns true in that case.
   template <class Found>
   bool find_insides(const Found& found);
   template <class Found>
@@ -193,17 +216,17 @@ class RobotChecker {
   std::string engine_;
   std::optional<AnyHierarchy> hierarchy_;
   std::vector<double> full_;  // one value per DOF of the robot's model
-  std::vector<double> next_;  // scratch: the same to come
+  std::vector<double> next_;  // scratch: the next full_
   std::vector<Pose> poses_;   // scratch
   Pose base_{};
-  std::optional<detail::PoseSource> kinematics_;          // when the base is free: poses relative to the base
+  std::optional<detail::PoseSource> kinematics_;          // set if the base is free: poses relative to the base
   LinkPairHits link_hits_;                                // scratch
-  std::shared_ptr<const SolidPairs> solid_pairs_;         // for hierarchy_
+  std::shared_ptr<const SolidPairs> solid_pairs_;         // for the groups of hierarchy_
   std::vector<std::array<double, 3>> solid_centres_;      // scratch
-  std::optional<AnyHierarchy> nearby_;                    // free in the world, placed in the frame of one of its groups
-  std::shared_ptr<const std::vector<Aabb>> local_boxes_;  // by link, in its frame, radii included; empty: no geometry
-  std::vector<Aabb> link_boxes_;                          // by link, in the world
-  bool link_boxes_stand_ = false;                         // link_boxes_ are those of the present state
+  std::optional<AnyHierarchy> nearby_;                    // free in the world; placed in the frame of one of its groups
+  std::shared_ptr<const std::vector<Aabb>> local_boxes_;  // by link, link frame, radii included; empty box: no geometry
+  std::vector<Aabb> link_boxes_;                          // by link, world frame
+  bool link_boxes_stand_ = false;                         // link_boxes_ belong to the current state
   std::shared_ptr<const Topology> topology_;
 };
 

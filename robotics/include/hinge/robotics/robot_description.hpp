@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// RobotDescription: what a URDF file says of links and joints, as plain structs to read or to fill in by hand.
+// RobotDescription: links and joints of a robot as plain structs, filled by the URDF reader or in code.
 #pragma once
 
 #include <cstdint>
@@ -13,49 +13,51 @@
 
 namespace hinge::robotics {
 
-/// A continuous joint is a revolute one without limits.
+/// A continuous joint is a revolute joint without limits.
 enum class JointType : std::uint8_t { fixed, revolute, continuous, prismatic };
 
-/// The joint follows another one: its value is multiplier * value of `joint` + offset (rad or m).
+/// Makes a joint follow another one: its value is multiplier * value of `joint` + offset (rad or m).
 struct Mimic {
-  std::string joint;
+  std::string joint;  ///< name of the joint that is followed
   double multiplier = 1.0;
   double offset = 0.0;
 };
 
+/// A shape and its pose in a link.
 struct PlacedShape {
   Shape shape;
-  Pose origin{};  ///< of the shape's frame in the link's frame, m
+  Pose origin{};  ///< pose of the shape's frame in the link's frame, m
 };
 
+/// A link with its collision geometry.
 struct LinkDescription {
   std::string name;
-  std::vector<PlacedShape> geometry{};  ///< collision geometry
-  int line = 0;                         ///< in the file it was read from; 0: made in code
+  std::vector<PlacedShape> geometry{};  ///< collision shapes; empty: the link is not tested
+  int line = 0;                         ///< line in the source file; 0: made in code
 };
 
-/// The child's frame is at origin * motion(q) in the parent's frame.
+/// A joint. The pose of the child's frame in the parent's frame is origin * motion(q).
 struct JointDescription {
   std::string name;
   JointType type = JointType::fixed;
-  std::string parent;  ///< link
-  std::string child;   ///< link
-  Pose origin{};
-  Vec3 axis = Vec3::UnitX();  ///< any length but zero, child frame; of no matter to fixed joints
-  double lower = 0.0;         ///< rad or m; of no matter to fixed and continuous joints
+  std::string parent;         ///< name of the parent link
+  std::string child;          ///< name of the child link
+  Pose origin{};              ///< in the parent's frame, m
+  Vec3 axis = Vec3::UnitX();  ///< in the child's frame, any length except 0; ignored for fixed joints
+  double lower = 0.0;         ///< limits, rad or m; ignored for fixed and continuous joints
   double upper = 0.0;
-  std::optional<Mimic> mimic{};  ///< of no matter to fixed joints
-  int line = 0;                  ///< in the file it was read from; 0: made in code
+  std::optional<Mimic> mimic{};  ///< ignored for fixed joints
+  int line = 0;                  ///< line in the source file; 0: made in code
 };
 
-/// Links and joints make one tree, in any order; its root link is fixed in the world.
+/// A robot. Links and joints, in any order, form one tree; its root link is fixed to the world.
 struct RobotDescription {
   std::string name;
   std::vector<LinkDescription> links;
   std::vector<JointDescription> joints;
-  std::vector<std::string> notes{};       ///< what reading left out or had to interpret, one sentence each
-  std::vector<std::string> incomplete{};  ///< links that lack geometry: see UrdfOptions::skip_missing_meshes
-  std::string floating_base{};            ///< the floating or planar joint that was taken as fixed; empty: none
+  std::vector<std::string> notes{};       ///< one sentence for each element that the reader skipped or interpreted
+  std::vector<std::string> incomplete{};  ///< links without some geometry, see UrdfOptions::skip_missing_meshes
+  std::string floating_base{};            ///< floating or planar joint that was treated as fixed; empty: none
 };
 
 }  // namespace hinge::robotics

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every public header of hinge::robotics.
+// Includes every public header of hinge::robotics.
 #pragma once
 
 #include "hinge/robotics/any_hierarchy.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shapes of links as URDF knows them, in metres, centred on their own frame; cylinders and capsules stand along z.
-// Boxes, spheres, cylinders and capsules are solid: what lies inside them collides.
-// Sizes are 0 or above: a sphere of radius 0 is a point, a box with one side of 0 is flat.
+// Shapes of links as in URDF: lengths in m, centred on their own frame; cylinders and capsules are aligned with z.
+// Boxes, spheres, cylinders and capsules are solid: a link inside one collides. Sizes are >= 0: a sphere of radius 0 is
+// a point, a box with one size of 0 is flat.
 #pragma once
 
 #include <cstddef>
@@ -15,38 +15,44 @@
 
 namespace hinge::robotics {
 
+/// A solid box.
 struct BoxShape {
-  Vec3 size = Vec3::Ones();  ///< edge lengths
+  Vec3 size = Vec3::Ones();  ///< edge lengths along x, y, z, m
 };
 
+/// A solid sphere.
 struct SphereShape {
-  double radius = 1.0;
+  double radius = 1.0;  ///< m
 };
 
+/// A solid cylinder.
 struct CylinderShape {
-  double radius = 1.0;
-  double length = 1.0;
+  double radius = 1.0;  ///< m
+  double length = 1.0;  ///< m, along z
 };
 
-/// What is at most `radius` away from a segment.
+/// A solid capsule: all points within `radius` of a segment.
 struct CapsuleShape {
-  double radius = 1.0;
-  double length = 1.0;  ///< of the segment: from end to end it is length + 2 radius
+  double radius = 1.0;  ///< m
+  double length = 1.0;  ///< m, length of the segment along z; the capsule is length + 2 radius long
 };
 
-/// A surface; closed or not, nothing is assumed.
+/// Triangles of a surface, which may be open or closed.
 struct TriangleMesh {
-  std::vector<Triangle> triangles;
+  std::vector<Triangle> triangles;  ///< m
 };
 
+/// A mesh in a link or body.
 struct MeshShape {
-  std::shared_ptr<const TriangleMesh> mesh;  ///< shared by the links that use the same file
-  Vec3 scale = Vec3::Ones();                 ///< factor per axis, negative ones mirror; none is 0
-  std::filesystem::path file{};              ///< where it was read from; empty when made in code
-  /// What lies inside collides, as in a box. The mesh has to be closed, see open_edge() in containment.hpp.
+  std::shared_ptr<const TriangleMesh> mesh;  ///< may be shared by several links
+  Vec3 scale = Vec3::Ones();                 ///< factor per axis; negative values mirror; must not be 0
+  std::filesystem::path file{};              ///< source file; empty if made in code
+  /// True: the inside of the mesh collides, as in a box. The mesh must then be closed, see open_edge() in
+  /// containment.hpp.
   bool solid = false;
 };
 
+/// The shapes that a link or body can have.
 using Shape = std::variant<BoxShape, SphereShape, CylinderShape, CapsuleShape, MeshShape>;
 
 }  // namespace hinge::robotics

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// spheres_of: a robot whose collision geometry is spheres alone, as a model of spheres.
+// spheres_of: converts a robot whose collision shapes are all spheres to a model of spheres.
 #pragma once
 
 #include "hinge/model/model.hpp"
@@ -8,9 +8,10 @@
 
 namespace hinge::robotics {
 
-/// Links and DOF as in robot.model(), metres; spheres in the order of their links. Made with Tessellation::rounded, the
-/// robot has one triangle for each sphere, in the same order: LinkPairFilter fits both. A full configuration is
-/// robot.expand() of one. ModelError, naming the link: a shape that is no sphere.
+/// Returns a model of spheres with the links and DOF of robot.model(), in m, spheres in the order of their links. If
+/// the robot was made with Tessellation::Manner::rounded, it has one triangle per sphere in the same order, so that one
+/// LinkPairFilter fits both models. robot.expand() gives a full configuration. Throws ModelError, naming the link, if a
+/// shape is not a sphere.
 Model<Sphere> spheres_of(const Robot& robot);
 
 }  // namespace hinge::robotics

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// tessellate: triangles for boxes, spheres, cylinders and capsules, exact or with a stated error on the safe side.
+// tessellate: converts shapes to triangles, exactly or with a bounded error on the safe side.
 #pragma once
 
 #include <cstdint>
@@ -10,31 +10,32 @@
 
 namespace hinge::robotics {
 
-/// Boxes and meshes are exact in any manner.
+/// How shapes become triangles. Boxes and meshes are exact in every manner.
 struct Tessellation {
   enum class Manner : std::uint8_t {
-    /// Spheres and capsules are exact: a point and a segment with a radius. The rest is circumscribed.
+    /// Spheres and capsules are exact: a point or a segment with a radius. Cylinders are circumscribed.
     rounded,
-    /// Triangles alone. The surface encloses the shape (up to rounding) and is nowhere farther than `tolerance` from
-    /// it: a contact is never missed.
+    /// Triangles without radius. The surface encloses the shape (up to rounding) and is at most `tolerance` away from
+    /// it, so no contact is missed.
     circumscribed,
-    /// Triangles alone, vertices on the shape, 32 sides a cylinder, 320 triangles a sphere: the manner of the published
-    /// reference data. A capsule is such a sphere drawn apart.
+    /// Triangles without radius and with vertices on the shape: 32 sides per cylinder, 320 triangles per sphere, as in
+    /// the published reference data. A capsule is a sphere of this kind, split and extended along z.
     inscribed
   };
   Manner manner = Manner::rounded;
-  double tolerance = 1e-3;  ///< m, finite, > 0; 1 mm is what meshes of robot links are about as good as
+  double tolerance = 1e-3;  ///< m, finite, > 0; 1 mm is about the accuracy of link meshes
 };
 
-/// What is at most `radius` away from the triangles; those of spheres and capsules are degenerate, and solid then.
+/// A surface: all points within `radius` of the triangles. Triangles of spheres and capsules are degenerate; with their
+/// radius they are solid.
 struct Surface {
-  std::vector<Triangle> triangles;
-  double radius = 0.0;  ///< m
+  std::vector<Triangle> triangles;  ///< m, in the shape's frame
+  double radius = 0.0;              ///< m
 };
 
-/// A shape in its own frame, mesh scale applied. Sizes of 0 give a point or a segment (one triangle without area) or a
-/// flat solid (no triangle twice). ModelError: sizes below 0, a scale of 0, a tolerance not above 0, any of them not
-/// finite, or a tolerance so small that it would take more than 10^6 triangles.
+/// Returns a shape's surface in its own frame, with the mesh scale applied. A size of 0 gives a point or a segment (one
+/// triangle without area) or a flat solid (each triangle once). Throws ModelError if a size is negative, a scale is 0,
+/// the tolerance is not above 0, any of them is not finite, or the tolerance needs more than 10^6 triangles.
 Surface tessellate(const Shape& shape, const Tessellation& tessellation = {});
 
 }  // namespace hinge::robotics

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pair rule of robots, and the pair filter over triangles it makes.
+// tested_pairs and LinkPairFilter: the pairs of links that a robot tests, and their filter over triangles.
 #pragma once
 
 #include <cstddef>
@@ -15,26 +15,33 @@
 
 namespace hinge::robotics {
 
-/// Pairs of links with geometry, except: links of one rigid group; links of two groups joined by one movable joint;
-/// disabled ones. Rigid groups are those of all joints free. ModelError: `disabled` made for another number of links.
+/// Returns the pairs of links that are tested: all pairs with geometry, except pairs within one rigid group, pairs of
+/// two groups that one movable joint connects, and disabled pairs. Rigid groups are those with all joints free. Throws
+/// ModelError if `disabled` was made for another number of links.
 LinkPairs tested_pairs(const Robot& robot, const LinkPairs& disabled);
+/// The same without disabled pairs.
 LinkPairs tested_pairs(const Robot& robot);
 
-/// Admits triangles of links that are tested against each other. Copies share one constant table.
+/// Admits pairs of triangles whose links are tested. Copies share one constant table, so reading is thread-safe.
 class LinkPairFilter {
  public:
-  /// ModelError: pairs made for another number of links.
+  /// Throws ModelError if `tested` was made for another number of links.
   LinkPairFilter(const Robot& robot, LinkPairs tested);
 
+  /// Returns true if the pair of triangles, or of links, is tested.
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept { return admits(link_of(i), link_of(j)); }
   bool admits(LinkId a, LinkId b) const noexcept { return data_->tested.contains(a, b); }
+  /// Returns the link of a triangle.
   LinkId link_of(PrimitiveId i) const noexcept { return data_->link_of[index(i)]; }
+  /// Returns the number of triangles.
   std::size_t size() const noexcept { return data_->link_of.size(); }
+  /// Returns the tested pairs.
   const LinkPairs& tested() const noexcept { return data_->tested; }
 
+  /// How many pairs between two sets of links are admitted.
   enum class Admission : std::uint8_t { none, some, all };
-  /// Of the pairs between the links of two rigid groups (each with at least one link that has triangles; only those
-  /// are to be listed): if not `some`, the groups need no look-up by link.
+  /// Returns how many pairs between the links of two rigid groups are admitted. The lists must contain only links with
+  /// triangles, at least one each. If the result is not `some`, queries need no look-up per link.
   Admission between(std::span<const LinkId> a, std::span<const LinkId> b) const noexcept;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tier: how accurately a link is modelled, from its exact surface down to one capsule, chosen link by link.
+// Tier: the accuracy of a link's geometry, from its exact surface to one capsule, chosen per link.
 #pragma once
 
 #include <cstddef>
@@ -13,30 +13,33 @@
 
 namespace hinge::robotics {
 
-/// All but `mesh` enclose the link's surfaces, by 10^-10 m at least, so that none of them misses a contact that the
-/// exact surfaces have, whatever is mixed. Hulls and capsules are solid, so that they also hold what lies inside a
-/// solid shape. Spheres cover the surface alone: what lies deep inside a solid shape, touching no sphere, is missed.
+/// All tiers but `mesh` enclose the surfaces of the link with a margin of at least 10^-10 m. Any mixture of tiers
+/// therefore reports every contact of the exact surfaces. Hulls and capsules are solid and also enclose the inside of
+/// solid shapes. Spheres cover only the surface: they miss an object deep inside a solid shape that touches no sphere.
 enum class Tier : std::uint8_t {
-  mesh,  ///< the shapes as they are
-  hull,  ///< the convex hull of all shapes of the link, at most 10^-5 m too large (rounded shapes: the tolerance more)
-  capsule,  ///< one capsule or sphere around all of them
-  spheres   ///< a number of spheres over their surface
+  mesh,     ///< the shapes of the description
+  hull,     ///< convex hull of all shapes, at most 10^-5 m too large, plus Tiers::tolerance for rounded shapes
+  capsule,  ///< one capsule or sphere around all shapes
+  spheres   ///< several spheres that cover the surface
 };
 
-/// "mesh", "hull", "capsule" or "spheres"; ModelError for anything else.
+/// Returns the tier called "mesh", "hull", "capsule" or "spheres". Throws ModelError for any other name.
 Tier tier_named(std::string_view name);
+/// Returns the name of a tier. The string is static.
 const char* name(Tier tier) noexcept;
 
+/// The tiers of a robot.
 struct Tiers {
-  Tier all = Tier::mesh;
-  std::map<std::string, Tier, std::less<>> links{};  ///< those that differ, by name
-  std::size_t most_spheres = 32;                     ///< of a link, >= 1
-  double tolerance = 1e-3;  ///< m; how far a hull may be from the spheres, cylinders and capsules in it
+  Tier all = Tier::mesh;                             ///< for all links that `links` does not name
+  std::map<std::string, Tier, std::less<>> links{};  ///< exceptions, by link name
+  std::size_t most_spheres = 32;                     ///< largest number per link, >= 1
+  double tolerance = 1e-3;  ///< m; largest distance of a hull from the spheres, cylinders and capsules inside
 };
 
-/// The same robot with the links' shapes replaced. A link whose only shape is a sphere or capsule keeps it in every
-/// tier: nothing is cheaper, and it is exact. ModelError: what Robot refuses; a link that does not exist, no spheres,
-/// a tolerance that is not finite or not above 0, coordinates too large for a hull (beyond some 10^4 m).
+/// Returns the description with the shapes of the links replaced. A link whose only shape is a sphere or capsule keeps
+/// it in every tier, because it is exact and cheapest. Throws ModelError if Robot would reject the description, a link
+/// does not exist, most_spheres is 0, the tolerance is not finite or not above 0, or coordinates are too large for a
+/// hull (above about 10^4 m).
 RobotDescription with_tiers(RobotDescription description, const Tiers& tiers);
 
 }  // namespace hinge::robotics

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// write_srdf: a collision matrix as an SRDF file that says of every disabled pair why, and of every other what was
-// seen. merge_srdf: the same put into an SRDF file that there is.
+// write_srdf and merge_srdf: write a collision matrix as an SRDF file, or add it to an existing one.
 #pragma once
 
 #include <filesystem>
@@ -12,17 +11,18 @@
 
 namespace hinge::robotics {
 
-/// One disable_collisions element per disabled pair, in the order of the entries, with the reasons Adjacent, Always,
-/// Default and Never that MoveIt's setup assistant uses. Never is written for proved pairs alone; a disabled pair that
-/// was merely not seen has the reason NotSeen and a comment. All other pairs are listed in comments. read_srdf() of
-/// what is written gives disabled_pairs(robot, matrix, unseen).
+/// Writes an SRDF file with one disable_collisions element per disabled pair, in the order of the entries. The reasons
+/// Adjacent, Always, Default and Never are those of MoveIt's setup assistant; Never is used only for proved pairs. A
+/// disabled pair that was only not seen has the reason NotSeen and a comment. All other pairs are listed in comments.
+/// read_srdf() of the result gives disabled_pairs(robot, matrix, unseen).
 void write_srdf(const Robot& robot, const CollisionMatrix& matrix, std::ostream& out,
                 UnseenPairs unseen = UnseenPairs::tested);
 
-/// The file as it is, every byte of it, with that put in before its end: elements for disabled pairs that the file
-/// neither disables nor enables, comments for all others but those it disables. Of a pair that the file disables a
-/// comment says when it was seen to collide; of one that it enables, what would have disabled it. `srdf`: what
-/// read_srdf() makes of the file. LoadError: it cannot be read.
+/// Copies the SRDF file `path` byte for byte and inserts the matrix before its last closing tag. Inserts an element for
+/// each disabled pair that the file neither disables nor enables. For a pair that the file disables, a comment is
+/// inserted only if it was seen to collide. For a pair that the file enables, a comment names the reason to disable it,
+/// if there is one. All other pairs get a comment. `srdf` is the result of read_srdf() for the file. Throws LoadError
+/// if the file cannot be read.
 void merge_srdf(const std::filesystem::path& path, const Srdf& srdf, const Robot& robot, const CollisionMatrix& matrix,
                 std::ostream& out, UnseenPairs unseen = UnseenPairs::tested);
 
