@@ -22,10 +22,11 @@ inline constexpr double largest_length = 1e9;
 /// The range least <= x <= most, or least < x <= most if above_least.
 template <class Number>
 struct NumberRange {
-  Number least, most;  ///< both in the unit of the option
-  bool above_least = false;
+  Number least, most;        ///< both in the unit of the option
+  bool above_least = false;  ///< `least` itself is excluded
 
-  bool holds(Number x) const { return (above_least ? x > least : x >= least) && x <= most; }  // false for NaN
+  /// True if x is in the range; false for NaN.
+  bool holds(Number x) const { return (above_least ? x > least : x >= least) && x <= most; }
   /// The range in words, for messages.
   std::string text() const {
     return (above_least ? "above " + number_text(least) + ", at most " : "from " + number_text(least) + " to ") +

@@ -40,7 +40,8 @@ class SphereBatch {
   template <PairFilter F>
   SphereBatch(const Model<Sphere>& model, const F& filter)
       : SphereBatch(model, DofSelection::all(model.tree()), filter) {}
-  /// Frees only the selected DOF; all others stay at their reference.
+  /// Frees only the selected DOF; all others stay at their reference. Throws ModelError also for a selection of another
+  /// tree.
   template <PairFilter F>
   SphereBatch(const Model<Sphere>& model, const DofSelection& selection, const F& filter)
       : SphereBatch(std::make_shared<const SelectedModel<Sphere>>(checked(model, filter), selection), filter) {}

@@ -42,10 +42,10 @@ class StateBatch {
  public:
   static constexpr std::size_t size = detail::FrameLanes::size;  ///< configurations in a full block
 
-  /// Frees every DOF. Throws as Hierarchy does.
+  /// Frees every DOF. Throws ModelError as Hierarchy does. Copies `model`, `filter` and `matrix`.
   StateBatch(const Model<P>& model, F filter, D matrix)
       : StateBatch(model, DofSelection::all(model.tree()), std::move(filter), std::move(matrix)) {}
-  /// Frees only the selected DOF; all others stay at their reference.
+  /// Frees only the selected DOF; all others stay at their reference. Throws ModelError as Hierarchy does.
   StateBatch(const Model<P>& model, DofSelection selection, F filter, D matrix)
       : single_(model, std::move(selection), std::move(filter), std::move(matrix)),
         frames_(*single_.model().groups()),

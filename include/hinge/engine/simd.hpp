@@ -52,7 +52,7 @@ class Simd {
   Placement<P>& placement() noexcept { return placement_; }
   const Placement<P>& placement() const noexcept { return placement_; }
 
-  /// Hands the pairs i < j with d - M <= collector.cutoff() to `collector`, until it is done.
+  /// Hands the admitted pairs i < j within the cutoff to `collector` (see Collector), until it is done.
   template <Collector C>
   void self_query(C& collector, const QueryOptions& options) {
     detail::WorkBudget budget;

@@ -36,7 +36,7 @@ namespace hinge {
 template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf = Simd>
 class MoveChecker {
  public:
-  /// Starts at the reference: every value is 0.
+  /// Starts at the reference: every value is 0. The state of `hierarchy` does not matter.
   explicit MoveChecker(Hierarchy<P, F, D, EngineOf> hierarchy)
       : hierarchy_(std::move(hierarchy)),
         cut_(*model().groups(), hierarchy_.get().dof_count()),
@@ -51,7 +51,8 @@ class MoveChecker {
   void set(std::span<const double> q);
 
   /// Returns true if the changed state is free. The move is pending until accept(), reject() or the next try. Throws
-  /// ConfigurationError if a DOF does not exist or is listed twice, or a value is not finite; nothing changes then.
+  /// ConfigurationError for an unknown or repeated DOF, a value that is not finite, or a slide above 2^1000; nothing
+  /// changes then.
   bool try_move(std::span<const DofChange> changes) { return !attempt(changes, false); }
   /// Tries a move and returns all pairs that collide after it, sorted by (first, second). Valid until the next call.
   const std::vector<Hit>& try_move_listed(std::span<const DofChange> changes) {
@@ -69,7 +70,6 @@ class MoveChecker {
   }
 
   // The functions below describe the state without the pending move.
-
   /// dof_count() values, rad or model length unit. Valid until the state changes.
   std::span<const double> configuration() const noexcept { return q_; }
   /// Returns true if the state has a colliding pair.

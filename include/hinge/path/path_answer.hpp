@@ -36,13 +36,13 @@ struct PathCounts {
   std::uint64_t pairs_proved = 0;  ///< pairs_listed that were proved apart over the whole segment
 };
 
-/// The default smallest step, as a share of the path: 2^-20, about a millionth. A pair that no longer segment settles
-/// touches its threshold, or nearly so.
+/// The default smallest step, as a share of the path: 2^-20, about a millionth. A pair that is undecided at this
+/// length touches its threshold, or nearly so.
 inline constexpr double smallest_path_step = 0x1p-20;
 
 /// The answer for the path q(t) = q0 + t (q1 - q0), 0 <= t <= 1.
 struct PathAnswer {
-  PathVerdict verdict = PathVerdict::undecided;
+  PathVerdict verdict = PathVerdict::undecided;  ///< the verdict on the whole path
   /// colliding: t of the collision; undecided: t in the middle of an undecided segment
   double parameter = 0.0;
   double half_width = 0.0;  ///< undecided: half the length of that segment; otherwise 0
@@ -50,7 +50,7 @@ struct PathAnswer {
   std::vector<double> configuration;
   /// colliding: a pair that collides; undecided: a pair that was not proved apart, if one is known
   std::optional<Hit> hit;
-  PathCounts counts;
+  PathCounts counts;  ///< work done for this answer
 
   /// True if the verdict is free.
   bool is_free() const noexcept { return verdict == PathVerdict::free; }

@@ -39,10 +39,11 @@ class StraightPath {
     }
   }
 
-  /// The start q0 and the end q1: dof_count values each. All spans are valid for the life of the path.
+  /// The start q0: dof_count values. This span and the next two are valid for the life of the path.
   std::span<const double> from() const noexcept { return from_; }
+  /// The end q1: dof_count values.
   std::span<const double> to() const noexcept { return to_; }
-  /// q1 - q0, rounded.
+  /// The difference q1 - q0, rounded: dof_count values.
   std::span<const double> rate() const noexcept { return rate_; }
 
   /// Writes the state at t into q, rounded. The state is exactly q0 at t = 0, q1 at t = 1, and both where q0 = q1.

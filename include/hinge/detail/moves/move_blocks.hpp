@@ -208,7 +208,7 @@ class MoveBlocks {
   float extent() const noexcept { return extent_; }
   /// Resets extent(). The caller must place all blocks after this.
   void forget_extent() noexcept { extent_ = 0.0F; }
-  /// A rejected move must not enlarge extent().
+  /// Restores extent() after a move whose coordinates floats cannot hold.
   void restore_extent(float extent) noexcept { extent_ = extent; }
 
   /// Bound of the error of distances between moved floats, scaled. motion_error: model unit. Derivation:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// BlockLayout: which primitives engine/simd puts side by side: blocks of sixteen, and the entries the sweep works on.
+// BlockLayout: divides the primitives of engine/simd into blocks of sixteen, and the blocks into entries of the sweep.
 #pragma once
 
 #include <algorithm>

@@ -56,7 +56,8 @@ inline TreePart merge_parts(const std::vector<TreePart>& parts, std::span<const 
   return whole;
 }
 
-/// The radius of a ball around the middle of `box` that contains the members: their balls, or all corners of `box`.
+/// The radius of a ball around the middle of `box` that contains the members: it covers their balls or `box`,
+/// whichever is smaller.
 inline float merged_radius(const PartSet& links, std::span<const std::uint32_t> members, const TreeBox& box) {
   double around = 0.0, corner = 0.0;
   for (const std::uint32_t p : members) {

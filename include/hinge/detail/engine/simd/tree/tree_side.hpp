@@ -176,8 +176,8 @@ class TreeSide {
 
  private:
   /// Calls visit(p, part) -> bool for the tree parts whose boxes come within `margin` of tree part q of the other
-  /// model. If several of one group are near, and the collector need not distinguish links, the whole group is visited
-  /// once, with p the first of them.
+  /// model. If several of one group are near, all its links are wanted, and the collector need not distinguish links,
+  /// the whole group is visited once, with p the first of them.
   template <Collector C, class PairTest, class Visit>
   void each_meeting(const CrossOperands<P>& cross, const PairTest& pair_test, std::size_t q, float margin,
                     const Visit& visit) {
