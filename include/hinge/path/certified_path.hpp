@@ -48,8 +48,7 @@ class CertifiedPath {
   PathAnswer check(std::span<const double> from, std::span<const double> to, double smallest_step = smallest_path_step);
 
  private:
-  // A path that needs more segments than this is left undecided.
-  static constexpr std::size_t most_segments = std::size_t{1} << 17;
+  static constexpr std::size_t most_segments = std::size_t{1} << 17;  // a path that needs more is left undecided
   // A segment whose displacement exceeds the limit by this factor is halved: speeds differ along the path.
   static constexpr double most_above_limit = 1.5;
   static constexpr double most_pieces = 4096.0;
