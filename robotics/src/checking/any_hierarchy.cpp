@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The choice of an engine by name.
+// Makes the hierarchy for an engine given by name.
 #include "hinge/robotics/any_hierarchy.hpp"
 
 #include "hinge/core/error.hpp"

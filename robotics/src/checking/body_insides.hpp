@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What of a robot lies inside a solid body, or the other way round.
+// find_insides: robot links inside solid bodies, and bodies inside solid links.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 
 namespace hinge::robotics {
 
-/// The two of the contact share this point.
+/// The result for a contact by containment: both closest points are `point`.
 inline ClosestBody inside_of(const BodyContact& contact, const Vec3& point) noexcept {
   return {contact.link,           contact.held, contact.body, contact.hit.first, contact.hit.second, 0.0,
           -contact.hit.threshold, point,        point};
@@ -28,7 +28,7 @@ inline bool is_closer(const ClosestBody& x, const ClosestBody& y) noexcept {
   return std::pair(x.gap, x.distance) < std::pair(y.gap, y.distance);
 }
 
-/// `found` is told a contact and a point that the two share, until it says true.
+/// Calls found(contact, point) for each containment, with a common point of both (world), until it returns true.
 template <class Found>
 bool RobotChecker::find_insides(const BodyPair& pair, const Environment& environment, const Found& found) {
   const Solids& of_body = pair.body->shape->solids();

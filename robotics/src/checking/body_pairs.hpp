@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// BodyPair: a robot, or a body it holds, and another body; and how such a pair is asked.
+// BodyPair: a robot or a body that it holds, paired with another body, and the query of one such pair.
 #pragma once
 
 #include <span>
@@ -15,10 +15,10 @@
 
 namespace hinge::robotics {
 
-/// Admits what is not on a link that may touch the body.
+/// Admits triangles of links that may not touch the body.
 struct OtherLinks {
   std::span<const LinkId> links;
-  const std::vector<bool>* may_touch = nullptr;  // by link; empty: none may
+  const std::vector<bool>* may_touch = nullptr;  // by link; empty: no link may
 
   bool admits(LinkId link, LinkId) const noexcept { return may_touch->empty() || !(*may_touch)[index(link)]; }
   bool admits(PrimitiveId i, PrimitiveId) const noexcept { return admits(links[index(i)], LinkId{}); }
@@ -27,22 +27,22 @@ struct OtherLinks {
 static_assert(PairFilter<OtherLinks>);
 
 struct RobotChecker::BodyPair {
-  Environment::Body* held = nullptr;  ///< null: the robot itself
+  Environment::Body* held = nullptr;  ///< the body held by the robot; null: the robot itself
   BodyId held_id{};
   Environment::Body* body = nullptr;
   BodyId body_id{};
-  std::vector<bool> may_touch{};  ///< links of the robot that are not tested; empty: all are
-  double lower = 0.0;             ///< no pair of triangles has a d - M below it
+  std::vector<bool> may_touch{};  ///< links of the robot to skip; empty: test all
+  double lower = 0.0;             ///< m, lower bound of d - M for all pairs of triangles
 
   bool tests(std::size_t link) const noexcept { return may_touch.empty() || !may_touch[link]; }
 };
 
-/// f(mine, theirs, filter, options), with thresholds raised by `extra`.
+/// Calls f(mine, theirs, filter, options) with all thresholds raised by `extra` (m).
 template <class Ask>
 auto RobotChecker::ask(const BodyPair& pair, const Environment& environment, const Ask& f, double extra) {
   const bool is_held = pair.held != nullptr;
   AnyHierarchy& first = is_held ? pair.held->hierarchy : *hierarchy_;
-  // Bodies bring the clearance of the environment, all of them.
+  // Every body already has the full clearance of the environment, so a held body needs no more.
   const double missing = is_held ? 0.0 : missing_clearance(margins_.clearance(), environment.clearance());
   const std::vector<double> more = for_all_groups(first, missing + extra);
   const OtherLinks filter{robot_->model().links(), &pair.may_touch};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Yes and no come from closer_than(), which is exact; what rounding makes of the numbers is brought in line with it.
+// Measures a pair of triangles. closer_than() decides exactly; the rounded numbers are adjusted to agree with it.
 #include "checking/closeness.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace hinge::robotics {
 
 namespace {
 
-/// Squares of lengths times this are doubles, however long they are; a power of two.
+/// A power of two. Squares of lengths scaled by it stay in the range of doubles.
 constexpr double small = 0x1p-500;
 
 Triangle shrunk(const Triangle& t) { return {t.a * small, t.b * small, t.c * small}; }
@@ -54,7 +54,7 @@ Closeness closeness(const Triangle& first, const Triangle& second, const RadiusS
   result.point1 = p;
   result.point2 = q;
   if (meet) {
-    // Divides the way as the radii do, so it is inside both.
+    // Divides the segment in the ratio of the radii, so the point is inside both.
     if (radii > 0.0) result.point1 = p + way * (sum.first / radii);
     result.point2 = result.point1;
   } else if (radii > 0.0 && length > 0.0) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Closeness: the numbers and points of one pair of triangles, such that they never contradict a verdict.
+// Closeness: distance, gap and closest points of one pair of triangles, always consistent with the verdict.
 #pragma once
 
 #include <cstddef>
@@ -11,26 +11,26 @@
 
 namespace hinge::robotics {
 
-/// As in ClosestLinks.
+/// Fields as in ClosestLinks; m, in the frame of the triangles.
 struct Closeness {
-  bool collides = false;  ///< the pair is a hit
+  bool collides = false;  ///< true if the pair is a hit
   double distance = 0.0;
   double gap = 0.0;
   Vec3 point1 = Vec3::Zero();
   Vec3 point2 = Vec3::Zero();
 };
 
-/// Of placed triangles grown by the radii of `sum`, m, with its clearance.
+/// Measures two placed triangles, inflated by the radii of `sum` (m), with its clearance.
 Closeness closeness(const Triangle& first, const Triangle& second, const RadiusSum& sum);
 
-/// A triangle where the hierarchy's engine sees it. Hierarchy::placed() would place all the others, too.
+/// Returns a placed triangle with the coordinates that the engine uses. Hierarchy::placed() would place all triangles.
 template <class H>
 Triangle triangle_at(H& hierarchy, PrimitiveId i) {
   const auto& model = hierarchy.model();
   const Triangle& local = model.primitives()[index(i)];
   const GroupId group = model.group_of(i);
   if (group == GroupId{}) return local;
-  // The topmost link of a group has the group's frame.
+  // The topmost link of a group defines the group's frame.
   std::size_t top = 0;
   while (model.groups()->group_of(id<LinkId>(top)) != group) ++top;
   return local.placed(hierarchy.link_pose(id<LinkId>(top)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contacts of links: answers put together from surfaces that meet and from what lies inside solids.
+// Helpers that merge contacts of surfaces with contacts inside solids.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace hinge::robotics {
 
-/// Into a sorted list; in the place of what is there of the same links.
+/// Inserts a contact into a sorted list, or replaces the contact of the same links.
 inline void put_contact(std::vector<LinkContact>& contacts, const LinkContact& contact) {
   const auto links = [](const LinkContact& c) { return std::pair(c.link1, c.link2); };
   const auto at = std::lower_bound(contacts.begin(), contacts.end(), contact,
@@ -26,14 +26,15 @@ inline void put_contact(std::vector<LinkContact>& contacts, const LinkContact& c
   }
 }
 
-/// Takes the two that `contact` names for the closest when their d - M is smaller, or the same and they are the first
-/// to meet. Those meet at `point`.
+/// Replaces `best` by the pair of `contact` if its d - M is smaller, or if it is equal and `best` does not touch. The
+/// links of `contact` share `point` (world).
 inline void take_closer(std::optional<ClosestLinks>& best, const LinkContact& contact, const Vec3& point) {
   const double gap = -contact.hit.threshold;
   if (best && !(std::pair(gap, 0.0) < std::pair(best->gap, best->distance))) return;
   best = ClosestLinks{contact.link1, contact.link2, contact.hit.first, contact.hit.second, 0.0, gap, point, point};
 }
 
+/// Combines a hit with its numbers.
 inline ClosestLinks answer(LinkId link1, LinkId link2, const Hit& hit, const Closeness& found) {
   return {link1, link2, hit.first, hit.second, found.distance, found.gap, found.point1, found.point2};
 }

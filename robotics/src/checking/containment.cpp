@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Edges paired off for closedness, and winding numbers along an exact ray for insideness.
+// Counts directed edges to test closedness, and winding numbers along an exact ray to test insideness.
 #include "hinge/robotics/containment.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace hinge::robotics {
 
 namespace {
 
-/// A number for every vertex, the same for equal coordinates; three a triangle.
+/// Returns a number per vertex, three vertices per triangle. Vertices with equal coordinates have equal numbers.
 std::vector<std::uint32_t> vertex_numbers(std::span<const Triangle> mesh) {
   const auto vertex = [&](std::uint32_t k) -> const Vec3& {
     const Triangle& t = mesh[k / 3];
@@ -39,9 +39,10 @@ std::string coordinates_text(const Vec3& v) {
   return text + ")";
 }
 
-/// On which side of the line ab, seen along z, does p lie, pushed by an infinitesimal along x and a smaller one along
-/// y? 0 only when a and b are the same point so seen. (Edelsbrunner and Muecke, "Simulation of simplicity", 1990, for
-/// the one point p.) Swapping a and b turns the sign, so neighbours agree about the edge they share.
+/// Returns the side of line ab, projected along z, on which p lies. p is shifted by an infinitesimal along x and a
+/// smaller one along y. The result is 0 only if the projections of a and b coincide (Edelsbrunner and Muecke,
+/// "Simulation of simplicity", 1990, applied to p alone). Swapping a and b negates the sign, so two triangles agree
+/// about a common edge.
 int pushed_side(const Vec3& a, const Vec3& b, const Vec3& p) noexcept {
   if (const int side = detail::exact::orient2d(a, b, p, 2); side != 0) return side;
   if (a[1] != b[1]) return a[1] > b[1] ? 1 : -1;
@@ -56,7 +57,7 @@ std::string OpenEdge::text() const {
 
 std::optional<OpenEdge> open_edge(std::span<const Triangle> mesh) {
   struct Edge {
-    std::uint32_t low, high, place;  // place: three a triangle
+    std::uint32_t low, high, place;  // place: index of the edge, three per triangle
     bool upward;
   };
   const std::vector<std::uint32_t> number = vertex_numbers(mesh);
@@ -86,7 +87,7 @@ std::optional<OpenEdge> open_edge(std::span<const Triangle> mesh) {
 
 std::vector<std::size_t> part_numbers(std::span<const Triangle> mesh) {
   const std::vector<std::uint32_t> number = vertex_numbers(mesh);
-  // Union-find over vertices; the root is the smallest place of its part.
+  // Union-find over vertices. The root is the smallest vertex index of its component.
   std::vector<std::uint32_t> root(number.size());
   std::iota(root.begin(), root.end(), 0U);
   const auto find = [&](std::uint32_t k) {
@@ -116,9 +117,9 @@ std::vector<std::size_t> parts(std::span<const Triangle> mesh) {
 }
 
 Place place_of(const Vec3& point, std::span<const Triangle> closed_mesh) noexcept {
-  // Along the ray from the point towards +z every triangle above counts as it is turned. The push of pushed_side()
-  // keeps the ray off edges and vertices. A triangle whose plane holds the point while the ray meets it, holds the
-  // point; the push moves the point by less than anything.
+  // Adds the orientations of all triangles that the ray from the point towards +z crosses. The shift of pushed_side()
+  // keeps the ray off edges and vertices. A triangle whose plane contains the point and that the ray meets contains the
+  // point itself; the infinitesimal shift does not change this.
   std::ptrdiff_t winding = 0;
   for (const Triangle& t : closed_mesh) {
     double low = std::min({t.a[0], t.b[0], t.c[0]}), high = std::max({t.a[0], t.b[0], t.c[0]});

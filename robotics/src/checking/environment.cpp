@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies: each a hierarchy of its own with one free group, so that a pose never touches what was built.
+// Implements bodies. Each has its own hierarchy with one free group, so a new pose never rebuilds anything.
 #include "hinge/robotics/environment.hpp"
 
 #include <algorithm>
@@ -29,14 +29,15 @@ std::string who(std::size_t number, const std::string& name) {
   return "body " + std::to_string(number) + (name.empty() ? "" : " '" + name + "'");
 }
 
-/// A root without geometry, and one link with the shape that turns against it: as far as hierarchies know, it is free.
+/// Returns a root without geometry and one link with the shape, on a joint. Hierarchies place the link by its pose, so
+/// it moves freely.
 std::shared_ptr<const Robot> robot_of(const Shape& shape, const Tessellation& tessellation) {
   RobotDescription description{"body", {{"ground"}, {"body"}}, {{"pose", JointType::continuous, "ground", "body"}}};
   description.links[1].geometry.push_back({shape});
   return std::make_shared<const Robot>(std::move(description), tessellation);
 }
 
-/// Around all triangles, radii included.
+/// Returns the bounds of all triangles in the body's frame, radii included.
 Aabb box_of(const Robot& robot) {
   Aabb box;
   for (std::size_t i = 0; i < robot.model().size(); ++i) {

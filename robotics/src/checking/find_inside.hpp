@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// find_inside: what lies inside a solid without touching its surface, at the present state of hierarchies.
+// find_inside: finds components of a link inside a solid that do not touch its surface, at the current state.
 #pragma once
 
 #include <array>
@@ -22,26 +22,26 @@
 
 namespace hinge::robotics {
 
-/// A part of `inner` lies inside a solid of `outer`, or their surfaces meet.
+/// A component of `inner` with a vertex inside a solid of `outer`: it lies inside, or the surfaces touch.
 struct Inside {
   LinkId outer{};
   LinkId inner{};
-  PrimitiveId outer_triangle{};  ///< any of the solid's
-  PrimitiveId inner_triangle{};  ///< one of the part's
-  Vec3 point = Vec3::Zero();     ///< a vertex of the part, world
+  PrimitiveId outer_triangle{};  ///< first triangle of the solid
+  PrimitiveId inner_triangle{};  ///< a triangle of the component
+  Vec3 point = Vec3::Zero();     ///< a vertex of the component, world frame
 
-  /// As a query of one model reports a pair: the two share a point, their distance is 0.
+  /// Returns the pair as queries of one model report it, with first < second and distance 0.
   Hit hit(double threshold) const noexcept {
     return outer_triangle < inner_triangle ? Hit{outer_triangle, inner_triangle, 0.0, threshold}
                                            : Hit{inner_triangle, outer_triangle, 0.0, threshold};
   }
 };
 
-/// Could the point lie in the solid? False only when it surely does not.
+/// Returns false only if the point is certainly outside the solid. link: world pose of the solid's link.
 inline bool may_be_in(const Solid& solid, const Pose& link, const Vec3& point) noexcept {
   const Pose frame = link * solid.frame;
   const Vec3 away = point - frame.translation;
-  // Rotations may be off by 1e-9 a joint, and what is rounded by a share of the coordinates.
+  // Allows for rotations that deviate by 1e-9 per joint and for rounding relative to the coordinates.
   double slack = 0.0;
   for (int k = 0; k < 3; ++k)
     slack += 1e-6 * solid.half[k] + 1e-12 * (std::abs(point[k]) + std::abs(frame.translation[k]));
@@ -50,7 +50,7 @@ inline bool may_be_in(const Solid& solid, const Pose& link, const Vec3& point) n
   return true;
 }
 
-/// Exact for the placed coordinates.
+/// Returns true if the world point is inside the solid. Exact for the placed coordinates.
 template <class H>
 bool is_in(H& outer, const Solid& solid, const Vec3& point) {
   std::vector<Triangle> surface;
@@ -59,7 +59,8 @@ bool is_in(H& outer, const Solid& solid, const Vec3& point) {
   return place_of(point, surface) == Place::inside;
 }
 
-/// Calls found(inside) for the parts of link `inner` that lie inside the solid, until it says true; did it?
+/// Calls found(inside) for each component of link `inner` inside the solid, until it returns true. Returns true in that
+/// case.
 template <class H, class G, class Found>
 bool find_inside(H& outer_model, const Solid& solid, G& inner_model, const Solids& inner_solids, LinkId inner,
                  const Found& found) {
@@ -78,7 +79,7 @@ bool find_inside(H& outer_model, const Solid& solid, G& inner_model, const Solid
 class SolidPairs {
  public:
   SolidPairs() = default;
-  /// For a hierarchy of the robot, whichever its rigid groups are.
+  /// Works for any hierarchy of the robot, with any rigid groups.
   template <class H>
   SolidPairs(const H& hierarchy, const Robot& robot, const LinkPairs& tested) {
     const Solids& solids = robot.solids();
@@ -87,7 +88,7 @@ class SolidPairs {
       balls_.push_back({groups.group_of(link), groups.link_in_group(link) * centre, radius});
       return balls_.size() - 1;
     };
-    std::vector<std::size_t> ball_of(robot.link_count(), 0);  // 0: none yet
+    std::vector<std::size_t> ball_of(robot.link_count(), 0);  // 0: not made yet
     for (const Solid& solid : solids.all()) {
       const std::size_t own = add_ball(solid.link, solid.frame.translation, solid.radius);
       for (std::size_t l = 1; l < robot.link_count(); ++l) {
@@ -104,8 +105,8 @@ class SolidPairs {
     }
   }
 
-  /// Calls found(inside) until it says true; did it? `hierarchy` is that of the constructor, or a copy of it; `centres`
-  /// is scratch. What a joint cannot move is left out, as it is where surfaces meet.
+  /// Calls found(inside) for each containment, until it returns true. Returns true in that case. `hierarchy` is that of
+  /// the constructor or a copy, `centres` is scratch. Skips pairs that no joint moves, as queries of surfaces do.
   template <class H, class Found>
   bool find(H& hierarchy, const Robot& robot, std::vector<std::array<double, 3>>& centres, const Found& found) const {
     if (pairs_.empty()) return false;
@@ -123,7 +124,7 @@ class SolidPairs {
         squared += (b[r] - a[r]) * (b[r] - a[r]);
         rounding += a[r] * a[r];
       }
-      // Written so that what overflows is looked at.
+      // Balls too far apart. Written so that NaN and overflow are tested further.
       if (squared > pair.squared_reach + 1e-20 * rounding && squared <= 1e300) continue;
       const auto judge = [&](const Inside& inside) {
         return !hierarchy.model().constant(inside.outer_triangle, inside.inner_triangle) && found(inside);
@@ -140,8 +141,8 @@ class SolidPairs {
     double radius = 0.0;
   };
   struct Pair {
-    std::size_t outer = 0, inner = 0;  // in balls_
-    const Solid* solid = nullptr;      // of the robot
+    std::size_t outer = 0, inner = 0;  // indices into balls_
+    const Solid* solid = nullptr;      // owned by the robot
     LinkId link{};
     double squared_reach = 0.0;
   };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies become links on fixed joints, so that one certified path is about all there is. The one place where those of
-// robots are instantiated.
+// Implements PathChecker: bodies become links on fixed joints of one robot. Only this file instantiates CertifiedPath
+// for robots.
 #include "hinge/robotics/path_checker.hpp"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ struct PathChecker::Scene {
 
 namespace {
 
-/// A hierarchy whose yes/no query also sees what lies inside solids.
+/// A hierarchy whose yes/no query also finds links inside solids.
 struct WithInsides {
   RobotHierarchy<Simd>& surfaces;
   const SolidPairs& pairs;
@@ -61,7 +61,7 @@ std::vector<LinkOrBody> own_links(const Robot& robot) {
   return owners;
 }
 
-/// A name that neither links nor joints have.
+/// Returns a name that no link and no joint has.
 std::string new_name(const Robot& robot, std::size_t number) {
   std::string name = "body ";
   name += std::to_string(number);
@@ -81,14 +81,14 @@ PathChecker::Scene PathChecker::with_bodies(const RobotChecker& checker, const E
     const Environment::Body& body = environment.at(name);
     const std::string link = new_name(alone, owners.size());
     const bool held = held_by_this(body);
-    // The root link's frame is the base.
+    // The frame of the root link is the base.
     const Pose pose = checker.base() == Pose{} ? body.pose : checker.base().inverse() * body.pose;
     description.links.push_back({link, body.shape->description().links.back().geometry});
     description.joints.push_back({link, JointType::fixed, alone.link_name(held ? body.attachment->link : id<LinkId>(1)),
                                   link, held ? body.attachment->in_link : pose});
     owners.emplace_back(name);
   }
-  // Joints at the end of the description: the links before them keep their numbers.
+  // The joints of the bodies come last, so the other links keep their ids.
   auto robot = std::make_shared<const Robot>(std::move(description), alone.tessellation());
 
   LinkPairs tested(robot->link_count());
@@ -97,7 +97,7 @@ PathChecker::Scene PathChecker::with_bodies(const RobotChecker& checker, const E
   const RigidGroups groups(tree, DofSelection::all(tree));
   const double own = checker.margins().clearance();
   const auto test = [&](LinkId a, LinkId b, double clearance) {
-    if (groups.group_of(a) == groups.group_of(b)) return;  // what never moves is asked once
+    if (groups.group_of(a) == groups.group_of(b)) return;  // never move against each other: tested once, see `always`
     tested.insert(a, b);
     if (clearance != own) clearances.push_back({a, b, clearance});
   };
@@ -170,7 +170,7 @@ RobotPathAnswer PathChecker::answer(std::span<const double> from, std::span<cons
 
 RobotPathAnswer PathChecker::certify(std::span<const double> from, std::span<const double> to, double smallest_step) {
   return answer(from, to, [&](const std::vector<double>& a, const std::vector<double>& b) {
-    // While surfaces stay apart nothing gets into a solid or out of it: what is not inside at the start never is.
+    // While surfaces stay apart, no component enters or leaves a solid. One test at the start is enough.
     PathAnswer at_start;
     hierarchy_.update(a);
     AnyHit inside;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The state of a robot, and queries about itself.
+// Implements the state of RobotChecker and its queries of the robot against itself.
 #include "hinge/robotics/robot_checker.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace hinge::robotics {
 
 namespace {
 
-/// Above it the sum of a chain of sliding joints may leave the range of doubles.
+/// Above this value (rad or m) a sum along a chain of prismatic joints may overflow.
 constexpr double largest_value = 1e300;
 
 std::shared_ptr<const Robot> checked(std::shared_ptr<const Robot> robot) {
@@ -30,7 +30,7 @@ std::shared_ptr<const Robot> checked(std::shared_ptr<const Robot> robot) {
   return robot;
 }
 
-/// Of the triangles of every link, in the link's frame, radii included.
+/// Returns the bounds of the triangles of every link, in the link's frame, radii included.
 std::vector<Aabb> local_boxes_of(const Robot& robot, const LinkMargins& margins) {
   std::vector<Aabb> boxes(robot.link_count());
   for (std::size_t i = 0; i < robot.model().size(); ++i) {
@@ -109,7 +109,7 @@ void RobotChecker::set_base(const Pose& base) {
 void RobotChecker::place(AnyHierarchy& hierarchy, const Pose& base, detail::PoseSource& kinematics) {
   std::visit(
       [&](auto& h) {
-        // The world comes first, then the groups that the robot alone has.
+        // Group 0 is the world, then follow the groups of the robot.
         poses_.assign(1, Pose{});
         for (std::size_t g = 0; g + 1 < h.model().groups()->size(); ++g)
           poses_.push_back(base * kinematics.pose(id<GroupId>(g)));
@@ -182,7 +182,7 @@ std::optional<ClosestLinks> RobotChecker::closest_surfaces(AnyHierarchy& any) {
         if (!hit) return {};
         Closeness found = measure(hierarchy, hierarchy, *hit, margins_.sum(hit->first, hit->second));
         if (!found.collides) {
-          // By rounding another pair that is a hit may stand a hair behind.
+          // Because of rounding, another pair may be a hit although its gap is slightly larger.
           AnyHit meeting;
           hierarchy.self_query(meeting);
           if (meeting.done()) {
@@ -221,7 +221,7 @@ Verdict RobotChecker::check(std::span<const double> independent, const Mode& mod
     case Mode::Kind::within:
       verdict.pairs = within(mode.margin);
       verdict.distances = distances(mode.margin);
-      // A margin may list pairs that do not collide; the verdict is the strict rule's.
+      // A margin may list pairs that do not collide, so the verdict needs its own query.
       verdict.collides = collides();
       break;
     case Mode::Kind::closest:

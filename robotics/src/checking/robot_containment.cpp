@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Links and bodies inside others, looked for where no surfaces meet.
+// Finds links and bodies inside others whose surfaces do not collide.
 #include <algorithm>
 #include <set>
 #include <tuple>
@@ -73,7 +73,7 @@ std::vector<BodyContainment> RobotChecker::contained(Environment& environment) {
   std::vector<BodyContainment> found;
   for (const BodyPair& pair : pairs) {
     const Environment::Topology& of_body = Environment::topology(*pair.body);
-    /// `first`: of the link or the body held; `pair.body` is the other.
+    /// `first`: triangles of the link or of the held body. The other side is pair.body.
     const auto look = [&](BodyContainment which, std::span<const Triangle> first, std::span<const std::size_t> parts,
                           bool first_is_closed) {
       if (colliding.contains({which.held, which.link, which.body})) return;

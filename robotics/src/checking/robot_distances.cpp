@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The closest points of every pair of links, or of a link and a body, that come within a margin.
+// Computes the closest points of every pair of links, or of a link and a body, within a margin.
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -26,7 +26,7 @@ namespace {
 
 using LinkPair = std::pair<LinkId, LinkId>;
 
-/// The pair of triangles with the smallest d - M of every pair of links, if below the margin.
+/// Collects for every pair of links the pair of triangles with the smallest d - M below the margin.
 class ClosestOfPairs {
  public:
   static constexpr bool ranks = false;
@@ -55,7 +55,7 @@ std::vector<ClosestLinks> RobotChecker::surfaces_nearby(LinkId link, double marg
   const std::span<const LinkId> links = robot_->model().links();
   return std::visit(
       [&](auto& hierarchy) {
-        // Rounded otherwise, what was within the margin may stand a hair behind it.
+        // Rounding differs in this frame: enlarge the margin to keep the pairs that were within it.
         ClosestOfPairs collector(links, links, margin * (1.0 + 0x1p-20) + 0x1p-20);
         hierarchy.self_query(collector);
         std::vector<ClosestLinks> all;
@@ -76,7 +76,7 @@ std::vector<ClosestLinks> RobotChecker::distances(double margin) {
         ClosestOfPairs collector(links, links, margin);
         hierarchy.self_query(collector);
         std::map<LinkPair, ClosestLinks> found;
-        std::set<LinkId> far;  // the first links of pairs that are
+        std::set<LinkId> far;  // first links of the pairs far from the origin
         for (const auto& [pair, hit] : collector.best()) {
           found[pair] = answer(pair.first, pair.second, hit,
                                measure(hierarchy, hierarchy, hit, margins_.sum(hit.first, hit.second)));

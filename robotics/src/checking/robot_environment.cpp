@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Queries of a robot, and the bodies it holds, against the bodies of an environment.
+// Implements queries of a robot and its held bodies against the bodies of an environment.
 #include <algorithm>
 #include <limits>
 #include <tuple>
@@ -31,7 +31,7 @@ std::span<const Aabb> RobotChecker::link_boxes() {
   return link_boxes_;
 }
 
-/// Those that boxes leave below the margin, bodies held put in place before.
+/// Moves held bodies to their links, then returns the pairs whose boxes do not exclude d - M <= margin.
 std::vector<RobotChecker::BodyPair> RobotChecker::body_pairs(Environment& environment, double margin) {
   if (environment.engine() != engine_)
     throw ModelError("the environment was made for engine '" + environment.engine() + "', the robot uses '" + engine_ +
@@ -58,7 +58,7 @@ std::vector<RobotChecker::BodyPair> RobotChecker::body_pairs(Environment& enviro
   for (const BodyPair& held : bodies) {
     if (!Environment::held_by(*held.body, robot_.get())) continue;
     for (BodyPair pair : bodies) {
-      // Two bodies held are one pair; on one rigid group they never move apart.
+      // Count a pair of held bodies once. Skip it if one rigid group holds both: they never move against each other.
       if (Environment::held_by(*pair.body, robot_.get()) &&
           (pair.body_id <= held.body_id || pair.body->attachment->group == held.body->attachment->group))
         continue;
@@ -120,7 +120,7 @@ std::vector<BodyContact> RobotChecker::surfaces_within(const Environment& enviro
                           pair.held != nullptr ? std::optional(pair.held_id) : std::nullopt, pair.body_id,
                           contact.hit});
   }
-  // Links first: an empty `held` is less than any. Within one held body its link is the same.
+  // An empty `held` is the smallest value, so links come first. A held body determines its link.
   std::sort(contacts.begin(), contacts.end(), [](const BodyContact& x, const BodyContact& y) {
     return std::tie(x.held, x.link, x.body) < std::tie(y.held, y.link, y.body);
   });
@@ -132,9 +132,9 @@ std::optional<ClosestBody> RobotChecker::closest(Environment& environment) {
   std::stable_sort(pairs.begin(), pairs.end(), [](const BodyPair& x, const BodyPair& y) { return x.lower < y.lower; });
   std::optional<ClosestBody> best;
   for (const BodyPair& pair : pairs) {
-    // From here on no pair of triangles is closer.
+    // No later pair can be closer.
     if (best && pair.lower > best->gap) break;
-    // Yes or no first: is any pair closer than the best? Most often not, and that is soon said.
+    // Ask the cheap yes/no question first: is any pair closer than the best one? Usually not.
     if (best && !ask(pair, environment, any_hit, std::max(best->gap, 0.0))) continue;
     const auto found =
         ask(pair, environment, [&](auto& mine, auto& theirs, const auto& filter, const QueryOptions& options) {
@@ -142,7 +142,7 @@ std::optional<ClosestBody> RobotChecker::closest(Environment& environment) {
         });
     if (!found) continue;
     const auto& [hit, numbers] = *found;
-    // A hit comes before what is no hit, even where rounding gives both a gap of 0.
+    // A hit precedes a pair that is no hit, even if rounding gives both a gap of 0.
     if (best && !(std::pair(!numbers.collides, numbers.gap) < std::pair(!best->collides(), best->gap))) continue;
     best = ClosestBody{};
     if (pair.held != nullptr) best->held = pair.held_id;
@@ -156,7 +156,7 @@ std::optional<ClosestBody> RobotChecker::closest(Environment& environment) {
     best->point2 = numbers.point2;
   }
   for (const BodyPair& pair : pairs) {
-    if (pair.lower > 0.0) break;  // what lies inside shares points
+    if (pair.lower > 0.0) break;  // boxes apart: no containment
     find_insides(pair, environment, [&](const BodyContact& contact, const Vec3& point) {
       const double gap = -contact.hit.threshold;
       if (!best || std::pair(gap, 0.0) < std::pair(best->gap, best->distance))

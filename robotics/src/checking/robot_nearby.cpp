@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Distances far from the world's origin: computed in the frame of one of the two links, so that they keep their digits.
+// Computes distances far from the world origin in the frame of one of the two links, to keep their accuracy.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -17,7 +17,7 @@
 namespace hinge::robotics {
 
 bool RobotChecker::is_far(const ClosestLinks& found) const {
-  constexpr double far_away = 256.0;  // costs that many half ulps
+  constexpr double far_away = 256.0;  // ratio of coordinates to size; the distance then has lost 8 bits
   double size = found.distance, place = 0.0;
   for (int k = 0; k < 3; ++k) {
     place = std::max({place, std::abs(found.point1[k]), std::abs(found.point2[k])});
@@ -36,7 +36,8 @@ Pose RobotChecker::place_nearby(LinkId anchor_link) {
     const RigidGroup& g = groups[group];
     return g.joint.origin * motion(g.joint, full_[g.dof]);
   };
-  // From the group up to the root, then down to all the others: what both have above them has no part in it.
+  // Compose poses from the anchor group up to the root, then down to all other groups. Transforms above the lowest
+  // common ancestor of a group and the anchor do not enter.
   const GroupId anchor = groups.group_of(anchor_link);
   std::vector<std::optional<Pose>> relative(groups.size());
   relative[index(anchor)] = Pose{};
@@ -52,7 +53,7 @@ Pose RobotChecker::place_nearby(LinkId anchor_link) {
 }
 
 void RobotChecker::take_nearby(ClosestLinks& found, const ClosestLinks& closer, const Pose& frame) {
-  // Verdicts are those of the world's coordinates.
+  // The verdict in world coordinates has priority.
   if (closer.collides() != found.collides() || (closer.distance > 0.0) != (found.distance > 0.0)) return;
   found = closer;
   found.point1 = frame * closer.point1;

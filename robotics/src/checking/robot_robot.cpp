@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Queries of a robot against another robot.
+// Implements queries of a robot against another robot.
 #include <algorithm>
 #include <optional>
 #include <span>
@@ -13,7 +13,8 @@
 
 namespace hinge::robotics {
 
-/// Of the two robots; `found` is told a contact and a point that the two links share.
+/// Calls found(contact, point) for each containment between the two robots, with a common point (world), until it
+/// returns true.
 template <class Found>
 bool RobotChecker::find_insides(RobotChecker& other, const Found& found) {
   const Robot &mine = *robot_, &theirs = *other.robot_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parts are found link by link, when they are first asked for: for large meshes that takes as long as a tree.
+// Implements Solids. Connected components are found per link when first needed: for large meshes this costs as much as
+// building a tree.
 #include "checking/solids.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Solids: the closed surfaces of a robot whose inside counts, and the parts that may come to lie in one.
+// Solids: the solid shapes of a robot as closed surfaces, and the mesh components that may lie inside one.
 #pragma once
 
 #include <cstddef>
@@ -16,36 +16,37 @@
 
 namespace hinge::robotics {
 
-/// Triangles `first` to `first + count - 1` of the model are the closed surface of a solid.
+/// A solid: triangles `first` to `first + count - 1` of the model are its closed surface.
 struct Solid {
   LinkId link{};
   std::size_t first = 0;
   std::size_t count = 0;
-  Pose frame{};              ///< middle and axes of a box around it, in the link's frame
-  Vec3 half = Vec3::Zero();  ///< of that box's edges, m
-  double radius = 0.0;       ///< m, of the ball around that box
+  Pose frame{};              ///< centre and axes of a bounding box, link frame
+  Vec3 half = Vec3::Zero();  ///< half edge lengths of this box, m
+  double radius = 0.0;       ///< m, of the ball around this box
 };
 
-/// Triangles of a link that hang together by their vertices. Where their surface and that of a solid do not meet, they
-/// lie inside the solid exactly when one of their vertices does.
+/// A connected component of a link's mesh (triangles that share vertices). If its surface and that of a solid do not
+/// touch, it is inside the solid if and only if one of its vertices is.
 struct SolidPart {
-  PrimitiveId triangle{};     ///< one of them
-  Vec3 point = Vec3::Zero();  ///< its vertex a, link frame
-  double diameter = 0.0;      ///< m, a lower bound of the part's
+  PrimitiveId triangle{};     ///< its first triangle
+  Vec3 point = Vec3::Zero();  ///< vertex a of this triangle, link frame
+  double diameter = 0.0;      ///< m, a lower bound
 };
 
-/// Could the part fit into the solid?
+/// Returns false if the component is certainly too large for the solid.
 inline bool may_hold(const Solid& solid, const SolidPart& part) noexcept {
   constexpr double slack = 1.0 + 1e-6;
   return !(part.diameter > 2.0 * solid.radius * slack);
 }
 
+/// A ball in a link's frame, m.
 struct BoundingBall {
   Vec3 centre = Vec3::Zero();
   double radius = 0.0;
 };
 
-/// Of one robot; shared by everything that asks it, from any thread.
+/// The solids of one robot. Shared by all its checkers; thread-safe.
 class Solids {
  public:
   Solids(Model<Triangle> model, std::vector<Solid> solids);
@@ -55,11 +56,12 @@ class Solids {
     return std::span(solids_).subspan(first_solid_[index(link)],
                                       first_solid_[index(link) + 1] - first_solid_[index(link)]);
   }
-  /// Found when first asked for.
+  /// Returns the components of a link. Computed at the first call.
   std::span<const SolidPart> parts(LinkId link) const;
-  /// Around the point of each part, link frame; around all vertices where the link has many triangles.
+  /// Returns a ball around the points of all components, link frame. For a link with many triangles: around all
+  /// vertices.
   BoundingBall points(LinkId link) const;
-  /// False only when no part of the link fits into the solid.
+  /// Returns false only if no component of the link fits into the solid.
   bool may_hold_any(const Solid& solid, LinkId link) const;
 
  private:
@@ -69,9 +71,9 @@ class Solids {
   }
 
   Model<Triangle> model_;
-  std::vector<Solid> solids_;             // by link
-  std::vector<std::size_t> first_;        // by link: its first triangle
-  std::vector<std::size_t> first_solid_;  // by link
+  std::vector<Solid> solids_;             // sorted by link
+  std::vector<std::size_t> first_;        // by link: index of its first triangle
+  std::vector<std::size_t> first_solid_;  // by link: index of its first solid
   std::unique_ptr<std::once_flag[]> asked_;
   mutable std::vector<std::vector<SolidPart>> parts_;
 };
