@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// biocd check: coordinates of files, model by model or frame by frame, every admitted pair.
+// biocd check: tests the coordinates of each model or frame of files; every admitted pair counts.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,13 +32,13 @@ using namespace hinge::molecular;
 struct Checked {
   Verdict verdict;
   BondDeviation bond;
-  std::vector<hinge::Vec3> positions;  // only when they are to be written
-  std::string error;                   // why there is no verdict
-  std::shared_ptr<const Job> own{};    // of a model that has other atoms than the first
-  std::string difference{};            // in which atom
+  std::vector<hinge::Vec3> positions;  // empty unless --out takes them
+  std::string error;                   // not empty if there is no verdict
+  std::shared_ptr<const Job> own{};    // for a model with other atoms than the first
+  std::string difference{};            // how its atoms differ
 };
 
-/// MolProbity's, where its rules are in use and all pairs were asked about.
+/// Returns MolProbity's clashscore if its rules are in use and all pairs are listed, otherwise nothing.
 std::optional<double> clashscore_of(const Options& options, const Job& job, const Verdict& verdict, const Mode& mode) {
   const bool lists_all = mode.kind == Mode::Kind::all || mode.kind == Mode::Kind::within;
   if (options.check.thresholds.rules != "molprobity" || !lists_all || !options.between.empty() ||
@@ -60,7 +60,8 @@ Json bond_json(const Structure& s, const BondDeviation& bond) {
           {"residual", bond.residual}};
 }
 
-/// ", bonds within 0.012 angstrom, closures within 0.34"; what is the reference's to three decimals is left out.
+/// Returns text such as ", bonds within 0.012 angstrom, closures within 0.34 angstrom". Residuals below 0.0005 are left
+/// out.
 std::string deviations_text(const Checked& checked) {
   std::string text;
   const auto add = [&](const char* what, double residual) {
@@ -84,11 +85,11 @@ void print_table_row(const Job& job, const std::string& name, const Checked& che
   if (verdict.closest) fmt::print("{}  (closest)\n", pair_line(job, *verdict.closest));
 }
 
-/// The verdict about a model that has atoms of its own, by a topology of its own.
+/// Checks a model with other atoms than the first, with a topology of its own.
 Checked check_alone(const Options& options, int model, const Mode& mode, const std::string& difference) {
   Options alone = options;
   alone.read.model = model;
-  alone.rigid_from.clear();  // of the first model's atoms; what is rigid has no say over coordinates of a file
+  alone.rigid_from.clear();  // refers to atoms of the first model; no effect here
   Checked checked;
   checked.difference = difference;
   checked.own = std::make_shared<const Job>(load(alone));
@@ -97,7 +98,7 @@ Checked check_alone(const Options& options, int model, const Mode& mode, const s
   return checked;
 }
 
-/// Are all models conformations of the first? Looked up where one file is to hold them all.
+/// Returns true if every model has the atoms of the first. Needed if one file is to hold all models.
 bool have_same_atoms(const Options& options, const Structure& s) {
   const std::vector<std::string> none;
   const Frames frames(none, options.file, s, options.read);
@@ -105,7 +106,7 @@ bool have_same_atoms(const Options& options, const Structure& s) {
     for (std::size_t k = 0; k < frames.size(); ++k) frames.file(k).frame(frames.place(k).frame);
   } catch (const OtherAtoms&) {
     return false;
-  } catch (const hinge::LoadError&) {  // told when its turn comes
+  } catch (const hinge::LoadError&) {  // reported when this frame is checked
   }
   return true;
 }
@@ -114,12 +115,12 @@ bool have_same_atoms(const Options& options, const Structure& s) {
 
 Exit run_check(const Options& options) {
   Options first = options;
-  // A pipe is read but once; models of files that are joined are read with them.
+  // A pipe can be read only once. Models of joined files are read with them.
   first.read.first_model = options.with.empty() && std::filesystem::is_regular_file(options.file);
   std::optional<Job> loaded(load(first));
   if (!options.out.empty() && options.trajectories.empty() && loaded->molecule->structure().more_models &&
       !have_same_atoms(options, loaded->molecule->structure())) {
-    first.read.first_model = false;  // which takes the atoms that all models have
+    first.read.first_model = false;  // reads only the atoms that all models have
     loaded.emplace(load(first));
   }
   const Job& job = *loaded;
@@ -145,7 +146,7 @@ Exit run_check(const Options& options) {
   const BondGauge gauge(*job.molecule);
   const bool has_closures = !job.molecule->closure_atoms().empty();
   Summary summary(closure_names(job), false, options.output == Output::json);
-  BondDeviation worst;  // of all bonds and conformations
+  BondDeviation worst;  // over all bonds and conformations
   std::string worst_name;
   std::size_t others = 0;  // models with other atoms than the first
   hinge::tool::ProgressBar bar(end - begin);
@@ -182,7 +183,7 @@ Exit run_check(const Options& options) {
     if (!checked.error.empty()) throw hinge::LoadError(checked.error);
     const auto k = static_cast<std::size_t>(begin) + n;
     const Job& of = checked.own ? *checked.own : job;
-    if (checked.own) {  // its pairs are no pairs of the first model's atoms, whose offenders are counted
+    if (checked.own) {  // its pairs are not counted: their indices mean other atoms
       if (++others == 1)
         fmt::print(stderr, "note: {}; it is checked with its own atoms and bonds\n", checked.difference);
       Verdict counted = checked.verdict;
@@ -231,12 +232,12 @@ Exit run_check(const Options& options) {
         .run(static_cast<std::size_t>(end - begin), judge, report, results_at_once(s.atoms.size()));
     file.finish();
   } catch (const hinge::LoadError& error) {
-    // What was checked before counts, and is complete in itself.
+    // The results of the conformations before the error stay valid and complete.
     finish(error.what());
     file.finish();
     throw;
   } catch (const hinge::ModelError& error) {
-    finish(error.what());  // a conformation that does not fit the file of --out, which is not left behind
+    finish(error.what());  // a conformation does not fit the format of --out; that file is not left behind
     throw;
   }
   finish({});

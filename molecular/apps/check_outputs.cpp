@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Refuses output files of an unknown format, or that would destroy an input, before any work.
+// Rejects output files of unknown format, or that would overwrite an input, before any work.
 #include <filesystem>
 #include <string>
 #include <system_error>
@@ -22,7 +22,8 @@ std::vector<std::filesystem::path> input_files(const Options& options) {
   return files;
 }
 
-/// A monomer dictionary is read file by file, as the residues ask for them.
+/// Returns true if `file` exists and lies in `folder`. Files of a monomer dictionary are read on demand, so they are
+/// not listed as inputs.
 bool is_inside(const std::filesystem::path& file, const std::filesystem::path& folder) {
   std::error_code error;
   if (folder.empty() || !std::filesystem::exists(file, error)) return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ConformationFile: what --out and --filter ask for.
+// ConformationFile: writes the conformations that --out and --filter select.
 #pragma once
 
 #include <fmt/format.h>
@@ -20,13 +20,13 @@
 
 namespace biocd {
 
-/// How many results may wait at once for their turn: together about 64 Ki atoms, so that memory does not grow with the
+/// Returns how many results may wait for their turn: together about 64 Ki atoms, so that memory does not grow with the
 /// molecule.
 inline std::size_t results_at_once(std::size_t atoms) {
   return std::clamp<std::size_t>((std::size_t{1} << 16) / std::max<std::size_t>(atoms, 1), 1, 256);
 }
 
-/// The format of --out, by its extension. ModelError: another one, which is told before any work.
+/// Returns the format of --out by its extension; pdb for an empty path. Throws ModelError for another extension.
 inline hinge::molecular::TrajectoryFormat conformation_format(const std::string& path) {
   const auto format = hinge::molecular::trajectory_format(path);
   if (!path.empty() && !format)
@@ -34,10 +34,13 @@ inline hinge::molecular::TrajectoryFormat conformation_format(const std::string&
   return format.value_or(hinge::molecular::TrajectoryFormat::pdb);
 }
 
+/// Output file of --out, written completely or not at all. With --filter free it takes only conformations without
+/// collision. Does nothing if --out is not given. One thread only.
 class ConformationFile {
  public:
-  /// frame_atoms: of whole frames, which DCD and NumPy files take; PDB and mmCIF files take the molecule's atoms.
-  /// ModelError: another extension, or a molecule that does not fit PDB. LoadError: cannot be written.
+  /// frame_atoms: atoms per frame of the input; DCD and NumPy files take whole frames, PDB and mmCIF files the atoms of
+  /// the molecule. single: write 32-bit floats. Throws ModelError for another extension, or a molecule that does not
+  /// fit PDB; LoadError if the file cannot be written.
   ConformationFile(const Options& options, const hinge::molecular::Structure& molecule, std::size_t frame_atoms,
                    bool single)
       : only_free_(options.only_free),
@@ -53,19 +56,22 @@ class ConformationFile {
                     single);
   }
 
+  /// Returns true if --out is given.
   bool wanted() const { return file_.wanted(); }
-  /// Does it take this one?
+  /// Returns true if add() writes a conformation with this verdict.
   bool takes(bool collides) const { return wanted() && !(only_free_ && collides); }
+  /// Returns true if add() needs all atoms of the frame, not only the atoms of the molecule.
   bool wants_whole_frames() const { return wanted() && !names_atoms(format_); }
-  /// Conformations written so far.
+  /// Returns the number of conformations written so far.
   std::size_t size() const { return writer_ ? writer_->size() : 0; }
+  /// Writes one conformation if takes(collides). positions: angstrom, one per atom. number: of its model.
   void add(std::span<const hinge::Vec3> positions, int number, bool collides) {
     if (!takes(collides)) return;
     writer_->add(positions, number);
     file_.check();
   }
-  /// Without any conformation, DCD and NumPy files hold 0 frames; PDB and mmCIF have no such file, so none is written
-  /// and one that is there stays as it is.
+  /// Completes the file. Without conformations, DCD and NumPy files hold 0 frames; PDB and mmCIF files cannot be empty,
+  /// so none is written and an existing file stays unchanged.
   void finish() {
     if (!wanted()) return;
     const bool is_file = size() > 0 || wants_whole_frames();

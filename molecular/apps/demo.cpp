@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// biocd demo: the main job from end to end on one protein: sample, time, verify, draw.
+// biocd demo: samples, times, verifies and plots conformations of one protein.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ namespace {
 using namespace hinge::molecular;
 using hinge::tool::CompleteFile;
 
-constexpr std::uint64_t verified = 100;  // conformations of each selection that brute force decides too
+constexpr std::uint64_t verified = 100;  // conformations per selection that brute force verifies
 
 struct NamedSampling {
   const char* name;
@@ -40,13 +40,13 @@ struct NamedSampling {
   Sampling sampling;
 };
 
-/// The conformation with the most clashes.
+/// The conformation with the most clashes, its clashes, and its coordinates in angstrom.
 struct Worst {
   std::vector<hinge::Hit> pairs;
   std::vector<hinge::Vec3> positions;
 };
 
-/// Verdicts, pairs and closest pairs of the first conformations on both engines; the number that differ.
+/// Compares both engines on the first `count` conformations in all modes. Returns the number of different answers.
 int differences(Checker& simd, Checker& brute, const Sampling& sampling, std::uint64_t count) {
   int different = 0;
   for (std::uint64_t k = 0; k < count; ++k) {
@@ -136,7 +136,7 @@ Exit run_demo(const Options& options) {
             },
             [&](std::size_t k, const Verdict& verdict) {
               colliding += verdict.collides ? 1 : 0;
-              // A conformation near the native one is a picture a person can read.
+              // Only conformations near the native one: their picture is readable.
               if (m != 1 || n != 1 || verdict.pairs.size() <= worst.pairs.size()) return;
               most_clashes_at = k;
               worst.pairs.clear();

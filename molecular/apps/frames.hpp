@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Frames: the conformations that a command goes through, of trajectories or of the molecule's own file.
+// Frames: the conformations of a command, from trajectories or from the molecule's own file.
 #pragma once
 
 #include <fmt/format.h>
@@ -17,11 +17,14 @@
 
 namespace biocd {
 
-/// The frames of several files, one after another, numbered through.
+/// The frames of several files, one file after another, numbered consecutively from 0. Threads may read frames at the
+/// same time.
 class Frames {
  public:
-  /// Of `named`, which must outlive it as the molecule must; of the molecule's own models where it is empty, in `own`
-  /// where not all of them were read. may_have_more: of atoms, which are left out. Notes go to standard error.
+  /// Opens the files of `named`. If it is empty, takes the molecule's own models, from file `own` if not all of them
+  /// were read. may_have_more: files may have further atoms, which are left out. Prints notes to standard error.
+  /// `named` and `molecule` must outlive this object. Throws LoadError if a file cannot be read or does not fit the
+  /// molecule.
   Frames(const std::vector<std::string>& named, const std::string& own, const hinge::molecular::Structure& molecule,
          const hinge::molecular::ReadOptions& read, bool may_have_more = false)
       : named_(named) {
@@ -35,19 +38,23 @@ class Frames {
     }
   }
 
+  /// Index of a file, and of a frame in this file.
   struct Place {
     std::size_t file, frame;
   };
+  /// Returns the file and the frame of conformation k < size().
   Place place(std::size_t k) const {
     const auto file =
         static_cast<std::size_t>(std::upper_bound(starts_.begin(), starts_.end(), k) - starts_.begin()) - 1;
     return {file, k - starts_[file]};
   }
+  /// Returns the file of conformation k; valid as long as this object.
   const hinge::molecular::Trajectory& file(std::size_t k) const { return files_[place(k).file]; }
+  /// Returns the number of conformations.
   std::size_t size() const { return size_; }
-  /// Of the molecule's file, not of trajectories?
+  /// Returns true if the frames are models of the molecule's file, false for trajectories.
   bool are_models() const { return named_.empty(); }
-  /// Of every frame. ModelError: frames of several sizes.
+  /// Returns the number of atoms per frame. Throws ModelError if frames have different sizes.
   std::size_t atom_count() const {
     for (const hinge::molecular::Trajectory& file : files_)
       if (file.atom_count() != files_.front().atom_count())
@@ -55,12 +62,13 @@ class Frames {
                                             files_.front().atom_count(), file.atom_count()));
     return files_.front().atom_count();
   }
+  /// Returns true if all files store 32-bit floats.
   bool is_single() const {
     return std::all_of(files_.begin(), files_.end(),
                        [](const hinge::molecular::Trajectory& file) { return file.is_single(); });
   }
 
-  /// For the head of the output.
+  /// Adds the files to the head of the JSON output.
   void describe(Json& head) const {
     if (are_models()) {
       head["model"]["models"] = size_;
@@ -71,6 +79,7 @@ class Frames {
       list.push_back({{"file", named_[f]}, {"frames", files_[f].size()}, {"atoms", files_[f].atom_count()}});
     head["trajectories"] = std::move(list);
   }
+  /// Adds the number of conformation k, and of its trajectory, to a JSON row.
   void name(Json& row, std::size_t k) const {
     const auto [file, frame] = place(k);
     if (are_models()) {
@@ -80,11 +89,12 @@ class Frames {
       row["frame"] = files_[file].number(frame);
     }
   }
-  /// Of the model, in its file.
+  /// Returns the number of the model (or frame) in its file.
   int number(std::size_t k) const {
     const auto [file, frame] = place(k);
     return files_[file].number(frame);
   }
+  /// Returns a name for messages, such as "model 3" or "run.dcd frame 3".
   std::string name(std::size_t k) const {
     const auto [file, frame] = place(k);
     const int number = files_[file].number(frame);

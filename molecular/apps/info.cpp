@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// biocd info: what the file holds and what a selection makes of it.
+// biocd info: shows the content of a file and the DOF, rigid groups and constant contacts under a selection.
 #include <fmt/format.h>
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From options to a molecule that can be asked, and the explanation of one pair.
+// Loads the molecule, selection and rules that the options name, and explains one pair.
 #include <fmt/format.h>
 
 #include <charconv>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// biocd merge: shards of one run joined to the bytes of the whole run.
+// biocd merge: joins the shards of one run to the exact output of the whole run.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,18 +26,18 @@ namespace {
 
 using hinge::LoadError;
 
-/// A shard's file, read line by line.
+/// The output file of one shard, read line by line.
 class ShardFile {
  public:
   explicit ShardFile(std::string path) : path_(std::move(path)) {}
 
-  /// Reads what stands before the rows.
+  /// Opens the file and reads its head, up to the first row. Throws LoadError if it is no shard.
   void open() {
     std::error_code error;
     const auto status = std::filesystem::status(path_, error);
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
       refuse("is no regular file, expected one: shards are read twice");
-    stream_ = std::ifstream(path_);  // closed by for_rows, or the next open(): there may be more shards than files
+    stream_ = std::ifstream(path_);  // closed early: more shards than file descriptors are possible
     if (!stream_) throw LoadError(path_ + ": cannot be opened");
     if (!next()) refuse("is empty, expected what biocd --shard printed");
     if (line_.starts_with("# biocd shard "))
@@ -46,8 +46,8 @@ class ShardFile {
       open_json();
   }
 
-  /// Opens the file and calls use(row, is_new) for each row; is_new: the first of its conformation. They must be those
-  /// of the shard, in order, with nothing missing at the end.
+  /// Opens the file and calls use(row, is_new) for each row; is_new: the first row of its conformation. Throws
+  /// LoadError unless the rows are the conformations of the shard, in order and complete except for missing samples.
   template <class Use>
   void for_rows(const Use& use) {
     open();
@@ -56,7 +56,7 @@ class ShardFile {
       if (is_json && line_.ends_with(',')) line_.pop_back();
       const std::uint64_t index = row_index();
       const bool is_new = index >= expected;
-      // CSV has a row for each pair.
+      // CSV has one row per pair, so an index may repeat.
       if (is_new ? index >= first + count : is_json || expected == first || index + 1 != expected)
         refuse(fmt::format("conformation {} where {} was expected", index, expected));
       if (is_new) {
@@ -75,7 +75,7 @@ class ShardFile {
   void close() { stream_.close(); }
 
   const std::string& path() const { return path_; }
-  std::string question;  ///< what must be the same in all shards
+  std::string question;  ///< equal in all shards of a run
   std::string header;    ///< CSV only
   Json head;             ///< JSON only, without the shard
   Json summary;          ///< JSON only
@@ -87,7 +87,7 @@ class ShardFile {
   [[noreturn]] void refuse(const std::string& what) const { throw LoadError(path_ + ": " + what); }
   bool next() {
     const bool got = static_cast<bool>(std::getline(stream_, line_));
-    // A line without an end was cut; what a whole file ends with has one.
+    // A line without a line end is truncated: a complete file ends with a line end.
     return got && !stream_.eof();
   }
 
@@ -98,7 +98,7 @@ class ShardFile {
   }
 
   bool is_end() const { return is_json ? line_ == json_rows_end : line_.starts_with(csv_shard_end); }
-  /// Samples that the run could not give.
+  /// Returns the number of samples that the run could not find.
   std::uint64_t read_missing() {
     if (is_json) {
       read_summary();
@@ -134,7 +134,7 @@ class ShardFile {
     std::string text = line_ + "\n";
     while (next() && line_ != json_rows_begin) text += line_ + "\n";
     if (line_ != json_rows_begin) refuse("has no conformations, expected what biocd --shard printed");
-    text.resize(text.size() - std::min<std::size_t>(2, text.size()));  // the comma before the rows
+    text.resize(text.size() - std::min<std::size_t>(2, text.size()));  // removes the comma before the rows
     head = Json::parse(text + "}", nullptr, false);
     if (head.is_discarded() || !head.is_object()) refuse("its head is damaged");
     if (!head.contains("shard")) refuse("is no shard but a whole run");
@@ -196,7 +196,7 @@ Exit run_merge(const Options& options) {
       throw LoadError(fmt::format("shard {} of {} is missing", index != k + 1 ? k + 1 : k + 2, files[k].shard.of));
   }
 
-  // Everything is looked at before anything is printed.
+  // Validate everything before printing anything.
   Summary summary;
   for (ShardFile& file : files) {
     file.for_rows([&](const std::string& row, bool is_new) {

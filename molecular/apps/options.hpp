@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the biocd command line asks for, after parsing, and the molecule it is about.
+// The options of the biocd command line after parsing, and the molecule they load.
 #pragma once
 
 #include <cstdint>
@@ -24,84 +24,89 @@ namespace biocd {
 
 using hinge::tool::Exit;
 
-inline constexpr double degree = std::numbers::pi / 180.0;  // rad
+inline constexpr double degree = std::numbers::pi / 180.0;  // rad per degree
 
+/// Format of standard output.
 enum class Output : std::uint8_t { table, json, csv };
 
-/// Part `index` of `of`, from 1.
+/// Shard number `index` (from 1) of `of` shards.
 struct Shard {
   std::uint64_t index = 1;
   std::uint64_t of = 1;
 };
 
+/// The values of the command line. Each option belongs to all commands with a molecule unless a command is named.
 struct Options {
-  std::string file;
-  std::vector<std::string> with;                             // further files
-  std::vector<std::string> place;                            // "PART" or "PART=DISTANCE,DEGREES"
-  std::vector<std::pair<std::string, std::string>> between;  // parts
-  std::vector<std::string> inside;                           // parts
-  std::vector<std::string> trajectories;                     // check: files of conformations
-  hinge::molecular::ReadOptions read;
-  hinge::molecular::CheckOptions check;
-  std::string free = "all";
-  bool omega = false;
-  std::string loop;  // residues of loops; empty: none
-  bool keep_hydrogen_bonds = false;
-  std::vector<std::string> rigid_from;  // conformations whose rigid groups stay rigid; empty: none
-  double rigid_tolerance = 0.5;         // angstrom
-  std::optional<bool> keep_closures;    // sample, walk: of all cycles, or of loops alone; none: nothing is closed
-  bool draws = false;                   // sample: conformations are drawn at random
-  bool collision_free = false;          // sample: only those that do not collide
-  std::uint64_t most_tries = 100;       // sample: starts for each closed conformation
-  std::string mode = "all";
-  Output output = Output::table;
-  std::string explain;         // "i,j"; empty: nothing to explain
-  bool atoms = false;          // info: list atoms, bonds and thresholds too
-  std::uint64_t count = 1000;  // sample: number of conformations
-  std::uint64_t seed = 1;
-  std::optional<double> sigma_degrees;
-  unsigned threads = 1;
-  std::string out;                    // check, sample, walk: conformations, by extension
-  bool torsions = false;              // sample: rows say the torsions
-  std::string torsions_out;           // sample: .npy file of them
-  bool only_free = false;             // check, sample: `out` gets those that do not collide
-  std::optional<Shard> shard;         // check, sample
-  std::vector<std::string> shards{};  // merge
-  std::uint64_t steps = 10000;        // walk
-  double step_degrees = 3.0;
-  std::uint64_t changes = 1;  // torsions per step
-  std::uint64_t every = 100;  // steps from one conformation written to the next
-  // path
-  std::string from, to;                   // see path_end.hpp
-  std::optional<double> sampled_degrees;  // look at states this far apart; none: certify
-  double min_step = hinge::smallest_path_step;
+  std::string file;                                          ///< FILE
+  std::vector<std::string> with;                             ///< further files
+  std::vector<std::string> place;                            ///< "PART" or "PART=DISTANCE,DEGREES"
+  std::vector<std::pair<std::string, std::string>> between;  ///< pairs of parts
+  std::vector<std::string> inside;                           ///< parts
+  std::vector<std::string> trajectories;                     ///< check: files of conformations
+  hinge::molecular::ReadOptions read;                        ///< how to read files
+  hinge::molecular::CheckOptions check;                      ///< rules of a check
+  std::string free = "all";                                  ///< selection of free torsions
+  bool omega = false;                                        ///< free omega too
+  std::string loop;                                          ///< residues of loops; empty: none
+  bool keep_hydrogen_bonds = false;                          ///< backbone hydrogen bonds are closures
+  std::vector<std::string> rigid_from;          ///< conformations whose rigid groups stay rigid; empty: none
+  double rigid_tolerance = 0.5;                 ///< angstrom
+  std::optional<bool> keep_closures;            ///< true: close all cycles; false: only loops; nothing: close none
+  bool draws = false;                           ///< sample: conformations are drawn at random
+  bool collision_free = false;                  ///< sample: only conformations that do not collide
+  std::uint64_t most_tries = 100;               ///< sample: starts for each closed conformation
+  std::string mode = "all";                     ///< check, sample: text of Mode::parse
+  Output output = Output::table;                ///< format of standard output
+  std::string explain;                          ///< "i,j"; empty: explain nothing
+  bool atoms = false;                           ///< info: list atoms, bonds and thresholds too
+  std::uint64_t count = 1000;                   ///< sample, demo: number of conformations
+  std::uint64_t seed = 1;                       ///< sample, walk, demo
+  std::optional<double> sigma_degrees;          ///< sample: standard deviation of a torsion; nothing: full range
+  unsigned threads = 1;                         ///< check, sample: worker threads
+  std::string out;                              ///< check, sample, walk: file of conformations; demo: folder
+  bool torsions = false;                        ///< sample: rows contain the torsions
+  std::string torsions_out;                     ///< sample: .npy file of the torsions
+  bool only_free = false;                       ///< check, sample: `out` gets only conformations that do not collide
+  std::optional<Shard> shard;                   ///< check, sample
+  std::vector<std::string> shards{};            ///< merge: files of the shards
+  std::uint64_t steps = 10000;                  ///< walk: moves to try
+  double step_degrees = 3.0;                    ///< walk: standard deviation of a torsion's change
+  std::uint64_t changes = 1;                    ///< walk: torsions per move
+  std::uint64_t every = 100;                    ///< walk: steps from one written conformation to the next
+  std::string from, to;                         ///< path: ends, see path_end.hpp
+  std::optional<double> sampled_degrees;        ///< path: largest distance between sampled states; nothing: certify
+  double min_step = hinge::smallest_path_step;  ///< path: intervals up to this share of the path are not split
 };
 
+/// Returns the sampling that the options ask for.
 inline hinge::molecular::Sampling sampling_of(const Options& options) {
   hinge::molecular::Sampling sampling{options.seed, {}};
   if (options.sigma_degrees) sampling.sigma = *options.sigma_degrees * degree;
   return sampling;
 }
 
-/// A file read, with its selection and rules, ready to be asked.
+/// A molecule with its selection and rules, ready for queries.
 struct Job {
-  std::shared_ptr<const hinge::molecular::Molecule> molecule;
-  hinge::molecular::Checker checker;
-  hinge::molecular::SelectedTorsions selected;                 // by --free
-  hinge::molecular::KeptClosures kept;                         // closed cycles, and torsions selected that they hold
-  std::vector<hinge::molecular::PlacementRange> ranges;        // per placed part
-  std::optional<hinge::molecular::EnsembleGroups> ensemble{};  // of --rigid-from
+  std::shared_ptr<const hinge::molecular::Molecule> molecule;  ///< all files joined
+  hinge::molecular::Checker checker;                           ///< template for the checkers of threads: copy it
+  hinge::molecular::SelectedTorsions selected;                 // torsions that --free selects
+  hinge::molecular::KeptClosures kept;                         // closures to keep, and torsions that they hold fixed
+  std::vector<hinge::molecular::PlacementRange> ranges;        // one per placed part
+  std::optional<hinge::molecular::EnsembleGroups> ensemble{};  // rigid groups of --rigid-from
 };
 
+/// Reads the files and builds the molecule and the checker. Throws LoadError for bad files, ModelError for bad options.
 Job load(const Options& options);
 
-/// What demo writes into its folder.
+/// The files that demo writes into its folder.
 inline constexpr const char* demo_files[] = {"speed.svg", "worst.pdb", "worst.cxc", "worst.pml"};
 
-/// ModelError: --out would write over an input of the command, a directory or the file that the results go to.
-/// is_folder: it names demo's folder.
+/// Throws ModelError if --out or --torsions-out has another format than expected, or would overwrite an input, a
+/// directory or the file of the results. is_folder: --out names demo's folder.
 void check_outputs(const Options& options, bool is_folder);
 
+/// Each of these runs one command and returns its exit status. Throw LoadError for bad input, ModelError for bad
+/// options.
 Exit run_info(const Options& options);
 Exit run_check(const Options& options);
 Exit run_sample(const Options& options);
@@ -110,7 +115,7 @@ Exit run_merge(const Options& options);
 Exit run_path(const Options& options);
 Exit run_demo(const Options& options);
 
-/// Prints which rule kept or dropped the pair named by options.explain.
+/// Prints which rule keeps or drops the pair of options.explain.
 void explain(const Options& options, const Job& job);
 
 }  // namespace biocd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// biocd path: is the straight path between two conformations free?
+// biocd path: tests whether the straight path between two conformations is free.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,12 +30,12 @@ namespace {
 struct Asked {
   PathEnd from, to;
   PathAnswer answer;
-  std::vector<Contact> pairs;     // that collide at the state found
-  double closure_residual = 0.0;  // the worse of the ends, angstrom
+  std::vector<Contact> pairs;     // pairs that collide at the colliding state
+  double closure_residual = 0.0;  // worst closure residual at either end, angstrom
 };
 
 std::string shown(const PathEnd& end) {
-  constexpr std::size_t most = 30;  // characters of a list, in a line for people
+  constexpr std::size_t most = 30;  // characters shown of a list
   return end.text.size() > most ? end.text.substr(0, most) + "..." : end.text;
 }
 
@@ -110,7 +110,7 @@ void print_table(const Options& options, const Job& job, const Asked& asked) {
   }
 }
 
-/// One line about the closure that opens most at the ends and at fifteen states between them.
+/// Prints a note about the closure with the largest residual at the ends and at 15 states between them.
 void note_open_closures(const Job& job, const Asked& asked) {
   constexpr std::size_t steps = 16;
   Checker checker = job.checker;
@@ -141,7 +141,7 @@ Exit run_path(const Options& options) {
     return Exit::free;
   }
   Asked asked{read_path_end("--from", options.from, job), read_path_end("--to", options.to, job), {}, {}};
-  // What was measured is an angle: whole turns are the path's choice. Lists say how far to turn.
+  // Angles measured from a model are known up to whole turns, so take the shorter way. A list states the turns exactly.
   const auto shorten = [&](const PathEnd& near, PathEnd& end) {
     for (std::size_t k = 0; k < end.turns.size(); ++k)
       if (turns(job, job.checker.selection().dofs()[k]))

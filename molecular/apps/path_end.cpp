@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lists of degrees, and torsions measured from a model.
+// Reads an end of a path: a list of degrees, or torsions measured from a model.
 #include "path_end.hpp"
 
 #include <fmt/format.h>
@@ -23,7 +23,8 @@ using namespace hinge::molecular;
 
 namespace {
 
-/// Numbers between separators; one comma separates, and blanks around it do not count.
+/// Reads numbers separated by blanks, by one comma, or by both. Calls refuse(message), which must throw, on a bad
+/// number or if there are not `count` of them.
 template <class Refuse>
 std::vector<double> read_degrees(std::string_view text, std::size_t count, const Refuse& refuse) {
   constexpr std::string_view blanks = " \t\r\n";
@@ -64,7 +65,8 @@ std::size_t find_model(const std::string& option, std::string_view number, const
                   s.model_numbers.size() > 1 ? fmt::format(" ... {}", s.model_numbers.back()) : ""));
 }
 
-/// Torsions first, then placements: a part is laid over what it was after its own torsions have turned.
+/// Returns the configuration (rad, angstrom) that fits the model: first its torsions, then the placements, because a
+/// part is superposed after its own torsions are set.
 std::vector<double> fit(const Job& job, const std::vector<hinge::Vec3>& model) {
   const Molecule& molecule = *job.molecule;
   const auto dofs = job.checker.selection().dofs();
@@ -82,7 +84,7 @@ std::vector<double> fit(const Job& job, const std::vector<hinge::Vec3>& model) {
   return q;
 }
 
-/// To rad.
+/// Converts the values of revolute DOF from degrees to rad.
 std::vector<double> turned(const Job& job, std::vector<double> values) {
   for (std::size_t k = 0; k < values.size(); ++k)
     if (turns(job, job.checker.selection().dofs()[k])) values[k] *= degree;

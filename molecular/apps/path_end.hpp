@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An end of a path, as the command line names it.
+// An end of a path, as given on the command line.
 #pragma once
 
 #include <optional>
@@ -12,17 +12,18 @@
 namespace biocd {
 
 struct PathEnd {
-  std::string text;                                           ///< as given
-  std::vector<double> turns;                                  ///< from the reference, rad, one per selected DOF
-  std::optional<hinge::molecular::Superposition> from_model;  ///< model:N: the rebuilt end laid over the model
+  std::string text;           ///< text of the option
+  std::vector<double> turns;  ///< from the reference, one per selected DOF: rad, or angstrom (moves)
+  std::optional<hinge::molecular::Superposition> from_model;  ///< model:N only: the rebuilt end superposed on it
 };
 
-/// "reference", "model:N" (numbers as in the file), "@FILE" or a list: turns from the reference in degrees, one per
-/// selected DOF, in a file also separated by blanks and line ends. ModelError: a text, count or number that does not
-/// fit, naming the option; LoadError: the same in a file, or a model that leaves a torsion undefined.
+/// Reads "reference", "model:N" (number in the file), "@FILE" or a list: values relative to the reference, one per
+/// selected DOF, in degrees (moves in angstrom), separated by commas, blanks or line ends. Throws ModelError, naming
+/// the option, if the text, a count or a number is wrong; LoadError for the same in a file, or for a model that leaves
+/// a torsion undefined.
 PathEnd read_path_end(const char* option, const std::string& text, const Job& job);
 
-/// What a user has to know of an end that stands for a model, one sentence; empty for others.
+/// Returns one sentence on how well the rebuilt end fits its model; empty for other ends.
 std::string note_of(const PathEnd& end, const Job& job);
 
 }  // namespace biocd

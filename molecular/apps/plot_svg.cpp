@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plain SVG, no library.
+// Writes plots as plain SVG, without a library.
 #include "plot_svg.hpp"
 
 #include <fmt/format.h>
@@ -50,7 +50,7 @@ std::string one_plot(const Plot& plot, double shift) {
   svg += text(shift + 20, middle, plot.vertical,
               fmt::format("text-anchor=\"middle\" transform=\"rotate(-90 {:.1f} {:.1f})\"", shift + 20, middle));
 
-  // Names beside the ends of their curves, pushed apart where curves end close together.
+  // Labels next to the ends of the curves, at least 15 pixels apart.
   std::vector<std::pair<double, std::size_t>> ends;
   for (std::size_t c = 0; c < plot.curves.size(); ++c) ends.emplace_back(y(plot.curves[c].values.back()), c);
   std::sort(ends.begin(), ends.end());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A line plot with a logarithmic vertical axis, as SVG.
+// Draws line plots with a logarithmic vertical axis as SVG.
 #pragma once
 
 #include <string>
@@ -8,20 +8,22 @@
 
 namespace biocd {
 
+/// A named curve of a plot.
 struct Curve {
   std::string name;
   std::vector<double> values;  ///< one per label, > 0
 };
 
+/// A plot with its title, axis titles and curves. Needs at least one label.
 struct Plot {
   std::string title;
   std::string horizontal;
   std::string vertical;
-  std::vector<std::string> labels;  ///< along the horizontal axis, evenly spaced
+  std::vector<std::string> labels;  ///< labels of the horizontal axis, evenly spaced
   std::vector<Curve> curves;
 };
 
-/// The plots side by side.
+/// Returns an SVG document with the plots side by side.
 std::string to_svg(const std::vector<Plot>& plots);
 
 }  // namespace biocd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shared parts of the outputs.
+// Writes the parts that several outputs share.
 #include "report.hpp"
 
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ bool has_classes(std::string_view rules) {
 }
 bool has_relative_distance(std::string_view rules) { return rules == "posebusters"; }
 
-/// "d < 0.8 * (bondi v1 radii), pairs at least 4 bonds apart, hydrogen-bond rule on", or what the named rules are.
+/// Returns "d < 0.8 * (bondi v1 radii), pairs at least 4 bonds apart, ...", or the same with the name of the rules.
 std::string rule_line(const Checker& checker) {
   const auto& t = checker.thresholds();
   const auto bonds = checker.min_bonds();
@@ -51,7 +51,7 @@ std::string rule_line(const Checker& checker) {
   return text + fmt::format(", hydrogen-bond rule {}", t.hydrogen_bonds ? "on" : "off");
 }
 
-/// Of the loader, the builder and the selection.
+/// Returns the notes of loader, builder and selection.
 std::vector<std::string> all_notes(const Job& job) {
   std::vector<std::string> notes = job.molecule->structure().notes;
   notes.insert(notes.end(), job.molecule->notes().begin(), job.molecule->notes().end());
@@ -59,7 +59,7 @@ std::vector<std::string> all_notes(const Job& job) {
   return notes;
 }
 
-/// Of the reference collisions; every one is asked about, so that what is left out is exempt.
+/// Returns the number of reference collisions that are exempt: all others are admitted.
 std::size_t exempted_pairs(const Job& job) {
   return static_cast<std::size_t>(std::ranges::count_if(job.checker.reference_collisions(), [&](const hinge::Hit& hit) {
     return !job.checker.exclusions().admits(hit.first, hit.second);
@@ -72,7 +72,7 @@ Json free_words_json(const Job& job) {
   return list;
 }
 
-/// How many torsions each word of --free selects, where there are several.
+/// Returns how many torsions each word of --free selects; empty if there is only one word.
 std::string free_words_line(const Job& job) {
   if (job.selected.words.size() < 2) return "";
   std::string text = "selected by word:";

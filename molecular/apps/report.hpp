@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parts that the outputs of info, check and sample share. The JSON keys are a contract:
-// docs/reference/biocd.md.
+// Shared parts of the outputs of all commands. The JSON keys are a contract: docs/reference/biocd.md.
 #pragma once
 
 #include <cstdint>
@@ -14,61 +13,67 @@
 
 namespace biocd {
 
-/// Keys keep the order they were written in.
+/// JSON; keys keep the order in which they are written.
 using Json = nlohmann::ordered_json;
 
+/// Returns the molecule, the selection and the rules: the key `model` of every output.
 Json model_json(const Options& options, const Job& job);
+/// Returns a pair: atoms, distance and threshold (angstrom), and its class under the rules.
 Json pair_json(const Job& job, const hinge::molecular::Contact& pair);
+/// Returns the pairs that collide at every configuration of the selection.
 Json constant_contacts_json(const Job& job);
-/// Each closure of the molecule by name, with its residual (angstrom); empty without residuals.
+/// Returns the closures by name with their residuals (angstrom). residuals: one per closure, or none for an empty list.
 Json closures_json(const Job& job, const std::vector<double>& residuals);
-/// "A:LYS77:chi1" or "move B x".
+/// Returns the name of a DOF, such as "A:LYS77:chi1" or "move B x".
 std::string dof_label(const Job& job, hinge::DofId dof);
-/// Does it turn (rad), or move (angstrom)?
+/// Returns true if the DOF is revolute (rad), false if it is prismatic (angstrom).
 bool turns(const Job& job, hinge::DofId dof);
-/// A configuration's values as people give and read them: degrees, and angstrom of placed parts' moves.
+/// Converts a configuration for output: revolute DOF from rad to degrees; moves of placed parts stay in angstrom.
 std::vector<double> in_degrees(const Job& job, std::vector<double> q);
 
-/// The same, but torsions as the angles they are, not as turns from the reference: in (-180, 180].
+/// Like in_degrees, but torsions are dihedral angles in (-180, 180], not turns from the reference.
 std::vector<double> torsion_values(const Job& job, std::vector<double> q);
-/// [{torsion, reference_degrees}] of the selection, in the order in which configurations give their values.
+/// Returns [{torsion, reference_degrees}], one per selected DOF, in configuration order.
 Json dofs_json(const Job& job);
 
-/// Their names, in the tree's order.
+/// Returns the names of the closures, in the order of the tree.
 std::vector<std::string> closure_names(const Job& job);
-/// A line for each of them; residuals: of each the worst, or none.
+/// Prints one line per closure. residuals: the worst of each closure (angstrom), or empty for no lines.
 void print_closures(const Job& job, const std::vector<double>& residuals);
-/// A length to thousandths: superposed coordinates are rounded differently on different instruction sets.
+/// Rounds a length to thousandths: superposed coordinates differ in their last bits between instruction sets.
 double rounded(double length);
+/// Returns one conformation's verdict, with the pairs that the mode lists.
 Json verdict_json(const Job& job, std::uint64_t index, const hinge::molecular::Verdict& verdict,
                   const hinge::molecular::Mode& mode);
 
-/// What every CSV file has: a row per pair, or one without a pair.
+/// Columns of every CSV file. A conformation has one row per pair, or one row with empty fields if it has no pair.
 inline constexpr const char* csv_columns =
     "index,collides,i,j,label_i,label_j,distance,threshold,pair_collides,overlap";
-/// And what else the rules have to say; more: further columns, each after a comma.
+/// Returns the header line: csv_columns, the columns of the rules, and `more`: further columns, each after a comma.
 std::string csv_header(const Options& options, const std::string& more);
+/// Returns the CSV rows of one conformation, each with a line end.
 std::string csv_rows(const Job& job, std::uint64_t index, const hinge::molecular::Verdict& verdict);
 
-/// The rows with further columns, each after a comma.
+/// Returns the rows with `columns` appended to each; every column starts with a comma.
 std::string with_columns(const std::string& rows, const std::string& columns);
 
-/// "A:LYS77:NZ  A:GLU18:OE1  2.310 < 2.456, overlap 0.760"; ">=" when the pair does not collide, whatever rounding made
-/// of its numbers.
+/// Returns a line such as "A:LYS77:NZ  A:GLU18:OE1  2.310 < 2.456, overlap 0.760". The sign is ">=" if the pair does
+/// not collide, even if the rounded numbers suggest otherwise.
 std::string pair_line(const Job& job, const hinge::molecular::Contact& pair);
 
-/// The rules of the check, the selection and its constant contacts, for people.
+/// Returns the heading of tables: the file, the selection, the rules and the constant contacts.
 std::string heading(const Options& options, const Job& job);
 
-/// Constant contacts on standard error, for outputs whose format has no place for them.
+/// Prints the constant contacts to standard error, for formats that have no field for them.
 void print_constant_contacts(const Job& job);
 
-/// "left out: 333 waters, 1 ACT (--hetero keeps ...)", or nothing.
+/// Returns the residues that were left out, such as "left out: ACT x1, 333 waters (--hetero keeps ...)" with a line
+/// end, or an empty text.
 std::string left_out_line(const hinge::molecular::Structure& structure);
-/// The same on standard error, for CSV, which has no place for it.
+/// Prints left_out_line to standard error for CSV, which has no field for it.
 void print_left_out(const Options& options, const Job& job);
 
-/// Notes of loader and builder, on standard error.
+/// Prints the notes of loader, builder, selection and closures to standard error.
 void print_notes(const Job& job);
 
 }  // namespace biocd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Degrees of freedom in the outputs: their names, and values as people read them.
+// Writes degrees of freedom: their names, and their values in degrees and angstrom.
 #include <cmath>
 #include <numbers>
 #include <string>

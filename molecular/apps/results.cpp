@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows between a head and a summary.
+// Prints results: a head, one row per conformation (or pair), and a summary.
 #include "results.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace biocd {
 
 namespace {
 
-/// FNV-1a, 64 bits: tells questions apart.
+/// 64-bit FNV-1a hash: distinguishes questions.
 std::uint64_t digest(std::string_view text) {
   std::uint64_t hash = 0xcbf29ce484222325ULL;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
@@ -41,7 +41,7 @@ Shard parse_shard(const std::string& text) {
 }
 
 std::pair<std::uint64_t, std::uint64_t> shard_range(const Shard& shard, std::uint64_t total) {
-  // The first total % of shards have one more; written so that nothing overflows.
+  // The first total % of shards have one more; this form cannot overflow.
   const std::uint64_t length = total / shard.of, longer = total % shard.of;
   const auto start = [&](std::uint64_t k) { return k * length + std::min(k, longer); };
   return {start(shard.index - 1), start(shard.index)};
@@ -49,7 +49,7 @@ std::pair<std::uint64_t, std::uint64_t> shard_range(const Shard& shard, std::uin
 
 void print_json_head(const Json& head) {
   std::string text = hinge::tool::json_text(head, 1);
-  text.resize(text.rfind('\n'));  // the closing brace comes with the summary
+  text.resize(text.rfind('\n'));  // print_json_end prints the closing brace
   fmt::print("{},\n{}", text, json_rows_begin);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Conformation by conformation on standard output, whole or in shards that `biocd merge` joins again.
+// Prints results to standard output, for a whole run or for one shard that `biocd merge` joins.
 #pragma once
 
 #include <cstdint>
@@ -11,23 +11,25 @@
 
 namespace biocd {
 
-/// "2/7": the second of seven shards. ModelError: anything else, or more than a million.
+/// Reads a shard: "2/7" is the second of seven. Throws ModelError for another text, or for more than a million shards.
 Shard parse_shard(const std::string& text);
 
-/// Conformations [first, second) of a shard: runs of equal length, or one more.
+/// Returns the conformations [first, second) of a shard. Lengths of shards differ by at most one.
 std::pair<std::uint64_t, std::uint64_t> shard_range(const Shard& shard, std::uint64_t total);
 
-/// What is printed of a run, as JSON or CSV; tables print for themselves. Every row starts with the conformation's
-/// number and ends with a line end, so that text alone is enough to join shards.
+/// Prints a run as JSON or CSV; commands print tables themselves. Every row starts with the conformation's index and is
+/// a line of its own, so shards can be joined as text.
 class Results {
  public:
-  /// Prints what stands before the first row. columns: of CSV, beyond those of the rules. ModelError: a shard of a
-  /// table.
+  /// Prints the head. total: conformations of the whole run. columns: CSV columns after the columns of the rules.
+  /// Throws ModelError for a shard of a table.
   Results(const Options& options, Json head, std::uint64_t total, const std::string& columns = "");
 
+  /// Prints a JSON row.
   void add(const Json& row);
+  /// Prints CSV rows, each with its line end.
   void add(const std::string& csv_rows);
-  /// Prints what stands behind the last row; an error, where one ended the run early.
+  /// Prints the summary. error: why the run ended early, or empty.
   void finish(Json summary, const std::string& error = {});
 
  private:
@@ -36,13 +38,15 @@ class Results {
   bool empty_ = true;
 };
 
-// The parts, for merging.
+// Pieces of the output, for merging.
+/// Prints the head and opens the list of rows.
 void print_json_head(const Json& head);
-/// Of rows: before each one.
+/// Returns the text before a row.
 const char* json_row_separator(bool is_first);
+/// Closes the list of rows and prints the summary.
 void print_json_end(const Json& summary);
-/// A comment line that says which shard of what question a CSV file is, and one that says that it is whole, followed by
-/// how many samples it lacks where that is a number of them.
+/// Returns the first line of a CSV shard: its index, its range, and a digest of the question. A complete CSV shard ends
+/// with csv_shard_end and the number of samples it lacks.
 std::string csv_shard_line(const Shard& shard, std::uint64_t total, const Json& head);
 inline constexpr const char* csv_shard_end = "# complete, samples missing:";
 inline constexpr const char* json_rows_begin = "\"conformations\": [";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Conformations gone through twice: for what they keep, then for what that leaves of them.
+// Finds the rigid groups of an ensemble in one pass over its conformations, and measures their deviations in a second.
 #include "rigid_ensemble.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +20,8 @@ using namespace hinge::molecular;
 
 namespace {
 
-/// What use(positions, name) says of each conformation; an error of a frame names it.
+/// Calls use(positions, name) for each conformation of --rigid-from; positions: angstrom, one per atom of the molecule.
+/// A LoadError of use gets the name of the frame.
 template <class Use>
 void for_conformations(const Options& options, const Structure& s, const Use& use) {
   const Frames frames(options.rigid_from, options.file, s, options.read, true);
@@ -35,9 +36,9 @@ void for_conformations(const Options& options, const Structure& s, const Use& us
   }
 }
 
-/// How far a rigid body is from what it stands for, over the conformations.
+/// Deviations of a rigid group, or of the rebuilt molecule, from the conformations.
 struct Deviation {
-  double sum = 0.0, worst = 0.0, farthest = 0.0;  // RMSD, RMSD, distance of an atom: angstrom
+  double sum = 0.0, worst = 0.0, farthest = 0.0;  // sum of RMSD, worst RMSD, largest distance of an atom: angstrom
   std::string worst_name;
   std::uint32_t farthest_atom = 0;
   std::size_t count = 0;
@@ -58,7 +59,7 @@ struct Deviation {
 
 struct Deviations {
   std::vector<Deviation> groups;
-  Deviation model;  // all of it, rebuilt by its free torsions
+  Deviation model;  // the whole molecule, rebuilt from its free torsions; empty with placed parts
 };
 
 Deviations measure(const Options& options, const Job& job) {
@@ -90,7 +91,8 @@ Deviations measure(const Options& options, const Job& job) {
   return all;
 }
 
-/// "A:1-29 A:60-121": the residues most of whose atoms are there, or all that have any.
+/// Returns text such as "A:1-29 A:60-121": the residues with more than half of their atoms in `atoms`, or, if there are
+/// none, all residues with an atom in it.
 std::string residues_text(const Structure& s, const std::vector<std::uint32_t>& atoms) {
   std::vector<std::uint32_t> count(s.residues.size(), 0);
   for (const std::uint32_t i : atoms) ++count[s.atoms[i].residue];
@@ -143,7 +145,7 @@ EnsembleGroups find_rigid_groups(const Options& options, const Molecule& molecul
 }
 
 std::string rigid_groups_text(const Options& options, const Job& job) {
-  constexpr std::size_t most = 20;  // groups in a list for people
+  constexpr std::size_t most = 20;  // groups shown in the table
   const Structure& s = job.molecule->structure();
   const EnsembleGroups& found = *job.ensemble;
   const Deviations all = measure(options, job);

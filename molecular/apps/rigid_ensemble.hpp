@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rigid groups of --rigid-from: found before a question is asked, and how well they stand for the conformations.
+// Finds the rigid groups of --rigid-from, and reports how well they fit the conformations.
 #pragma once
 
 #include <memory>
@@ -14,11 +14,14 @@
 
 namespace biocd {
 
-/// The groups of --rigid-from, of a molecule whose `torsions` may turn. LoadError names file and frame.
+/// Returns the rigid groups of the conformations of --rigid-from. torsions: the torsions that may turn, as indices into
+/// Molecule::torsions(). Throws LoadError, naming file and frame, if a conformation cannot be used; ModelError if there
+/// are fewer than two.
 hinge::molecular::EnsembleGroups find_rigid_groups(const Options& options, const hinge::molecular::Molecule& molecule,
                                                    std::span<const std::size_t> torsions);
 
-/// What the groups and the model they make leave of each conformation, for people or as JSON; goes through them again.
+/// Report the groups, the free torsions, and the deviations of groups and rebuilt molecule, as a table or as JSON. Both
+/// read all conformations of --rigid-from again and throw LoadError as find_rigid_groups does.
 std::string rigid_groups_text(const Options& options, const Job& job);
 Json rigid_groups_json(const Options& options, const Job& job);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// biocd sample: random conformations, checked in parallel, reported in index order.
+// biocd sample: draws random conformations, checks them in parallel, and reports them in index order.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -33,14 +33,14 @@ using namespace hinge::molecular;
 
 struct Sample {
   Verdict verdict;
-  std::vector<hinge::Vec3> positions;  // only when they are to be written
-  bool found = true;                   // false: no start closed (or none was free, where that was asked for)
+  std::vector<hinge::Vec3> positions;  // empty unless --out takes them
+  bool found = true;                   // false: no start closed (with --collision-free: no closed start was free)
   std::uint64_t unclosed = 0, refused = 0;
   Placements placements{};
-  std::vector<double> torsions{};  // and placements, of the selection
+  std::vector<double> torsions{};  // values of the selected DOF, as torsion_values gives them
 };
 
-/// One per thread.
+/// State of one thread.
 struct Worker {
   Checker checker;
   std::optional<ClosedSampler> closed;
@@ -68,7 +68,7 @@ Sample draw(Worker& worker, const Job& job, const Sampling& sampling, std::uint6
   return sample;
 }
 
-/// --torsions-out: an array of samples x DOF.
+/// Output file of --torsions-out: an array of samples x DOF. Does nothing if the path is empty.
 class TorsionFile {
  public:
   TorsionFile(const std::string& path, std::size_t dof) : file_(path) {
@@ -193,7 +193,7 @@ Exit run_sample(const Options& options) {
         .run(static_cast<std::size_t>(end - begin), judge, report, results_at_once(s.atoms.size()));
     file.finish();
     torsions.finish();
-  } catch (const hinge::Error& error) {  // such as a full disk
+  } catch (const hinge::Error& error) {  // for example a full disk
     results.finish(summary.json(true), error.what());
     throw;
   }

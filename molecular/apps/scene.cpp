@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several molecules on the command line and in the outputs.
+// Handles scenes of several molecules: options, placements and their output.
 #include "scene.hpp"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ using namespace hinge::molecular;
 
 namespace {
 
-/// Where a --place that gives no range may go: a binding site's neighbourhood, turned any way.
+/// Default range of --place: 10 angstrom, the neighbourhood of a binding site, and any rotation.
 constexpr PlacementRange usual_range{10.0, std::numbers::pi};
 
 }  // namespace

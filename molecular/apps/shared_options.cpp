@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each option with its range, its default and its help.
+// Adds the options with their ranges, defaults and help texts.
 #include "shared_options.hpp"
 
 #include <string>

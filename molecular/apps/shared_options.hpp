@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Options of the command line that several commands share.
+// Adds the command-line options that several commands share. Each function stores the values in `o`, which must outlive
+// the command.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -10,14 +11,17 @@
 namespace biocd {
 
 inline constexpr hinge::tool::NumberRange<double> lengths_above_0{0.0, hinge::tool::largest_length,
-                                                                  true};  // angstrom, or degrees
+                                                                  true};  // angstrom or degrees
 
-/// The molecule, what turns in it, and the rules of a check.
+/// Adds FILE and the options about the molecule, its free torsions and the rules of a check.
 void add_model_options(CLI::App& command, Options& o);
+/// Adds --json.
 void add_json_option(CLI::App& command, Options& o);
-/// What check and sample share beyond the model.
+/// Adds the further options that check and sample share: output format, mode, --out, shards, threads.
 void add_check_options(CLI::App& command, Options& o);
+/// Adds --closures.
 void add_closures_option(CLI::App& command, Options& o);
+/// Adds --json and the options of path: both ends and the method.
 void add_path_options(CLI::App& command, Options& o);
 
 }  // namespace biocd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counting.
+// Counts verdicts, clashes and closure residuals.
 #include "summary.hpp"
 
 #include <utility>

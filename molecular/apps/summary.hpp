@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Summary: what is counted over the conformations of a run, from verdicts or from rows that were printed of them.
+// Summary: the counts over the conformations of a run, from verdicts or from printed rows.
 #pragma once
 
 #include <algorithm>
@@ -16,53 +16,57 @@
 
 namespace biocd {
 
-/// A pair of atoms, and in how many conformations it collides.
+/// A pair of atoms and the number of conformations in which it collides.
 struct Offender {
   std::uint32_t i = 0, j = 0;
   std::string label_i, label_j;
   std::uint64_t count = 0;
 };
 
-/// What it took to close samples, and how many did not.
+/// Counts of random starts and of samples without a closed conformation.
 struct Starts {
-  std::uint64_t missing = 0;   ///< samples that no start gave
+  std::uint64_t missing = 0;   ///< samples for which no start was accepted
   std::uint64_t unclosed = 0;  ///< starts that did not close
-  std::uint64_t refused = 0;   ///< closed, but colliding
+  std::uint64_t refused = 0;   ///< starts that closed but collide
 };
 
+/// Counts over the conformations of a run. One thread only.
 class Summary {
  public:
   Summary() = default;
-  /// closures: their names. Starts are counted only where samples are closed, offenders only where they are shown.
+  /// closures: their names. closed: count starts too. with_offenders: count colliding pairs too.
   Summary(std::vector<std::string> closures, bool closed, bool with_offenders);
 
-  /// The structure must outlive the summary.
+  /// Adds one verdict. The structure must outlive the summary.
   void add(const hinge::molecular::Structure& structure, const hinge::molecular::Verdict& verdict);
-  /// MolProbity's, of a conformation added before.
+  /// Adds the MolProbity clashscore of a conformation that was added before.
   void add_clashscore(double clashscore);
-  /// A row of verdict_json.
+  /// Adds a conformation by its row of verdict_json.
   void add(const Json& row);
-  /// The first row of a conformation in CSV.
+  /// Adds a conformation by its first CSV row.
   void add_csv(const std::string& row);
+  /// Adds counts of starts.
   void add(const Starts& starts);
-  /// What rows do not say: the summary of those added.
+  /// Adds the closure residuals and starts of a shard's summary, which its rows do not contain.
   void add_closures(const Json& summary);
 
+  /// Numbers of added and of colliding conformations, and the worst closure residual (angstrom).
   std::uint64_t checked() const { return checked_; }
   std::uint64_t colliding() const { return colliding_; }
   double worst_residual() const { return worst_residual_; }
-  /// By closure, angstrom; empty until a conformation had any.
+  /// Returns the worst residual per closure, angstrom; empty until a conformation with closures is added.
   const std::vector<double>& worst_residuals() const { return worst_residuals_; }
+  /// Returns the counts of starts; nothing if they are not counted.
   const std::optional<Starts>& starts() const { return starts_; }
-  /// The ten pairs that collide most often, most frequent first.
+  /// Returns the ten pairs that collide most often, most frequent first.
   std::vector<Offender> top() const;
-  /// Counts of offenders may be too low by at most this: memory is bounded (FrequentKeys).
+  /// Returns the largest possible undercount of an offender: memory is bounded (FrequentKeys).
   std::uint64_t count_error() const { return offenders_.count_error(); }
-  /// checked, colliding, clashscore (mean) and worst_clashscore where there are any, worst_closure_residual and
-  /// closures where conformations were computed, offenders, offenders_count_error unless it is 0, and missing,
-  /// starts_unclosed, closed_refused where they were closed.
+  /// Returns the keys checked and colliding; clashscore (mean) and worst_clashscore if there are any;
+  /// worst_closure_residual and closures if with_closures; offenders; offenders_count_error unless 0; missing,
+  /// starts_unclosed and closed_refused if starts are counted.
   Json json(bool with_closures) const;
-  /// With the keys that another summary has.
+  /// Returns the summary with the keys of another summary.
   Json json_like(const Json& other) const { return json(other.contains("worst_closure_residual")); }
 
  private:
@@ -73,12 +77,12 @@ class Summary {
   std::vector<double> worst_residuals_;
   std::optional<Starts> starts_;
   std::uint64_t scored_ = 0;
-  double clashscores_ = 0.0;  // sum
+  double clashscores_ = 0.0;  // sum over conformations
   double worst_clashscore_ = 0.0;
   bool with_offenders_ = true;
-  hinge::tool::FrequentKeys offenders_;  // (i << 32) + j
+  hinge::tool::FrequentKeys offenders_;  // keys are (i << 32) + j
   const hinge::molecular::Structure* structure_ = nullptr;
-  std::unordered_map<std::uint32_t, std::string> labels_;  // of rows, by atom
+  std::unordered_map<std::uint32_t, std::string> labels_;  // label per atom, from rows
 };
 
 }  // namespace biocd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// biocd walk: a Monte Carlo walk of collision-free moves from the file's conformation.
+// biocd walk: runs a Monte Carlo walk of collision-free moves from the file's conformation.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -94,7 +94,7 @@ Exit run_walk(const Options& options) {
   const std::chrono::duration<double> walking = std::chrono::steady_clock::now() - start;
   file.finish();
 
-  // A second opinion on where the walk ended, by a query that knows nothing of moves.
+  // Checks the final conformation by a query that is independent of the moves.
   const Verdict end = job.checker.check(moves.configuration(), Mode::parse("any", "angstrom"));
   if (end.collides) throw std::logic_error("the walk ended in a collision that no move reported");
   const std::uint64_t rejected = options.steps - accepted;

@@ -104,7 +104,7 @@ bool is_base_hydrogen(std::string_view residue, std::string_view atom) {
   return is_one_of(residue, thymines) && atom == "H6";
 }
 
-/// Returns true for atoms of aromatic rings, whose faces accept hydrogen bonds; those of His do not.
+/// Returns true for atoms of aromatic rings, whose faces accept hydrogen bonds. Rings of His do not accept them.
 bool is_face(const Structure& s, std::uint32_t i, AtomClass c) {
   const std::string_view residue = s.residues[s.atoms[i].residue].name, atom = s.atoms[i].name;
   if (is_one_of(residue, amino_acids))
@@ -112,9 +112,9 @@ bool is_face(const Structure& s, std::uint32_t i, AtomClass c) {
   return is_base_ring(residue, atom);
 }
 
-/// Returns true for nitrogens that accept in Probe because its tables do not call them donors, whatever they are bonded
-/// to: all nitrogens of residues it does not know (except N3 of H2U), and N2 of M2G, which is neither in a ring nor in
-/// an amino group.
+/// Returns true for nitrogens that accept in Probe, with any bonds, because its tables do not call them donors: all
+/// nitrogens of residues it does not know (except N3 of H2U), and N2 of M2G, which is neither in a ring nor in an amino
+/// group.
 bool is_unknown_nitrogen(const Structure& s, std::uint32_t i) {
   const std::string_view residue = s.residues[s.atoms[i].residue].name, atom = s.atoms[i].name;
   if (s.atoms[i].element != "N" || is_one_of(residue, amino_acids)) return false;

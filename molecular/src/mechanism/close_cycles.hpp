@@ -15,7 +15,7 @@
 
 namespace hinge::molecular {
 
-/// The cycles that the spanning tree leaves open. Indices of torsions are those of the list given to close_cycles.
+/// The cycles that the spanning tree leaves open. Torsions are indices into the list given to close_cycles.
 struct OpenCycles {
   std::vector<std::uint32_t> loop_ends;  ///< torsions at which loops are cut
   std::vector<std::uint32_t> torsions;   ///< other torsions that would close a cycle

@@ -101,7 +101,7 @@ std::vector<std::array<double, 6>> fit_placements(const Molecule& molecule, std:
     const Vec3 here = centre(moved), there = centre(onto), c = molecule.placed_parts()[k].centre;
     const Eigen::Matrix3d r = closest_rotation(moved, here, onto, there);
     const Vec3 move = r * (c - here) + there - c;
-    // Solves r = Rx(a) Ry(b) Rz(c). Each angle is computed from the matrix left by the previous ones, so b = pi/2 needs
+    // Solves r = Rx(a) Ry(b) Rz(c). Each angle is computed after the previous rotations are removed, so b = pi/2 needs
     // no special case.
     const double a = std::atan2(-r(1, 2), r(2, 2)), sin = std::sin(a), cos = std::cos(a);
     const double b = std::atan2(r(0, 2), cos * r(2, 2) - sin * r(1, 2));

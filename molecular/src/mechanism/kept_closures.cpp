@@ -17,7 +17,7 @@ namespace {
 
 constexpr double open_from = 1e-6;                              // angstrom; a closure with a larger residual is open
 constexpr std::size_t start_count = 16;                         // random starts per attempt
-constexpr std::uint64_t first_start = std::uint64_t{1} << 63U;  // stream index beyond those of samples
+constexpr std::uint64_t first_start = std::uint64_t{1} << 63U;  // stream index that no sample uses
 
 bool ends_loop(const Molecule& molecule, std::size_t closure) {
   const auto [i, j] = molecule.closure_atoms()[closure];
@@ -83,7 +83,7 @@ std::vector<std::size_t> find_unclosable(const Molecule& molecule, const DofSele
       for (std::size_t c = 0; c < kept.size(); ++c)
         if (solver.residual(c) > open_from) ++failures[c];
     }
-    // Gives up half of the failing closures, rounded up: those that fail most often.
+    // Gives up the half of the failing closures that fail most often, rounded up.
     std::vector<std::size_t> failing;
     for (std::size_t c = 0; c < kept.size(); ++c)
       if (failures[c] > 0 && !ends_loop(molecule, kept[c])) failing.push_back(c);

@@ -121,8 +121,8 @@ std::vector<std::size_t> select_loop_torsions(const Molecule& molecule, std::str
         ++turns;
       }
     }
-    // A closed cycle of k torsions has k - 6 degrees of freedom. With k = 6 it has other isolated conformations; with
-    // fewer, none.
+    // A closed cycle of k torsions has k - 6 degrees of freedom. With k = 6 it has other isolated conformations; with k
+    // < 6 it is rigid.
     if (turns < 6)
       refuse_loop(
           label(molecule.structure(), loop),

@@ -59,7 +59,7 @@ std::array<double, 6> sample_placement(SampleStream& stream, const PlacementRang
   }
   if (range.turn > 0.0) {
     // The invariant measure of rotations is |cos b| da db dc. A rotation by at most a quarter turn moves no axis by
-    // more than its own angle, so none of its angles a, b, c is larger: draw them from [-side, side].
+    // more than its own angle, so |a|, |b| and |c| are at most that angle: draw them from [-side, side].
     const double quarter = std::numbers::pi / 2;
     const double side = range.turn <= quarter ? range.turn : std::numbers::pi;
     const double half_sine = detail::sincos(range.turn / 2).sin;
