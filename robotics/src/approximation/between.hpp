@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Between: queries of two hierarchies with one engine, and clearances of the two made one.
+// Helpers for queries between two hierarchies: same engine, combined clearance, contacts per pair of links.
 #pragma once
 
 #include <algorithm>
@@ -27,12 +27,14 @@
 
 namespace hinge::robotics {
 
+/// Throws ConfigurationError if the margin is negative or not finite.
 inline void check_margin(double margin) {
   if (!is_finite(margin) || margin < 0.0)
     throw ConfigurationError("margin " + number_text(margin) + ": expected a finite length >= 0");
 }
 
-/// Calls ask(mine, theirs). ModelError: two engines, or one and the same hierarchy.
+/// Calls ask(mine, theirs) with both hierarchies as one type. Throws ModelError if the engines differ, or if both are
+/// the same object.
 template <class Ask>
 auto with_same_engine(AnyHierarchy& mine, AnyHierarchy& theirs, const Ask& ask) {
   return std::visit(
@@ -46,12 +48,12 @@ auto with_same_engine(AnyHierarchy& mine, AnyHierarchy& theirs, const Ask& ask) 
       mine);
 }
 
-/// What LinkMargins lacks between two models to the larger of their clearances.
+/// Returns the difference (m) between the larger clearance and the one that LinkMargins uses between two models.
 inline double missing_clearance(double clearance, double other_clearance) noexcept {
   return std::max(clearance, other_clearance) - (clearance / 2 + other_clearance / 2);
 }
 
-/// The same extra clearance for every group; an empty list for none.
+/// Returns the same extra clearance (m) for every group, or an empty list if it is 0.
 inline std::vector<double> for_all_groups(const AnyHierarchy& any, double clearance) {
   if (clearance == 0.0) return {};
   return std::visit([&](const auto& h) { return std::vector<double>(h.model().groups()->size(), clearance); }, any);
@@ -61,14 +63,14 @@ inline std::vector<double> filling(const AnyHierarchy& mine, double clearance, d
   return for_all_groups(mine, missing_clearance(clearance, other_clearance));
 }
 
-/// The numbers of a hit, of which `sum` is the threshold.
+/// Measures a hit. sum: its threshold.
 template <class H>
 Closeness measure(H& mine, H& theirs, const Hit& hit, const RadiusSum& sum) {
   return closeness(triangle_at(mine, hit.first), triangle_at(theirs, hit.second), sum);
 }
 
-/// The closest pair between two models and its numbers; a hit whenever there is one, if need be one that rounding had
-/// put a hair behind.
+/// Returns the closest pair between two models and its numbers. If any pair is a hit, the result is a hit, even if
+/// rounding gives another pair a slightly smaller gap.
 template <class H, class G>
 std::optional<std::pair<Hit, Closeness>> closest_between(H& mine, const LinkMargins& margins, H& theirs,
                                                          const LinkMargins& other_margins, const G& across,
@@ -88,7 +90,7 @@ std::optional<std::pair<Hit, Closeness>> closest_between(H& mine, const LinkMarg
   return std::pair(*hit, found);
 }
 
-/// One hit of every pair of links with d - M < margin, by links.
+/// Returns one hit per pair of links with d - M < margin (m), sorted by links.
 template <class H, class G>
 std::vector<LinkContact> links_within(H& mine, H& theirs, double margin, const G& across, const QueryOptions& options) {
   const std::span<const LinkId> links = mine.model().model().links(), other_links = theirs.model().model().links();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Qhull finds the hull, exact predicates prove that it encloses. Of Debian's libraries Qhull (5 MB installed, its own
-// permissive licence) was taken over CGAL (40 MB and Boost, GMP and MPFR; its hulls are under the GPL). What Qhull does
-// not promise, orientation of triangles cut from merged facets and flat input, is asked of it only in ways that it
-// does: facets of joggled points are simplicial and clearly convex, and flat input is given a thickness first.
+// Qhull finds the hull, exact predicates prove that it encloses the points. Qhull (5 MB installed, permissive licence)
+// was chosen over CGAL (40 MB with Boost, GMP and MPFR; its hulls are under the GPL). Qhull does not guarantee the
+// orientation of triangles cut from merged facets, nor a result for flat input. Therefore the points are joggled, so
+// that all facets are simplicial and clearly convex, and flat input first gets a thickness.
 #include "approximation/convex_hull.hpp"
 
 #include <algorithm>
@@ -28,11 +28,11 @@ namespace {
 using Points = std::vector<Vec3>;
 using Triangles = std::vector<Triangle>;
 
-/// Half the side of the cube that a point becomes where a hull would be flat; its corners stay well within
+/// m, half the edge of the cube that replaces a point if the hull would be flat. Its corners stay well within
 /// most_hull_excess / 2.
 constexpr double padding = most_hull_excess / 4;
 
-/// What orient3d(a, b, c, p) says of a p that sees a, b, c run clockwise.
+/// The sign of orient3d(a, b, c, p) if p sees a, b, c clockwise, so p is behind the triangle.
 constexpr int behind = 1;
 
 Points each_once(std::span<const Vec3> points) {
@@ -43,7 +43,7 @@ Points each_once(std::span<const Vec3> points) {
   return sorted;
 }
 
-/// A run of Qhull, freed with the object. Its C interface: the C++ one does not compile as C++20.
+/// A run of Qhull, freed with the object. Uses the C interface, because the C++ one does not compile as C++20.
 class Qhull {
  public:
   static constexpr std::size_t fewest_points = 4;
@@ -67,17 +67,17 @@ class Qhull {
     qh_memfreeshort(&state_, &rest, &total);
   }
 
-  /// False when it gave up, as it does on flat input.
+  /// False if Qhull failed, as it does on flat input.
   bool done() const noexcept { return done_; }
 
-  /// f(number of the point).
+  /// Calls f(index of the point) for each vertex of the hull.
   template <class Visitor>
   void each_vertex(const Visitor& f) {
     for (const vertexT* v = state_.vertex_list; v != nullptr && v->next != nullptr; v = v->next)
       f(static_cast<std::size_t>(qh_pointid(&state_, v->point)));
   }
 
-  /// f(corners), three for a simplicial facet.
+  /// Calls f(corners) for each facet; a simplicial facet has three corners.
   template <class Visitor>
   void each_facet(const Visitor& f) {
     for (const facetT* facet = state_.facet_list; facet != nullptr && facet->next != nullptr; facet = facet->next) {
@@ -96,7 +96,7 @@ class Qhull {
   bool done_ = false;
 };
 
-/// Points in faces and edges merged away; empty when Qhull gives up.
+/// Returns the vertices of the hull without points inside merged faces and edges; empty if Qhull fails.
 Points spanning(const Points& points) {
   Points found;
   if (points.size() < Qhull::fewest_points) return found;
@@ -105,7 +105,7 @@ Points spanning(const Points& points) {
   return found;
 }
 
-/// The facets' corners, which Qhull moved by some 10^-11 of the points' extent; corners in any order.
+/// Returns the facets of the joggled points, which Qhull moved by about 10^-11 of their extent. Corners in any order.
 Triangles joggled_facets(const Points& points) {
   Triangles facets;
   if (points.size() < Qhull::fewest_points) return facets;
@@ -120,7 +120,7 @@ Vec3 centre_of(const Points& points) {
   return sum / static_cast<double>(points.size());
 }
 
-/// Turns each triangle so that the centre is behind it. False: it is in the plane of one.
+/// Orients each triangle so that the centre is behind it. Returns false if the centre is in the plane of a triangle.
 bool turn_outward(Triangles& triangles, const Vec3& centre) {
   for (Triangle& t : triangles) {
     const int side = detail::exact::orient3d(t.a, t.b, t.c, centre);
@@ -130,7 +130,7 @@ bool turn_outward(Triangles& triangles, const Vec3& centre) {
   return true;
 }
 
-/// Least distance of the centre from the triangles' planes.
+/// Returns the smallest distance of the centre from the planes of the triangles.
 double inner_radius(const Triangles& triangles, const Vec3& centre) {
   double least = std::numeric_limits<double>::infinity();
   for (const Triangle& t : triangles) {
@@ -147,8 +147,9 @@ Triangles grown(const Triangles& triangles, const Vec3& centre, double factor) {
   return larger;
 }
 
-/// Is each point strictly behind each triangle? Most are so by far: their heights over its plane, with the bound on
-/// rounding of six products of three differences, tell. `extent`: the largest difference of two coordinates.
+/// Returns true if every point is strictly behind every triangle. The height over the plane decides if it exceeds the
+/// rounding bound of six products of three differences; otherwise the exact predicate does. extent: largest difference
+/// of two coordinates.
 bool enclose(const Triangles& triangles, const Points& points, double extent) {
   return std::all_of(triangles.begin(), triangles.end(), [&](const Triangle& t) {
     const Vec3 u = t.b - t.a, v = t.c - t.a, normal = cross(u, v);
@@ -165,8 +166,8 @@ double largest_distance(const Points& points, const Vec3& centre) {
   return std::sqrt(squared);
 }
 
-/// The hull of `corners`, grown from its centre by `depth` or more, but at most by most_hull_excess, until it encloses
-/// `points`; empty: it does not.
+/// Returns the hull of `corners`, scaled about its centre until it encloses `points`: by at least `depth` and at most
+/// most_hull_excess. Returns nothing if this fails.
 Triangles hull_around(const Points& corners, const Points& points, double depth) {
   Triangles facets = joggled_facets(corners);
   const Vec3 centre = centre_of(corners);
@@ -199,7 +200,7 @@ std::vector<Triangle> convex_hull(std::span<const Vec3> points) {
   const Points corners = spanning(once);
   Triangles hull = hull_around(corners, once, 2 * enclosing_margin);
   if (!hull.empty()) return hull;
-  // Flat, or nearly. The cubes alone enclose; growing only has to make up for what Qhull moved.
+  // Flat or nearly flat input. The cubes already enclose the points; scaling only has to undo the joggling.
   const Points padded = spanning(cubes_around(corners.empty() ? once : corners));
   hull = hull_around(padded, once, 0x1p-60);
   if (hull.empty())

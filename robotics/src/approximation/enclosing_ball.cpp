@@ -19,7 +19,7 @@ double squared_distance(const Point& p, const Point& q) {
   return (p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]);
 }
 
-/// Of the circle as it came out, so that the points that define it are not found outside over and over.
+/// Relative tolerance. Without it, rounding puts the points that define the circle outside again and again.
 constexpr double slack = 1e-12;
 
 bool holds(const Circle& c, const Point& p) {
@@ -30,13 +30,13 @@ Circle around(const Point& p, const Point& q) {
   return {(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, std::sqrt(squared_distance(p, q)) / 2};
 }
 
-/// Through three points; of points on a line the circle around the two that are farthest apart.
+/// Returns the circle through three points. For collinear points: the circle around the two that are farthest apart.
 Circle through(const Point& p, const Point& q, const Point& r) {
   const double ux = q[0] - p[0], uy = q[1] - p[1], vx = r[0] - p[0], vy = r[1] - p[1];
   const double twice_area = ux * vy - uy * vx, uu = ux * ux + uy * uy, vv = vx * vx + vy * vy;
   const double x = (vy * uu - uy * vv) / (2 * twice_area), y = (ux * vv - vx * uu) / (2 * twice_area);
   const double radius = std::sqrt(x * x + y * y);
-  // Nearly on a line: the division tells nothing any more.
+  // Nearly collinear points make the division meaningless.
   if (std::abs(twice_area) > slack * (uu + vv)) return {p[0] + x, p[1] + y, radius};
   return std::max({around(p, q), around(p, r), around(q, r)},
                   [](const Circle& a, const Circle& b) { return a.radius < b.radius; });
@@ -60,7 +60,7 @@ Circle smallest_circle(std::span<const Point> points) {
 }
 
 Ball enclosing_ball(std::span<const Vec3> points) {
-  constexpr int steps = 30;  // the excess falls as 1 / steps
+  constexpr int steps = 30;  // the excess of the radius decreases as 1 / steps
   Vec3 centre = Vec3::Zero();
   for (const Vec3& p : points) centre += p / static_cast<double>(points.size());
   Ball best;
@@ -82,7 +82,7 @@ Ball enclosing_ball(std::span<const Vec3> points) {
 }
 
 double enclosing_radius(double farthest_squared) {
-  // The square came from differences and products right to a few half ulps.
+  // The square has a relative error of a few half ulps.
   return std::sqrt(farthest_squared) * (1 + 0x1p-48) + enclosing_margin;
 }
 

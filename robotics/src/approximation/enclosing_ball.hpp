@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Balls and circles around points: in the plane the smallest, in space nearly.
+// Balls and circles around points: the smallest circle, and an almost smallest ball. Lengths in m.
 #pragma once
 
 #include <array>
@@ -14,7 +14,8 @@ struct Ball {
   double radius = 0.0;
 };
 
-/// Larger than the smallest by some percent at most; points outside by rounding at most. Points: at least one.
+/// Returns a ball at most a few percent larger than the smallest one. Points may be outside by rounding. points: at
+/// least one.
 Ball enclosing_ball(std::span<const Vec3> points);
 
 struct Circle {
@@ -22,10 +23,11 @@ struct Circle {
   double radius = 0.0;
 };
 
-/// The smallest, up to rounding. Points: at least one.
+/// Returns the smallest circle, up to rounding. points: at least one.
 Circle smallest_circle(std::span<const std::array<double, 2>> points);
 
-/// Large enough for each point to be at least enclosing_margin inside, whatever the rounding here.
+/// Returns a radius such that every point is at least enclosing_margin inside, allowing for rounding. farthest_squared:
+/// squared distance (m^2) of the farthest point from the centre.
 double enclosing_radius(double farthest_squared);
 
 }  // namespace hinge::robotics

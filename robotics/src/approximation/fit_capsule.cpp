@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pattern search over the direction of the axis; for each direction the axis is that of the smallest cylinder.
+// Pattern search over the direction of the axis. For each direction the axis is that of the smallest cylinder.
 #include "approximation/fit_capsule.hpp"
 
 #include <algorithm>
@@ -39,12 +39,12 @@ struct Capsule {
   Vec3 centre = Vec3::Zero();
   double half_length = 0.0;
   double radius = 0.0;
-  double volume = std::numeric_limits<double>::infinity();  // over pi
+  double volume = std::numeric_limits<double>::infinity();  // divided by pi
 };
 
 double volume_of(double radius, double half_length) { return radius * radius * (2 * half_length + radius * (4.0 / 3)); }
 
-/// The smallest capsule with this axis and radius; the radius is at least that of the cylinder.
+/// Returns the shortest capsule with the axis of `circle` and this radius, which must be at least that of the circle.
 Capsule with_radius(const Points& local, const Frame& frame, const Circle& circle, double radius) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Vec3& p : local) {
@@ -68,7 +68,7 @@ Capsule along(const Points& points, const Vec3& direction) {
   }
   const Circle circle = smallest_circle(flat);
   Capsule best;
-  // A larger radius may save more length than it costs: caps then reach over the corners.
+  // A larger radius may save more length than it costs, because the caps then cover the corners.
   for (const double factor : {1.0, 1.02, 1.05, 1.1, 1.2}) {
     const Capsule capsule = with_radius(local, frame, circle, circle.radius * factor);
     if (capsule.volume < best.volume) best = capsule;
@@ -76,7 +76,7 @@ Capsule along(const Points& points, const Vec3& direction) {
   return best;
 }
 
-/// Directions to start from: axes, diagonals, the way between two points far apart.
+/// Returns start directions: axes, diagonals, and the line between two distant points.
 Points starts(const Points& points) {
   Points directions = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ(), {1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {-1, 1, 1}};
   const auto farthest_from = [&](const Vec3& from) {
@@ -89,9 +89,9 @@ Points starts(const Points& points) {
   return directions;
 }
 
-/// Tilts towards eight sides while that helps, then less.
+/// Tilts the axis towards eight directions while the volume decreases, then halves the tilt.
 Capsule refined(const Points& points, Capsule best) {
-  for (double tilt = 0.3; tilt > 1e-3; tilt /= 2) {  // rad; by then the volume changes in the fifth digit
+  for (double tilt = 0.3; tilt > 1e-3; tilt /= 2) {  // rad; below this the volume changes in the fifth digit
     for (bool better = true; better;) {
       better = false;
       const Frame f = best.frame;
@@ -110,7 +110,7 @@ double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) 
   const Vec3 along = b - a, from = p - a;
   const double square = squared_norm(along);
   const double share = square > 0.0 ? std::clamp(dot(from, along) / square, 0.0, 1.0) : 0.0;
-  // A point of the segment whatever the rounding of its share, so never less than the true distance.
+  // Whatever the rounding of `share`, this is a point of the segment, so the result is never below the true distance.
   return squared_norm(Vec3(from - along * share));
 }
 
@@ -137,7 +137,7 @@ PlacedShape fit_capsule(std::span<const Vec3> points) {
   } else {
     placed.origin.translation = ball.centre;
   }
-  // Where the ends come to lie as the robot computes them.
+  // The end points as the robot computes them.
   const Vec3 a = placed.origin * Vec3(-half), b = placed.origin * half;
   double farthest = 0.0;
   for (const Vec3& p : points) farthest = std::max(farthest, squared_distance_to_segment(p, a, b));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A small capsule, or sphere, around points.
+// fit_capsule: a small capsule or sphere around points.
 #pragma once
 
 #include <span>
@@ -8,9 +8,8 @@
 
 namespace hinge::robotics {
 
-/// A capsule of small volume; a sphere where a segment would not make it smaller. Not the smallest there is, but no
-/// direction near its own gives a smaller one. Every point is at least enclosing_margin inside. Points: at least one,
-/// finite, m.
+/// Returns a capsule of small volume, or a sphere if a capsule is not smaller. A local minimum over the direction of
+/// the axis. Every point is at least enclosing_margin inside. points: at least one, finite, m.
 PlacedShape fit_capsule(std::span<const Vec3> points);
 
 }  // namespace hinge::robotics

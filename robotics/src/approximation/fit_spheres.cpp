@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Patches of about equal size (Gonzalez, "Clustering to minimize the maximum intercluster distance", 1985, then centres
-// moved as by Lloyd), then around each patch the ball that stands out least: its centre deep inside, its radius larger.
+// Divides the surface into patches of about equal size (Gonzalez, "Clustering to minimize the maximum intercluster
+// distance", 1985, then centres moved as in Lloyd's algorithm). Around each patch it places the ball that protrudes
+// least from the link: its centre is deep inside, its radius larger.
 #include "approximation/fit_spheres.hpp"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ namespace {
 
 using Points = std::vector<Vec3>;
 
-/// Squared length of the longest edge, and the edge's number.
+/// Returns the squared length of the longest edge and the edge's index.
 std::pair<double, std::size_t> longest_edge(const Triangle& t) {
   const std::array<double, 3> square = {squared_norm(Vec3(t.b - t.a)), squared_norm(Vec3(t.c - t.b)),
                                         squared_norm(Vec3(t.a - t.c))};
@@ -26,7 +27,7 @@ std::pair<double, std::size_t> longest_edge(const Triangle& t) {
   return {*longest, static_cast<std::size_t>(longest - square.begin())};
 }
 
-/// Triangles halved at their longest edges until none is longer than a bound. Midpoints are rounded, far less than the
+/// Bisects triangles at their longest edges until no edge exceeds a bound. The rounding of midpoints is far below the
 /// margin of the spheres.
 std::vector<Triangle> cut_up(std::span<const Triangle> triangles, double squared_longest) {
   std::vector<Triangle> left(triangles.begin(), triangles.end()), pieces;
@@ -47,7 +48,8 @@ std::vector<Triangle> cut_up(std::span<const Triangle> triangles, double squared
   return pieces;
 }
 
-/// So that dozens of pieces fall to each sphere: the spheres are then larger than the best ones by about a tenth.
+/// Returns an edge length (m) that gives dozens of pieces per sphere. The spheres are then about a tenth larger than
+/// the best ones.
 double piece_size(std::span<const Triangle> triangles, std::size_t most) {
   constexpr double pieces_per_sphere = 60.0;
   double area = 0.0, longest = 0.0;
@@ -56,7 +58,7 @@ double piece_size(std::span<const Triangle> triangles, std::size_t most) {
     longest = std::max(longest, longest_edge(t).first);
   }
   const double pieces = pieces_per_sphere * static_cast<double>(most);
-  // Needles have length and no area.
+  // Degenerate triangles have length but no area.
   return std::max(std::sqrt(2 * area / pieces), std::sqrt(longest) / pieces_per_sphere);
 }
 
@@ -65,7 +67,7 @@ double farthest_squared(const Triangle& t, const Vec3& centre) {
       {squared_norm(Vec3(t.a - centre)), squared_norm(Vec3(t.b - centre)), squared_norm(Vec3(t.c - centre))});
 }
 
-/// The planes of a convex hull, to tell how far a ball stands out of it.
+/// The planes of a convex hull, to measure how far a ball protrudes from it.
 class Hull {
  public:
   explicit Hull(std::span<const Triangle> triangles) {
@@ -78,13 +80,13 @@ class Hull {
     size_ = enclosing_ball(corners).radius;
   }
 
-  /// A centre whose ball around the points stands out of the hull as little as can be, by subgradient descent: both the
-  /// height over the planes and the radius are convex functions of the centre.
+  /// Returns the centre whose ball around the points protrudes least from the hull, by subgradient descent. Height over
+  /// the planes and radius are convex functions of the centre.
   Vec3 deep_centre(const Points& points) const {
-    // What a radius costs beside what stands out: balls should not fill the hollows of a link without need.
+    // Weight of the radius relative to the height: balls should not fill concavities of a link without need.
     constexpr double per_radius = 1.05;
     constexpr int steps = 120;
-    constexpr double shrink = 0.94;  // to 10^-3 of the first step
+    constexpr double shrink = 0.94;  // the last step is 10^-3 of the first
     Vec3 centre = enclosing_ball(points).centre, best = centre;
     double least = std::numeric_limits<double>::infinity(), step = size_ / 10;
     for (int k = 0; k < steps; ++k, step *= shrink) {
@@ -112,7 +114,7 @@ class Hull {
     Vec3 normal, point;
   };
 
-  /// Over the plane it is highest over, and that one's normal.
+  /// Returns the largest height over a plane, and this plane's normal.
   std::pair<double, Vec3> highest(const Vec3& p) const {
     std::pair<double, Vec3> most{-std::numeric_limits<double>::infinity(), Vec3::Zero()};
     for (const Plane& plane : planes_) {
@@ -126,7 +128,7 @@ class Hull {
   double size_ = 0.0;
 };
 
-/// Pieces and the centres they belong to.
+/// Pieces of triangles and the centres that they are assigned to.
 class Clusters {
  public:
   explicit Clusters(std::vector<Triangle> pieces)
@@ -139,14 +141,14 @@ class Clusters {
       const auto farthest = std::max_element(squared_.begin(), squared_.end());
       const Triangle& t = pieces_[static_cast<std::size_t>(farthest - squared_.begin())];
       const Vec3 middle = (t.a + t.b + t.c) / 3.0;
-      // Another centre would be no nearer to it.
+      // A new centre would not be closer to this piece.
       if (!(farthest_squared(t, middle) < *farthest)) break;
       centres_.push_back(middle);
       offer(centres_.size() - 1);
     }
   }
 
-  /// Moves each centre to the middle of its pieces.
+  /// Moves each centre to the centre of its pieces.
   void settle() {
     for (std::size_t k = 0; k < centres_.size(); ++k) {
       const Points corners = corners_if([&](std::size_t piece) { return owner_[piece] == k; });
@@ -157,7 +159,7 @@ class Clusters {
 
   double largest_squared() const { return *std::max_element(squared_.begin(), squared_.end()); }
 
-  /// Around each patch.
+  /// Returns one sphere around each patch.
   std::vector<PlacedShape> spheres(const Hull& hull) const {
     std::vector<PlacedShape> spheres;
     for (std::size_t k = 0; k < centres_.size(); ++k) {
@@ -196,15 +198,15 @@ class Clusters {
   }
 
   std::vector<Triangle> pieces_;
-  std::vector<std::size_t> owner_;  // by piece
-  std::vector<double> squared_;     // by piece: of its farthest corner from the owner
+  std::vector<std::size_t> owner_;  // by piece: index of its centre
+  std::vector<double> squared_;     // by piece: squared distance of its farthest corner from its centre, m^2
   Points centres_;
 };
 
 }  // namespace
 
 std::vector<PlacedShape> fit_spheres(std::span<const Triangle> triangles, std::size_t most) {
-  constexpr int rounds = 5;  // later ones change the radii by a percent
+  constexpr int rounds = 5;  // later rounds change the radii by about a percent
   const double size = piece_size(triangles, most);
   Clusters clusters(cut_up(triangles, 4 * size * size));
   clusters.spread(most);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Few spheres that together hold a surface.
+// fit_spheres: covers a surface by few spheres.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +11,9 @@
 
 namespace hinge::robotics {
 
-/// At most `most` spheres (>= 1) around patches of about equal size. Every triangle is cut into pieces, each of which
-/// lies wholly inside one sphere, by enclosing_margin at least. The spheres reach into the link, so that they stand out
-/// of it little. Triangles: at least one, finite, m; degenerate ones are held, too. ModelError: see convex_hull.
+/// Returns at most `most` (>= 1) spheres around patches of about equal size. Every triangle is divided into pieces, and
+/// each piece is inside one sphere by at least enclosing_margin. The spheres extend into the link, to protrude little
+/// from it. triangles: at least one, finite, m; degenerate ones are allowed. Throws ModelError as convex_hull() does.
 std::vector<PlacedShape> fit_spheres(std::span<const Triangle> triangles, std::size_t most);
 
 }  // namespace hinge::robotics

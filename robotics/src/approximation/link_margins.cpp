@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Margins checked and laid out by triangle and pair of links.
+// Implements LinkMargins: checks clearances and radii, and tabulates them by triangle and pair of links.
 #include "hinge/robotics/link_margins.hpp"
 
 #include <string>
@@ -13,7 +13,7 @@ namespace hinge::robotics {
 
 namespace {
 
-/// Sums of two reaches may not fall below a threshold by rounding: three roundings on one side, two on the other.
+/// Keeps sums of two reaches above thresholds despite rounding: three roundings on one side, two on the other.
 constexpr double upward = 1.0 + 0x1p-50;
 
 bool is_length(double x) { return is_finite(x) && x >= 0.0; }

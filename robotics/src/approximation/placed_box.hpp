@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// placed_box: a box around whatever a pose makes of the contents of a box.
+// placed_box: bounds of the contents of a box after a rigid motion.
 #pragma once
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 
 namespace hinge::robotics {
 
-/// Rounded outward. `local` not empty.
+/// Returns a box around the placed contents of `local`, rounded outward. `local` must not be empty.
 inline Aabb placed_box(const Aabb& local, const Pose& pose) noexcept {
-  // A placed coordinate is a sum of three products and a shift: off by at most 6 half ulps of their magnitudes, and so
-  // are the numbers below. 32 half ulps hold all of it.
+  // A placed coordinate is a sum of three products and a shift, with an error of at most 6 half ulps of their
+  // magnitudes. The numbers below have the same error. 32 half ulps cover both.
   constexpr double slack = 0x1p-48;
   Vec3 middle, half;
   double size = 0.0;

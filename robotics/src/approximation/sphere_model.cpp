@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the description's spheres to a model with the robot's own tree.
+// Implements spheres_of: the description's spheres on the robot's own tree.
 #include "hinge/robotics/sphere_model.hpp"
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each link's shapes as triangles in its frame, and what is fitted around them.
+// Implements tiers: tessellates all shapes of a link in its frame and fits the tier's shapes around them.
 #include "hinge/robotics/tiers.hpp"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ bool is_rounded(const Shape& shape) {
   return std::holds_alternative<SphereShape>(shape) || std::holds_alternative<CapsuleShape>(shape);
 }
 
-/// Around all shapes of a link, in its frame.
+/// Returns circumscribed triangles of all shapes of a link, in its frame.
 std::vector<Triangle> triangles_of(const LinkDescription& link, double tolerance) {
   std::vector<Triangle> triangles;
   for (const PlacedShape& placed : link.geometry)
@@ -46,7 +46,7 @@ std::vector<PlacedShape> fitted(const std::vector<Triangle>& triangles, Tier tie
   auto mesh = std::make_shared<TriangleMesh>();
   mesh->triangles = convex_hull(corners);
   MeshShape hull{std::move(mesh)};
-  hull.solid = closed(hull.mesh->triangles);  // flat ones enclose nothing
+  hull.solid = closed(hull.mesh->triangles);  // only a closed mesh may be solid
   return {{hull}};
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks in the order a reader would want them: names, tree, joints, followers, geometry.
+// Implements the checks of a description, in this order: names, tree, joints, mimic joints, geometry.
 #include "description/check_description.hpp"
 
 #include <algorithm>
@@ -67,8 +67,8 @@ Found check_tree(const RobotDescription& robot, const Index& links) {
                           "; expected one root");
     }
   }
-  // One root and one parent for every other link: who does not come from the root is on a cycle or below one. No link
-  // is climbed past twice: chains may be long.
+  // Every link but the root has one parent, so a link that is not below the root is on a cycle or below one. Marked
+  // links end the climb, so each link is climbed only once.
   std::vector<bool> from_root(robot.links.size(), false);
   for (std::size_t l = 0; l < robot.links.size(); ++l) {
     std::size_t here = l, steps = 0;
@@ -166,7 +166,7 @@ struct ShapeProblem {
   }
 };
 
-/// Meshes aside, which may be anything.
+/// Describes shapes without volume. Meshes are not examined.
 struct WithoutVolume {
   std::string operator()(const BoxShape& box) const {
     return box.size[0] > 0.0 && box.size[1] > 0.0 && box.size[2] > 0.0 ? "" : "box of size " + text(box.size);

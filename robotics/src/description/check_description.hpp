@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The first thing wrong with a description, as Robot refuses it and as the URDF reader reports it with its line.
+// Finds the first fault of a description, for Robot and for the URDF reader, which adds the line.
 #pragma once
 
 #include <optional>
@@ -9,23 +9,27 @@
 
 namespace hinge::robotics {
 
+/// A fault of a description.
 struct Problem {
-  int line = 0;  ///< of the link or joint at fault; 0: unknown
+  int line = 0;  ///< line of the faulty link or joint; 0: unknown
   std::string what;
 };
 
-/// No links; empty or repeated names; joints to links that do not exist; links with two parents, on a cycle or apart
-/// from the rest; origins that are no rigid placement; axes that are zero; axes, limits and mimic factors that are not
-/// finite; mimics of unknown joints or in a circle; sizes below 0, scales of 0, vertices that are not finite.
+/// Returns the first fault, or nothing. Faults: no links; empty or repeated names; joints to links that do not exist;
+/// links with two parents, on a cycle or not connected; origins that are not rigid; zero axes; axes, limits and mimic
+/// factors that are not finite; lower limits above upper limits; mimics of joints that are unknown or fixed, or in a
+/// cycle; sizes that are negative or above 2^1000; meshes with scale 0, without triangles, or with vertices that are
+/// not finite.
 std::optional<Problem> first_problem(const RobotDescription& robot);
 
-/// Of those, what concerns names and tree alone.
+/// Returns the first of these faults that concerns names or the tree, or nothing.
 std::optional<Problem> tree_problem(const RobotDescription& robot);
 
-/// The same for a shape, to go behind the name of its link; empty when there is none.
+/// Returns the fault of a shape as text to follow the name of its link, or "".
 std::string problem_of(const Shape& shape);
 
-/// A shape that is a point, a segment or flat, for a note: "sphere of radius 0". Empty for others and for meshes.
+/// Returns a description of a shape that is a point, a segment or flat, such as "sphere of radius 0". Returns "" for
+/// other shapes and for meshes.
 std::string without_volume(const Shape& shape);
 
 }  // namespace hinge::robotics

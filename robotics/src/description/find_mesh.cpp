@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Relative paths, file:// and package://, the latter also in the package around the URDF file.
+// Resolves mesh names: relative paths, file:// and package://, also in the package around the URDF file.
 #include "description/find_mesh.hpp"
 
 #include <algorithm>
@@ -22,23 +22,25 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, ignored);
 }
 
-/// The package whose package.xml lies in the folder: its <name>, or that of the folder. "": none.
+/// Returns the name of the package whose package.xml is in the folder: its <name>, or the name of the folder. "": not a
+/// package.
 std::string package_in(const fs::path& folder) {
   if (!is_file(folder / "package.xml")) return "";
   try {
     XmlFile file(folder / "package.xml", "package");
     const tinyxml2::XMLElement* name = file.root().FirstChildElement("name");
     if (name != nullptr && name->GetText() != nullptr) return name->GetText();
-  } catch (const LoadError&) {  // nobody asked for this file
+  } catch (const LoadError&) {  // a bad package.xml is no error here
   }
   return folder.filename().string();
 }
 
-/// In the package that `folder` lies in, when it is called so, or in its neighbour of that name; empty: in neither.
+/// Searches the packages that contain `folder`, and the packages next to them. Returns an empty path if none has the
+/// file.
 fs::path find_around(const fs::path& folder, const fs::path& package, const fs::path& inside) {
   std::error_code failed;
   fs::path above = fs::absolute(folder, failed).lexically_normal();
-  if (!failed && !above.has_filename()) above = above.parent_path();  // "." leaves a slash at the end
+  if (!failed && !above.has_filename()) above = above.parent_path();  // "." ends with a slash
   for (; !failed && above.has_relative_path(); above = above.parent_path()) {
     const std::string here = package_in(above);
     if (here.empty()) continue;
@@ -59,7 +61,7 @@ fs::path find_in_packages(const std::string& name, std::string_view rest, const 
   std::string looked;
   for (const fs::path& folder : options.package_folders) {
     if (is_file(folder / package / inside)) return folder / package / inside;
-    // A trailing slash leaves an empty file name.
+    // A path with a trailing slash has an empty file name.
     const fs::path last = folder.has_filename() ? folder.filename() : folder.parent_path().filename();
     if (last == package && is_file(folder / inside)) return folder / inside;
     looked += (looked.empty() ? "" : ", ") + folder.string();
@@ -72,7 +74,7 @@ fs::path find_in_packages(const std::string& name, std::string_view rest, const 
                     std::string(package) + "'");
 }
 
-/// Folders in an environment variable, separated by colons.
+/// Returns the folders in an environment variable, separated by colons.
 std::vector<fs::path> listed_in(const char* variable) {
   std::vector<fs::path> folders;
   const char* value = std::getenv(variable);
@@ -94,7 +96,7 @@ fs::path find_mesh(const std::string& name, const fs::path& folder, const UrdfOp
   const std::string_view rest = view.starts_with(file) ? view.substr(file.size()) : view;
   if (rest.empty() || rest.find("://") != std::string_view::npos)
     throw LoadError("mesh '" + name + "': expected a path, file:// or package://");
-  fs::path found = folder / rest;  // an absolute path stays itself
+  fs::path found = folder / rest;  // an absolute path replaces `folder`
   std::error_code ignored;
   if (!is_file(found))
     throw MissingMesh(

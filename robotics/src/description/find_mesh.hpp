@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the mesh name in a URDF to a file.
+// find_mesh: resolves the mesh name in a URDF file to a path.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace hinge::robotics {
 
-/// `folder` is the URDF's. MissingMesh: there is no such file. LoadError: no path. Both say what was looked for and
-/// where; without a file name in front.
+/// Returns the path of an existing file. folder: that of the URDF file. Throws MissingMesh if there is no such file,
+/// LoadError if the name is not a path. The messages say what was searched and where; they do not name the URDF file.
 std::filesystem::path find_mesh(const std::string& name, const std::filesystem::path& folder,
                                 const UrdfOptions& options);
 

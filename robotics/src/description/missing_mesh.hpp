@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MissingMesh: the error of a mesh that gives no triangles, as opposed to one that is damaged.
+// MissingMesh: the error for a mesh that gives no triangles, in contrast to a damaged one.
 #pragma once
 
 #include "hinge/core/error.hpp"
 
 namespace hinge::robotics {
 
-/// There is no such file, or it holds no triangles, or its format is none that read_mesh() reads.
+/// Thrown if a mesh file does not exist, has no triangles, or has a format that read_mesh() does not read.
 class MissingMesh : public LoadError {
  public:
   using LoadError::LoadError;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One pass over the XML tree, which is tidied for urdfdom on the way.
+// Reads names, lines and origins in one pass over the XML tree and normalises the tree for urdfdom.
 #include "description/outline_urdf.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ Vec3 vector_of(const XmlFile& file, const XMLElement& element, const char* name)
   return {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
 }
 
-/// Roll, pitch, yaw about the fixed axes x, y, z, in this order (URDF).
+/// Returns the pose in <origin>: roll, pitch, yaw about the fixed axes x, y, z, in this order (URDF).
 Pose origin_of(const XmlFile& file, const XMLElement& parent) {
   const XMLElement* origin = parent.FirstChildElement("origin");
   if (origin == nullptr) return {};
@@ -42,7 +42,7 @@ Pose origin_of(const XmlFile& file, const XMLElement& parent) {
 
 bool is_xacro_element(const XMLElement& element) { return std::string_view(element.Name()).starts_with("xacro:"); }
 
-/// The children of other names are deleted; xacro, which could stand for one that is kept, is refused.
+/// Deletes all children with other names. Refuses xacro elements, which could stand for a child that is kept.
 void keep_only(const XmlFile& file, XMLElement& parent, std::initializer_list<std::string_view> kept) {
   XMLElement* next = nullptr;
   for (XMLElement* child = parent.FirstChildElement(); child != nullptr; child = next) {
@@ -52,7 +52,7 @@ void keep_only(const XmlFile& file, XMLElement& parent, std::initializer_list<st
   }
 }
 
-/// One blank between numbers, none around them, as urdfdom wants it.
+/// Normalises numbers for urdfdom: one blank between them, none around them.
 void tidy_numbers(XMLElement& element, std::initializer_list<const char*> names) {
   for (const char* name : names) {
     std::istringstream words(text_of(element, name));
@@ -62,7 +62,7 @@ void tidy_numbers(XMLElement& element, std::initializer_list<const char*> names)
   }
 }
 
-/// Leaves what Hinge asks urdfdom for: type, axis, limits and mimic.
+/// Keeps what urdfdom reads: type, axis, limits and mimic.
 void tidy_joint(const XmlFile& file, XMLElement& joint) {
   const std::string type = text_of(joint, "type");
   const bool turns = type == "revolute", slides = type == "prismatic", endless = type == "continuous";
@@ -76,7 +76,7 @@ void tidy_joint(const XmlFile& file, XMLElement& joint) {
   }
   XMLElement* mimic = joint.FirstChildElement("mimic");
   if (!turns && !slides) drop("limit");
-  // A follower goes where it is led.
+  // A mimic joint needs no limits of its own, but urdfdom requires them.
   if (mimic != nullptr && (turns || slides) && joint.FirstChildElement("limit") == nullptr)
     joint.InsertNewChildElement("limit");
   if (XMLElement* limit = joint.FirstChildElement("limit")) {
@@ -101,7 +101,7 @@ OutlinedJoint outline_joint(const XmlFile& file, XMLElement& joint) {
   return outlined;
 }
 
-/// <capsule radius="" length="">, the length without the caps: an extension that Bullet and Drake read alike.
+/// Reads <capsule radius="" length="">, with the length without the caps: an extension that Bullet and Drake also read.
 CapsuleShape capsule_of(const XmlFile& file, const XMLElement& shape) {
   file.refuse_xacro_in(shape);
   const auto size = [&](const char* name) {
@@ -115,7 +115,7 @@ CapsuleShape capsule_of(const XmlFile& file, const XMLElement& shape) {
   return {size("radius"), size("length")};
 }
 
-/// Its one shape, the others deleted with a note; null: none.
+/// Returns the first shape, or null if there is none. Deletes all others with a note.
 XMLElement* first_shape(const XmlFile& file, XMLElement& collision, const std::string& link, UrdfOutline& outline) {
   keep_only(file, collision, {"origin", "geometry"});
   XMLElement* geometry = collision.FirstChildElement("geometry");
@@ -148,8 +148,8 @@ OutlinedLink outline_link(const XmlFile& file, XMLElement& link, UrdfOutline& ou
   return outlined;
 }
 
-/// Calls of macros that nobody expanded: urdfdom passes over them. Refused with links or geometry inside, and with
-/// elements that only input for xacro has.
+/// Notes a macro call that was not expanded and that urdfdom ignores. Refuses calls with child elements, and elements
+/// that occur only in xacro input.
 void note_xacro(const XmlFile& file, const XMLElement& element, UrdfOutline& outline) {
   const std::string_view name = element.Name();
   for (const char* own : {"xacro:include", "xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block",

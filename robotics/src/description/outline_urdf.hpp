@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What urdfdom does not tell of a URDF file: the order and the lines of its elements; and what it need not see.
+// outline_urdf: order, lines and origins of a URDF file, which urdfdom does not report, and a reduced text for urdfdom.
 #pragma once
 
 #include <filesystem>
@@ -12,40 +12,42 @@
 
 namespace hinge::robotics {
 
+/// A <collision> element.
 struct OutlinedCollision {
   int line = 0;
   Pose origin{};
-  // urdfdom is told of a sphere in place of these.
-  std::optional<CapsuleShape> capsule{};  ///< when its shape is one
-  std::string unread{};                   ///< the element, when its shape is none that anyone here reads
+  // For these shapes urdfdom reads a sphere instead.
+  std::optional<CapsuleShape> capsule{};  ///< set if the shape is a capsule
+  std::string unread{};                   ///< element name of a shape of unknown type
 };
 
+/// A <link> element.
 struct OutlinedLink {
   std::string name;
   int line = 0;
   std::vector<OutlinedCollision> collisions;
 };
 
+/// A <joint> element.
 struct OutlinedJoint {
   std::string name;
   int line = 0;
-  Pose origin{};
-  std::string parent, child;  ///< links
+  Pose origin{};              ///< pose of the child's frame in the parent's frame, m
+  std::string parent, child;  ///< names of the links
 };
 
-/// In the file's order. What can change no verdict and urdfdom is strict about is mended: efforts and velocities,
-/// limits and axes of joints that have no use for them, blanks around numbers. Origins are computed here, so that they
-/// are the same bits on every CPU: urdfdom goes through the sine and cosine of the C library.
+/// The elements in the order of the file. Faults that change no verdict but that urdfdom rejects are repaired: efforts
+/// and velocities, limits and axes of joints that do not use them, blanks around numbers. Origins are computed here, to
+/// get the same bits on every CPU: urdfdom uses the sine and cosine of the C library.
 struct UrdfOutline {
   std::vector<OutlinedLink> links;
   std::vector<OutlinedJoint> joints;
   std::vector<std::string> notes;
-  std::string
-      geometry_only;  ///< the file without visuals, inertias and extensions, whose faults are no concern of ours
+  std::string geometry_only;  ///< without visuals, inertias and extensions, whose faults do not matter here
 };
 
-/// LoadError: see XmlFile; elements without name, numbers in an origin that are not six finite ones, sizes of a capsule
-/// that are not one number, xacro left where it could stand for geometry or change it.
+/// Throws LoadError as XmlFile does, and for elements without name, an xyz or rpy that is not three finite numbers, a
+/// capsule size that is not one finite number, and xacro that could stand for geometry or change it.
 UrdfOutline outline_urdf(const std::filesystem::path& path);
 
 }  // namespace hinge::robotics

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// std::from_chars, blanks and signs.
+// Implements parse_numbers with std::from_chars.
 #include "description/parse_numbers.hpp"
 
 #include <charconv>

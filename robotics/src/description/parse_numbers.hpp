@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers from text, whatever the locale.
+// parse_numbers: reads numbers from text, independent of the locale.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace hinge::robotics {
 
-/// Finite numbers separated by blanks; none when anything else stands in the text.
+/// Returns finite numbers separated by blanks, or nothing if the text contains anything else.
 std::optional<std::vector<double>> parse_numbers(std::string_view text);
 
 }  // namespace hinge::robotics

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parser, its error stream caught instead of printed.
+// Runs urdfdom and collects its errors instead of printing them.
 #include "description/parse_with_urdfdom.hpp"
 
 #include <mutex>
@@ -11,13 +11,13 @@ namespace hinge::robotics {
 
 namespace {
 
-/// console_bridge takes nothing but a derived class.
+/// console_bridge requires a derived class.
 class Complaints : public console_bridge::OutputHandler {
  public:
   void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
-    // What failed and in which element; what follows repeats it.
+    // The first two messages name the fault and the element; later ones repeat them.
     if (level < console_bridge::CONSOLE_BRIDGE_LOG_ERROR || ++count_ > 2) return;
-    // Long ones go on with advice about URDF in general.
+    // Cut long messages: the rest is general advice about URDF.
     std::string sentence = text.substr(0, text.find(".  "));
     for (char& c : sentence)
       if (c == '\n') c = ' ';
@@ -33,7 +33,7 @@ class Complaints : public console_bridge::OutputHandler {
 }  // namespace
 
 Parsed parse_with_urdfdom(const std::string& text) {
-  static std::mutex one_at_a_time;  // the handler belongs to the process
+  static std::mutex one_at_a_time;  // the handler is global to the process
   const std::scoped_lock lock(one_at_a_time);
   Complaints complaints;
   const console_bridge::LogLevel level = console_bridge::getLogLevel();

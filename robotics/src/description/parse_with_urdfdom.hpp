@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// urdfdom's reading of a URDF text, with what it complained of.
+// parse_with_urdfdom: parses a URDF text with urdfdom and returns its error messages.
 #pragma once
 
 #include <string>
@@ -8,12 +8,13 @@
 
 namespace hinge::robotics {
 
+/// The result of parse_with_urdfdom().
 struct Parsed {
-  urdf::ModelInterfaceSharedPtr model;  ///< null when refused
-  std::string complaint;                ///< its first errors as one line; empty: none
+  urdf::ModelInterfaceSharedPtr model;  ///< null if refused
+  std::string complaint;                ///< first errors in one line; empty: none
 };
 
-/// Also where urdfdom goes on after an error, leaving something out, the complaint is there.
+/// Parses a URDF text. The complaint is also set if urdfdom skips an element after an error. Thread-safe.
 Parsed parse_with_urdfdom(const std::string& text);
 
 }  // namespace hinge::robotics

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reading whole files.
+// Implements read_file.
 #include "description/read_file.hpp"
 
 #include "hinge_tools/input_file.hpp"

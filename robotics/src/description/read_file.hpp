@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file's bytes.
+// read_file: reads a file as bytes.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,8 @@
 
 namespace hinge::robotics {
 
-/// LoadError: no such file, a directory or device, cannot be read, a pipe that gives more than 1 GiB.
+/// Returns all bytes of a file. Throws LoadError if it does not exist, is a directory or device, cannot be read, or is
+/// a pipe with more than 1 GiB.
 std::string read_file(const std::filesystem::path& path);
 
 }  // namespace hinge::robotics

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SRDF with tinyxml2; groups are resolved to joints.
+// Reads SRDF with tinyxml2 and resolves groups to joints.
 #include "hinge/robotics/read_srdf.hpp"
 
 #include <cmath>
@@ -66,9 +66,9 @@ class SrdfReader {
  private:
   std::string name_of(const XMLElement& element) const { return file_.attribute(element, "name"); }
 
-  /// Elements of one kind that share a cause, and so a note.
+  /// Elements of one kind that were skipped for one reason. They share a note.
   struct Noted {
-    int line = 0;  // of the first
+    int line = 0;  // of the first element
     std::string first;
     std::set<std::string> names{};
 
@@ -87,7 +87,7 @@ class SrdfReader {
     srdf_.notes.push_back(text + ": " + (absent ? "unknown, " : "") + what);
   }
 
-  /// None only for unknown links that are to be noted.
+  /// Returns nothing only for an unknown link that is to be noted.
   std::optional<LinkId> link(const XMLElement& element, const char* attribute) {
     const std::string name = file_.attribute(element, attribute);
     const auto found = robot_.find_link(name);
@@ -114,7 +114,7 @@ class SrdfReader {
     }
   }
 
-  /// Links switched off as a whole first, then the pairs switched on again, then the pairs switched off.
+  /// Precedence: disable_default_collisions first, then enable_collisions, then disable_collisions.
   void read_disabled() {
     for_each(file_.root(), "disable_default_collisions", [&](const XMLElement& element) {
       const auto off = link(element, "link");
@@ -127,7 +127,7 @@ class SrdfReader {
 
   bool is_movable(std::size_t joint) const { return robot_.description().joints[joint].type != JointType::fixed; }
 
-  /// Movable joints between a link and the root.
+  /// Returns the movable joints between a link and the root.
   std::set<std::size_t> joints_above(const std::string& link_name) const {
     std::set<std::size_t> joints;
     for (auto above = above_.find(link_name); above != above_.end();
@@ -150,7 +150,8 @@ class SrdfReader {
     return {};
   }
 
-  /// SRDF: a link brings the joint above it, a chain the joints between its two ends, a subgroup its own.
+  /// SRDF: a link stands for the joint above it, a chain for the joints between its two ends, a subgroup for its
+  /// joints.
   void collect(const XMLElement& group, std::set<std::size_t>& joints, std::set<std::string>& open) {
     const std::string name = name_of(group);
     if (!open.insert(name).second) file_.refuse(group.GetLineNum(), "group '" + name + "' contains itself");
@@ -164,7 +165,7 @@ class SrdfReader {
       if (above != above_.end() && is_movable(above->second)) joints.insert(above->second);
     });
     for_each(group, "chain", [&](const XMLElement& chain) {
-      // Through the lowest link above both ends: what is above both is above that one too.
+      // The path goes through the lowest common ancestor of both ends, so joints above both ends cancel.
       const auto base_link = known_link(chain, "base_link"), tip_link = known_link(chain, "tip_link");
       if (!base_link || !tip_link) return;
       std::set<std::size_t> base = joints_above(*base_link);
@@ -203,10 +204,10 @@ class SrdfReader {
   XmlFile file_;
   const Robot& robot_;
   UnknownLinks unknown_;
-  std::map<std::string, std::size_t> above_;        // link to the joint it hangs on
-  std::map<std::size_t, std::size_t> independent_;  // joint to its position among the independent ones
+  std::map<std::string, std::size_t> above_;        // link to the joint above it
+  std::map<std::size_t, std::size_t> independent_;  // joint index to its index in independent_joints()
   std::map<std::string, const XMLElement*> groups_;
-  std::set<std::string> virtual_;  // joints between the robot and the world, which the URDF does not have
+  std::set<std::string> virtual_;  // joints between the robot and the world; the URDF file does not have them
   Srdf srdf_;
   Noted unknown_joints_, unknown_links_, unknown_groups_, twice_;
   std::size_t skipped_pairs_ = 0;

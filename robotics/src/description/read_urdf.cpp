@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Outline, urdfdom, meshes, checks; each fault with the line of its element.
+// Combines outline, urdfdom, meshes and checks; every error names the line of its element.
 #include "hinge/robotics/read_urdf.hpp"
 
 #include <algorithm>
@@ -65,7 +65,8 @@ class UrdfReader {
     if (problem) refuse(problem->line, problem->what);
   }
 
-  /// Names and tree alone, checked before urdfdom sees them: it knows no lines and takes some circles for trees.
+  /// Returns names and tree only. They are checked before urdfdom runs, because it reports no lines and accepts some
+  /// cycles.
   RobotDescription skeleton() const {
     RobotDescription robot;
     for (const OutlinedLink& link : outline_.links) robot.links.push_back({link.name, {}, link.line});
@@ -79,7 +80,7 @@ class UrdfReader {
     return robot;
   }
 
-  /// The line of the last element that the text names in brackets or quotes; 0: it names none.
+  /// Returns the line of the last element that the text names in brackets or quotes, or 0.
   int line_of_named(const std::string& text) const {
     const auto named = [&](const std::string& name) {
       return text.find("[" + name + "]") != std::string::npos || text.find("'" + name + "'") != std::string::npos;
@@ -130,7 +131,7 @@ class UrdfReader {
     return description;
   }
 
-  /// How many of a kind, and the first of them.
+  /// Counts faults of one kind and keeps the first.
   struct Counted {
     std::size_t count = 0;
     int line = 0;
@@ -163,7 +164,7 @@ class UrdfReader {
     return MeshShape{known, vec3(mesh.scale), file};
   }
 
-  /// Every link with geometry is below the joint: where it puts them together can change no verdict among them.
+  /// Returns true if every link with geometry is below the joint. Its value then changes no verdict between links.
   bool carries_all_geometry(const OutlinedJoint& joint) const {
     std::multimap<std::string_view, std::string_view> below;
     for (const OutlinedJoint& other : outline_.joints) below.emplace(other.parent, other.child);
@@ -210,7 +211,7 @@ class UrdfReader {
       description.lower = joint.limits->lower;
       description.upper = joint.limits->upper;
     }
-    // Some programs write the largest double where there is no limit.
+    // Some programs write the largest double for a joint without limits.
     constexpr double no_limit = 1e15;
     if (description.type == JointType::revolute && description.lower <= -no_limit && description.upper >= no_limit) {
       description.type = JointType::continuous;

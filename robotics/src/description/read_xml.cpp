@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// tinyxml2, with one-line errors, and xacro recognised.
+// Implements XmlFile with tinyxml2: errors in one line, and detection of xacro.
 #include "description/read_xml.hpp"
 
 #include <cstring>
@@ -12,7 +12,7 @@ namespace hinge::robotics {
 
 namespace {
 
-/// Left-overs of xacro. Its namespace alone proves nothing: files made by it may keep the declaration.
+/// Returns true for remains of xacro. A declaration of its namespace is no evidence: xacro leaves it in its output.
 bool is_xacro(const tinyxml2::XMLElement& element) {
   if (std::string_view(element.Name()).starts_with("xacro:")) return true;
   for (const tinyxml2::XMLAttribute* a = element.FirstAttribute(); a != nullptr; a = a->Next())
@@ -27,7 +27,7 @@ const tinyxml2::XMLElement* find_xacro(const tinyxml2::XMLElement& element) {
   return nullptr;
 }
 
-/// Every <?...?> made blank, so that lines keep their numbers.
+/// Replaces every <?...?> by blanks, so that line numbers stay the same.
 void blank_declarations(std::string& bytes) {
   for (std::size_t start = bytes.find("<?"); start != std::string::npos; start = bytes.find("<?", start)) {
     const std::size_t end = bytes.find("?>", start);
@@ -43,7 +43,7 @@ XmlFile::XmlFile(const std::filesystem::path& path, const char* root_name) : pat
   std::string bytes = read_file(path);
   if (bytes.find_first_not_of(" \t\r\n") == std::string::npos)
     refuse(0, std::string("is empty, expected XML with root element <") + root_name + ">");
-  // A comment may stand above <?xml ...?> in files that other readers take.
+  // Some files have a comment above <?xml ...?>. Other readers accept them.
   if (document_.Parse(bytes.data(), bytes.size()) == tinyxml2::XML_ERROR_PARSING_DECLARATION) {
     blank_declarations(bytes);
     document_.Parse(bytes.data(), bytes.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// XML files whose elements know where they stand, and the messages about them.
+// XmlFile: an XML file whose error messages name the line of an element.
 #pragma once
 
 #include <tinyxml2.h>
@@ -9,36 +9,36 @@
 
 namespace hinge::robotics {
 
-/// "<name>", for messages.
+/// Returns "<name>", for messages.
 inline std::string tag(const tinyxml2::XMLElement& element) { return std::string("<").append(element.Name()) + ">"; }
 
-/// An attribute, or "" where it is not.
+/// Returns an attribute, or "" if it does not exist.
 inline std::string text_of(const tinyxml2::XMLElement& element, const char* attribute) {
   const char* text = element.Attribute(attribute);
   return text != nullptr ? text : "";
 }
 
-/// An XML file with this root element. LoadError: cannot be opened, no XML, another root.
+/// An XML file with a given root element. Throws LoadError if the file cannot be read, is not XML, or has another root.
 class XmlFile {
  public:
   XmlFile(const std::filesystem::path& path, const char* root);
 
   tinyxml2::XMLElement& root() noexcept { return *document_.RootElement(); }
 
-  /// LoadError: it, or an element or attribute in it, is one that xacro would have replaced.
+  /// Throws LoadError if the element, or any element or attribute inside it, is input for xacro.
   void refuse_xacro_in(const tinyxml2::XMLElement& element) const;
   [[noreturn]] void refuse_xacro(const tinyxml2::XMLElement& element) const;
 
-  /// "file:line: "; without the line when it is 0.
+  /// Returns "file:line: ", or "file: " if the line is 0.
   std::string at(int line) const;
 
-  /// Throws LoadError "file:line: what"; without the line when it is 0.
+  /// Throws LoadError "file:line: what", without the line if it is 0.
   [[noreturn]] void refuse(int line, const std::string& what) const;
 
-  /// An attribute that must be there and not be empty.
+  /// Returns an attribute. Throws LoadError if it does not exist or is empty.
   std::string attribute(const tinyxml2::XMLElement& element, const char* name) const;
 
-  std::string text() const;  ///< the document as it is now
+  std::string text() const;  ///< the document in its present state
 
  private:
   std::string path_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From description to model: parents first, one core joint each; followers resolved to the joint that drives them.
+// Builds the model from the description, parents first, and resolves mimic joints to independent joints.
 #include "hinge/robotics/robot.hpp"
 
 #include <algorithm>
@@ -31,13 +31,13 @@ Joint core_joint(const JointDescription& joint) {
 
 bool has_no_area(const Triangle& t) { return squared_norm(cross(Vec3(t.b - t.a), Vec3(t.c - t.a))) == 0.0; }
 
-/// Does the inside of the shape count? Not where triangles have a radius: those are solid by themselves.
+/// Returns true if the inside of the shape collides. Triangles with a radius are solid by themselves.
 bool is_solid(const Shape& shape, const Surface& surface) {
   const auto* mesh = std::get_if<MeshShape>(&shape);
   return surface.radius == 0.0 && (mesh == nullptr || mesh->solid);
 }
 
-/// `first`: the surface's first triangle in the model.
+/// Makes a solid with its bounding box. first: index of the surface's first triangle in the model.
 Solid solid_of(LinkId link, std::size_t first, const Surface& surface, const Pose& origin) {
   Aabb box;
   for (const Triangle& triangle : surface.triangles) box.extend(triangle.bounds());
@@ -49,11 +49,11 @@ Solid solid_of(LinkId link, std::size_t first, const Surface& surface, const Pos
   return solid;
 }
 
-/// Positions of the joints so that each stands behind the one that places its parent link; no order changed needlessly.
+/// Returns joint indices such that each joint follows the joint above its parent link. Otherwise the order is kept.
 std::vector<std::size_t> parents_first(const RobotDescription& robot, std::string_view root) {
   std::multimap<std::string_view, std::size_t> below;
   for (std::size_t k = 0; k < robot.joints.size(); ++k) below.emplace(robot.joints[k].parent, k);
-  // The earliest joint whose parent is there comes next.
+  // Take the earliest joint whose parent link is already placed.
   std::vector<std::size_t> ready, order;
   const auto open = [&](std::string_view link) {
     const auto [first, last] = below.equal_range(link);
@@ -88,7 +88,7 @@ void Robot::build() {
   for (const JointDescription& joint : description_.joints) roots.erase(joint.child);
   const LinkDescription& root = *roots.begin()->second;
 
-  // As many as one shape may take: a file of a few lines must not fill the memory.
+  // The limit of a single shape also holds for all shapes, so a small file cannot exhaust the memory.
   constexpr std::size_t most_tessellated = 1'000'000;
   std::size_t tessellated = 0;
   ModelBuilder<Triangle> builder;
@@ -152,7 +152,7 @@ void Robot::find_drives() {
   for (const std::size_t k : joint_of_dof_) {
     Drive drive;
     const JointDescription* joint = &description_.joints[k];
-    // q = m (m' q' + o') + o, and so on up the chain.
+    // q = m (m' q' + o') + o, repeated up the chain.
     for (; joint->mimic; joint = joints.at(joint->mimic->joint)) {
       drive.offset += drive.multiplier * joint->mimic->offset;
       drive.multiplier *= joint->mimic->multiplier;

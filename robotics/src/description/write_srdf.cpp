@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SRDF as text; names are escaped, comments hold none.
+// Writes SRDF text. Names are escaped in attributes and comments.
 #include "hinge/robotics/write_srdf.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace hinge::robotics {
 
 namespace {
 
-/// As an attribute's value.
+/// Escapes text for an attribute value.
 std::string escaped(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -34,7 +34,7 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
-/// Inside a comment: two hyphens in a row would end it.
+/// Escapes text for a comment, where two hyphens in a row are not allowed.
 std::string in_comment(std::string_view text) {
   std::string result;
   for (const char c : escaped(text)) result += c == '-' && result.ends_with('-') ? "&#45;" : std::string(1, c);
@@ -78,7 +78,7 @@ std::string seen(const MatrixEntry& entry) {
   return "";
 }
 
-/// What stands in the root element; `file`: what stands there already, null for nothing.
+/// Writes elements and comments of the matrix. file: the existing contents of the root element, or null.
 void write_entries(const Robot& robot, const CollisionMatrix& matrix, std::ostream& out, UnseenPairs unseen,
                    const Srdf* file) {
   for (const std::string& link : robot.description().incomplete)
@@ -104,7 +104,7 @@ void write_entries(const Robot& robot, const CollisionMatrix& matrix, std::ostre
   }
 }
 
-/// Where the root element's end begins; none: it has no end of its own. Comments may stand behind it.
+/// Returns the position of the root element's closing tag, or nothing if it has none. Comments may follow the tag.
 std::optional<std::size_t> end_of_root(std::string_view xml) {
   std::optional<std::size_t> end;
   for (std::size_t at = xml.find('<'); at != std::string_view::npos; at = xml.find('<', at + 1)) {
@@ -126,7 +126,7 @@ void merge_srdf(const std::filesystem::path& path, const Srdf& srdf, const Robot
                 std::ostream& out, UnseenPairs unseen) {
   const std::string xml = read_file(path);
   const auto end = end_of_root(xml);
-  if (!end) {  // <robot/>: there is nothing to keep
+  if (!end) {  // <robot/>: nothing to keep
     write_srdf(robot, matrix, out, unseen);
     return;
   }
