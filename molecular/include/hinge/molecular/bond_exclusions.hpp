@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// BondExclusions: the pair filter of molecules, TopDist(i, j) >= min_bonds (BioCD eq. (1)), less pairs exempted by hand
-// and those nobody asks about.
+// BondExclusions: the pair filter of molecules: TopDist(i, j) >= min_bonds (BioCD eq. (1)), except exempted pairs and
+// pairs outside a scope.
 #pragma once
 
 #include <algorithm>
@@ -18,14 +18,15 @@
 
 namespace hinge::molecular {
 
-/// From how many bonds apart on a pair counts: of heavy atoms, and one with a hydrogen.
+/// Number of bonds between two atoms from which the pair counts.
 struct MinBonds {
-  int heavy;
-  int hydrogen;
+  int heavy;     ///< for two heavy atoms
+  int hydrogen;  ///< if one of them is a hydrogen
 
-  /// The same for all pairs.
+  /// The same number for all pairs.
   MinBonds(int bonds) : heavy(bonds), hydrogen(bonds) {}
   MinBonds(int of_heavy, int with_hydrogen) : heavy(of_heavy), hydrogen(with_hydrogen) {}
+  /// The number for atoms i and j of the structure.
   int of(const Structure& structure, std::uint32_t i, std::uint32_t j) const noexcept {
     return structure.atoms[i].element == "H" || structure.atoms[j].element == "H" ? hydrogen : heavy;
   }
@@ -33,28 +34,32 @@ struct MinBonds {
   friend bool operator==(const MinBonds&, const MinBonds&) = default;
 };
 
-/// Primitive i is atom i. A pair is admitted when at least min_bonds bonds lie on the shortest way between the two
-/// atoms (the paper's "more than three bonds" is min_bonds = 4); atoms that no chain of bonds joins are always
-/// admitted.
+/// Admits pairs of atoms whose shortest path has at least min_bonds bonds (the paper's "more than three bonds" is
+/// min_bonds = 4), and atoms that no path of bonds connects. Primitive i is atom i. Copies share their data; const
+/// members may be called by many threads at once.
 class BondExclusions {
  public:
-  /// min_bonds: 1 ... 16, else ModelError. exempt: further pairs that never count. scope: made for the structure.
+  /// min_bonds: both in 1 ... 16. exempt: further pairs that are not admitted. scope: made for this structure. Throws
+  /// ModelError if a number is out of range, or an exempt pair is not two different atoms of the structure.
   BondExclusions(const Structure& structure, MinBonds min_bonds,
                  std::span<const std::pair<PrimitiveId, PrimitiveId>> exempt = {}, PairScope scope = {});
 
+  /// True if the pair is in the scope and not listed by excluded().
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept {
     const auto list = excluded(i);
     return in_scope(i, j) && !std::binary_search(list.begin(), list.end(), j);
   }
-  /// Is the pair asked about, however many bonds lie between the two?
+  /// True if the pair is in the scope, whatever its number of bonds.
   bool in_scope(PrimitiveId i, PrimitiveId j) const noexcept { return scope_.holds(i, j); }
-  /// Atoms too few bonds away from i, and those exempted with it: sorted, without i.
+  /// The atoms that are listed as excluded with i: too few bonds apart, or exempted. Sorted, without i. Valid for the
+  /// lifetime of this object or of any copy.
   std::span<const PrimitiveId> excluded(PrimitiveId i) const noexcept {
     return std::span(data_->excluded)
         .subspan(data_->start[index(i)], data_->start[index(i) + 1] - data_->start[index(i)]);
   }
+  /// Number of atoms.
   std::size_t size() const noexcept { return data_->start.size() - 1; }
-  /// Number of unordered pairs that are listed: too few bonds apart, or exempted.
+  /// Number of unordered pairs that are listed as excluded.
   std::size_t excluded_pairs() const noexcept { return data_->excluded.size() / 2; }
 
  private:
@@ -68,10 +73,11 @@ class BondExclusions {
 
 static_assert(ListsExclusions<BondExclusions>);
 
-/// Neighbours of every atom in the bond graph, sorted.
+/// Returns the neighbours of every atom in the bond graph, sorted.
 std::vector<std::vector<std::uint32_t>> bonded_neighbours(const Structure& structure);
 
-/// Number of bonds on the shortest way between two atoms, or -1 when it is longer than `limit` or there is none.
+/// Returns the number of bonds on the shortest path between atoms i and j, or -1 if it is above `limit` or there is no
+/// path. Linear in the number of bonds.
 int bond_distance(const Structure& structure, std::uint32_t i, std::uint32_t j, int limit);
 
 }  // namespace hinge::molecular

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// BondGauge: how far coordinates from elsewhere are from a molecule's bonds and from what closes its cycles.
+// BondGauge: how far given coordinates deviate from a molecule's bonds and closures.
 #pragma once
 
 #include <array>
@@ -12,22 +12,26 @@
 
 namespace hinge::molecular {
 
-/// The bond whose length is farthest from the reference's; angstrom.
+/// The bond whose length deviates most from the reference; atom indices, lengths in angstrom.
 struct BondDeviation {
   std::uint32_t first = 0, second = 0;
   double length = 0.0, reference = 0.0;
   double residual = 0.0;  ///< |length - reference|
 };
 
-/// Lengths are compared with those in model 0. Positions: angstrom, one per atom.
+/// Compares distances with those in model 0. Independent of the molecule after construction. Const members may be
+/// called by many threads at once.
 class BondGauge {
  public:
+  /// Measures the bonds and closures of the molecule in model 0.
   explicit BondGauge(const Molecule& molecule);
 
-  /// Of each closure of the molecule's tree, angstrom: the largest change of the distance between the two atoms it
-  /// joins and of those across its angles, from one to what is bonded to the other.
+  /// Returns one residual per closure of the molecule's tree, angstrom: the largest change of the distance between the
+  /// closure's two atoms, or between one of them and a bond neighbour of the other (these fix the angles). positions:
+  /// angstrom, one per atom.
   std::vector<double> closure_residuals(std::span<const Vec3> positions) const;
-  /// The first of those farthest off; all 0 for a molecule without bonds.
+  /// Returns the first bond with the largest deviation; all 0 if the molecule has no bonds. positions: angstrom, one
+  /// per atom.
   BondDeviation worst_bond(std::span<const Vec3> positions) const;
 
  private:

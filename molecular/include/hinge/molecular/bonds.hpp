@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From atoms to bonds: residue templates, components, bonds of polymers, disulphides, records, and covalent radii where
-// nothing is known.
+// Bond perception: from atoms to bonds, by residue tables, components, polymer order, records, and covalent radii as
+// the last resort.
 #pragma once
 
 #include <string>
@@ -10,20 +10,23 @@
 
 namespace hinge::molecular {
 
-/// Fills structure.bonds from names, structure.links and the coordinates of the first model, and says in
-/// structure.notes what was guessed: chain breaks, ignored records, residues without a template, each bond between
-/// residues that only its distance tells of; structure.bond_sources is the whole list. Near-linear in the number of
+/// Fills structure.bonds (sorted) and structure.bond_sources from names, structure.links and the coordinates of the
+/// first model. Adds a note to structure.notes for each guess: chain breaks, ignored records, residues without a
+/// template, and each bond between residues that is known from its distance alone. Time is near-linear in the number of
 /// atoms.
 ///
-/// Inside a residue the first of these that applies: our own table, when it knows every heavy atom; the component of
-/// that name; CONECT records, when they join all heavy atoms; our own table for the atoms it knows and covalent radii
-/// for others. Between residues: bonds of polymers, records, and as `between` says.
+/// Inside a residue, the first applicable source is used: the built-in table, if it knows every heavy atom; the
+/// component of that name; CONECT records, if they connect all heavy atoms; otherwise the table for the atoms that it
+/// knows, and covalent radii for the others. Between residues: polymer bonds, recorded bonds, and those that `between`
+/// asks for. Throws LoadError if a component cannot be read.
 void perceive_bonds(Structure& structure, ComponentLibrary components = {}, BondSearch between = BondSearch::geometry);
 
-/// Metals and metalloids that coordinate; every bond of theirs is taken for a coordination bond.
+/// True for metals and metalloids that coordinate; every bond of such an atom is a coordination bond. element: symbol
+/// as in Atom::element.
 bool is_metal(const std::string& element) noexcept;
 
-/// Single-bond covalent radius, angstrom (Cordero et al., Dalton Trans. 2008, 2832).
+/// Single-bond covalent radius in angstrom (Cordero et al., Dalton Trans. 2008, 2832); 1.5 for elements that the table
+/// lacks.
 double covalent_radius(const std::string& element) noexcept;
 
 }  // namespace hinge::molecular

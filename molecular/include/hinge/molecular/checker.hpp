@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checker: a molecule, a selection and the rules of a check put together, with the engine chosen at run time.
+// Checker: tests conformations of a molecule for a selection and clash rules, with the engine chosen at run time.
 #pragma once
 
 #include <cstdint>
@@ -25,21 +25,25 @@
 
 namespace hinge::molecular {
 
+/// The hierarchy of a molecule: atoms as points, thresholds by type.
 template <template <class, class, class> class EngineOf>
 using MolecularHierarchy = Hierarchy<Point, BondExclusions, TypedThresholds, EngineOf>;
 
 using hinge::Mode;
 
+/// Options of a Checker.
 struct CheckOptions {
   ThresholdOptions thresholds;
-  std::optional<int> min_bonds;    ///< pairs count from this bond distance on; none: the rules' or the radii set's
-  bool exempt_reference = false;   ///< pairs that collide in the reference never count, but for those of interfaces:
-  bool exempt_interfaces = false;  ///< of two files, or of a placed part and what is none of it; these neither, if set
-  PairScope scope{};            ///< which pairs are asked about, made for the molecule's structure; none else is named
+  std::optional<int>
+      min_bonds;  ///< number of bonds from which a pair counts; nullopt: that of the rules or the radii set
+  bool exempt_reference = false;  ///< leave out pairs that collide in the reference, except pairs of an interface
+  bool exempt_interfaces =
+      false;                    ///< leave those out too. Interface: between two files, or a placed part and its outside
+  PairScope scope{};            ///< tested pairs, made for the molecule's structure; default: all
   std::string engine = "simd";  ///< "simd", "lazy" (the paper's) or "brute"
 };
 
-/// A pair and whether it collides, which its rounded distance cannot say.
+/// A pair, and whether it collides: near the threshold, the rounded distance in `hit` cannot tell.
 struct Contact {
   Hit hit;
   bool collides = false;
@@ -47,45 +51,53 @@ struct Contact {
   friend bool operator==(const Contact&, const Contact&) = default;
 };
 
-/// The answer for one conformation. `pairs` holds what the mode lists (all: colliding; within: closer than the margin;
-/// any: none, it stops at the first), `closest` only in mode closest. Pairs of constant distance are not in it. It
-/// collides exactly when a pair does.
+/// The answer for one conformation. `pairs`: mode all: colliding pairs; within: pairs with d < M + margin; any and
+/// closest: empty. `collides` is true if any tested pair collides. Pairs of constant distance are left out by
+/// Checker::check, but not by check_coordinates.
 struct Verdict {
   bool collides = false;
   std::vector<Contact> pairs;
-  std::optional<Contact> closest;           ///< a pair that collides, where one does
-  double closure_residual = 0.0;            ///< worst over the molecule's closures, angstrom; 0 for coordinates given
-  std::vector<double> closure_residuals{};  ///< of each closure of the molecule's tree; none for coordinates given
+  std::optional<Contact> closest;  ///< mode closest only: the pair of least d - M; one that collides, if any does
+  double closure_residual = 0.0;   ///< largest of closure_residuals, angstrom; 0 for given coordinates
+  std::vector<double>
+      closure_residuals{};  ///< one per closure of the molecule's tree, angstrom; empty for given coordinates
 };
 
-/// One per thread; copies share everything constant.
+/// Tests conformations of one molecule. One per thread: checks change its state. Copies share all constant data.
 class Checker {
  public:
-  /// ModelError: unknown engine, rules or radii set, numbers out of range or beside rules that fix them.
+  /// `molecule` is shared, not copied; null throws ModelError. Also throws ModelError if the engine, the rules or the
+  /// radii set are unknown, a number is out of range, or an option is set that the rules fix.
   Checker(std::shared_ptr<const Molecule> molecule, DofSelection selection, const CheckOptions& options);
 
+  /// These references are valid for the lifetime of this object or of any copy.
   const Molecule& molecule() const noexcept { return *molecule_; }
   const Thresholds& thresholds() const noexcept { return *thresholds_; }
   const BondExclusions& exclusions() const noexcept { return *exclusions_; }
   MinBonds min_bonds() const noexcept { return min_bonds_; }
-  /// Pairs that collide in the reference coordinates, as written, all admitted pairs looked at, sorted.
+  /// Pairs that collide in the reference coordinates, in decimals as the file gives them, sorted. All admitted pairs
+  /// are tested, whatever the selection. Valid for the lifetime of this object or of any copy.
   std::span<const Hit> reference_collisions() const noexcept { return *reference_; }
-  /// Those whose distance the selection cannot change (and which are not exempted).
+  /// The reference collisions whose distance the selection cannot change, without exempted ones. Valid as above.
   std::span<const Hit> constant_contacts() const noexcept { return *constant_; }
 
+  /// The free DOF; valid until this object is assigned to or destroyed.
   const DofSelection& selection() const;
+  /// Number of values of a configuration.
   std::size_t dof_count() const;
   std::size_t rigid_group_count() const;
+  /// The rigid group of an atom.
   GroupId group_of(std::uint32_t atom) const;
-  /// Can the distance of two atoms not change under the selection?
+  /// True if the selection cannot change the distance of atoms i and j.
   bool constant(std::uint32_t i, std::uint32_t j) const;
 
-  /// The conformation at q: turns from the reference, rad, one per selected DOF.
+  /// Tests the conformation at q. q: dof_count() values, angles in rad and slides in angstrom, relative to the
+  /// reference. Throws ConfigurationError if their number is wrong or a value is not finite.
   Verdict check(std::span<const double> q, const Mode& mode);
-  /// Coordinates from elsewhere, angstrom, one per atom: every admitted pair counts, whatever the selection. Pairs of
-  /// atoms whose coordinates have three decimals, as files give them, are decided in decimals (closer_as_written).
+  /// Tests given coordinates. positions: angstrom, one per atom. Every admitted pair is tested, whatever the selection.
+  /// Distances of atoms whose coordinates have at most three decimals, as in files, are compared in exact decimals.
   Verdict check_coordinates(std::span<const Vec3> positions, const Mode& mode);
-  /// The coordinates of the last check, angstrom.
+  /// The coordinates of the last check, angstrom, one per atom.
   std::vector<Vec3> positions();
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ClashRules: what counts as a clash, by name: BioCD's own criterion, and those of programs people compare with.
+// ClashRules: definitions of a clash by name: BioCD's own criterion, and those of programs that users compare with.
 #pragma once
 
 #include <string_view>
@@ -9,22 +9,22 @@
 
 namespace hinge::molecular {
 
-/// Radii, cutoff, hydrogen bonds and bond distance as another program has them, so that our verdicts are its verdicts.
+/// Radii, cutoff, hydrogen bonds and bond distance of a program, so that verdicts equal those of that program.
 struct ClashRules {
-  std::string_view name;     ///< as on the command line
-  std::string_view version;  ///< changes whenever a number does
-  std::string_view source;
-  std::string_view radii;          ///< which set; empty: as chosen
-  std::string_view radii_version;  ///< empty: as chosen
-  MinBonds min_bonds;              ///< bond distance at which a pair starts to count
-  bool inside_residues;            ///< do pairs of one residue count?
-  double hydrogen_bond_allowance;  ///< angstrom; 0: as chosen, or none
+  std::string_view name;           ///< name on the command line
+  std::string_view version;        ///< changes with every change of a number
+  std::string_view source;         ///< publication or program
+  std::string_view radii;          ///< name of the radii set; empty: chosen by the user
+  std::string_view radii_version;  ///< empty: chosen by the user
+  MinBonds min_bonds;              ///< number of bonds from which a pair counts
+  bool inside_residues;            ///< pairs inside one residue count
+  double hydrogen_bond_allowance;  ///< angstrom, of an uncharged hydrogen bond; 0: chosen by the user, or none
 };
 
-/// biocd, severe, molprobity, chimerax, posebusters.
+/// The rules biocd, severe, molprobity, chimerax and posebusters; a static object.
 const std::vector<ClashRules>& all_clash_rules();
 
-/// ModelError, listing the names, when there are none of that name.
+/// Returns the rules of this name; a static object. Throws ModelError, with the known names, if there are none.
 const ClashRules& clash_rules(std::string_view name);
 
 }  // namespace hinge::molecular

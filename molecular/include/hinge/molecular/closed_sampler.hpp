@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random conformations whose cycles are closed: loops with both ends held, disulphides, cyclic backbones.
+// ClosedSampler: random conformations whose cycles are closed: loops with both ends fixed, disulphides, cyclic
+// backbones.
 #pragma once
 
 #include <array>
@@ -17,49 +18,55 @@
 
 namespace hinge::molecular {
 
-/// What became of one sample. A start that does not close is given up, and the next is drawn from the same stream.
+/// The result of one sample. If a start does not close, the next one is drawn from the same stream.
 struct ClosedSample {
-  std::vector<double> q;       ///< turns from the reference, rad; empty when no start gave a sample
+  /// One value per selected DOF, relative to the reference, rad or angstrom; empty: no start gave a sample.
+  std::vector<double> q;
   std::uint64_t unclosed = 0;  ///< starts that did not close
-  std::uint64_t refused = 0;   ///< closed conformations that were not accepted
+  std::uint64_t refused = 0;   ///< closed conformations that accept() refused
 
+  /// True if a start gave a sample.
   bool found() const noexcept { return !q.empty(); }
 };
 
-/// The starts of one sample: the first is what sample_configuration gives, the next go on in the same streams.
+/// The starts of one sample: the first equals sample_configuration, the next continue its streams.
 class StartStream {
  public:
-  /// ModelError: as sample_configuration.
+  /// ranges: one per placed part. The selection holds the DOF of all placed parts. Throws ModelError if the number of
+  /// ranges is wrong.
   StartStream(const Sampling& sampling, std::uint64_t index, const Molecule& molecule, const DofSelection& selection,
               std::span<const PlacementRange> ranges);
-  /// New turns, and with `place` (as the first time) new placements.
+  /// Returns the next start, one value per selected DOF. place: also draw new placements; required in the first call.
   std::vector<double> next(bool place);
 
  private:
   Sampling sampling_;
   std::vector<PlacementRange> ranges_;
   SampleStream turns_;
-  std::vector<SampleStream> places_;                 // by placed part
-  std::vector<std::size_t> turning_;                 // positions in a configuration
-  std::vector<std::array<std::size_t, 6>> placing_;  // by placed part
+  std::vector<SampleStream> places_;                 // one stream per placed part
+  std::vector<std::size_t> turning_;                 // indices in a configuration
+  std::vector<std::array<std::size_t, 6>> placing_;  // per placed part, indices in a configuration
   std::vector<double> q_;
 };
 
-/// Sample `index` is a function of (seed, index): a start drawn as sample_configuration draws it, moved onto the closed
-/// set by the solver (every closure within 1e-9 angstrom, far below what a file's decimals show). One per thread.
+/// Sample `index` depends on the construction and (seed, index) alone: a start of StartStream that the solver moves
+/// onto the closed set (every closure within 1e-9 angstrom, far below the decimals of a file). One per thread.
 class ClosedSampler {
  public:
-  /// Keeps all closures; no part is placed. ModelError: most_tries 0, no DOF.
+  /// Keeps all closures of the molecule, which has no placed parts. The molecule must outlive the sampler. Throws
+  /// ModelError if most_tries is 0 or the selection is empty.
   ClosedSampler(const Molecule& molecule, const DofSelection& selection, const Sampling& sampling,
                 std::uint64_t most_tries)
       : ClosedSampler(molecule, selection, sampling, most_tries, all_closures(molecule.model().tree()), {}) {}
-  /// Keeps `closures` (find_kept_closures), positions in the tree's. ranges: of the placed parts, which stay where a
-  /// sample's first start put them until a closed conformation is not accepted. The molecule outlives the sampler.
+  /// Keeps these closures (find_kept_closures), indices in the tree's. ranges: one per placed part. A placement is
+  /// redrawn only after a closed conformation was not accepted. The molecule must outlive the sampler. Throws
+  /// ModelError as above, and for bad ranges (sample_configuration).
   ClosedSampler(const Molecule& molecule, const DofSelection& selection, const Sampling& sampling,
                 std::uint64_t most_tries, const std::vector<std::size_t>& closures,
                 std::span<const PlacementRange> ranges);
 
-  /// The first closed conformation for which accept(q) holds, of at most most_tries starts.
+  /// Returns the first closed conformation for which accept(q) is true, from at most most_tries starts. accept takes a
+  /// std::span<const double> of one value per selected DOF, valid during the call.
   template <class Accept>
   ClosedSample sample(std::uint64_t index, const Accept& accept) {
     StartStream stream(sampling_, index, *molecule_, selection_, ranges_);
@@ -80,6 +87,7 @@ class ClosedSampler {
     }
     return result;
   }
+  /// Returns the first closed conformation.
   ClosedSample sample(std::uint64_t index) {
     return sample(index, [](std::span<const double>) { return true; });
   }
@@ -93,10 +101,10 @@ class ClosedSampler {
   std::uint64_t most_tries_;
 };
 
-/// Those of the torsions (positions in Molecule::torsions()) that cannot leave the reference while all cycles stay
-/// closed, for any coordinates that three decimals could stand for (rigid_cycle_dofs).
+/// Returns those of the torsions (indices in Molecule::torsions()) that cannot leave the reference while all cycles
+/// stay closed, for all coordinates that round to the given three decimals. Sorted. It may miss some.
 std::vector<std::size_t> find_held_torsions(const Molecule& molecule, std::span<const std::size_t> torsions);
-/// While these closures, positions in the tree's, stay closed.
+/// The same with only these closures kept, indices in the tree's.
 std::vector<std::size_t> find_held_torsions(const Molecule& molecule, std::span<const std::size_t> torsions,
                                             std::span<const std::size_t> closures);
 

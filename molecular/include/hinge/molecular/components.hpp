@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chemical components: bonds of residues by name, from CIF files, with bond orders.
+// Component: bonds of a residue by atom names, with bond orders, as CIF dictionaries define them.
 #pragma once
 
 #include <filesystem>
@@ -13,45 +13,47 @@
 
 namespace hinge::molecular {
 
-/// A bond of a component, between atom names.
+/// A bond of a component, by atom names.
 struct ComponentBond {
   std::string first, second;
   BondOrder order = BondOrder::unknown;
 };
 
-/// A residue's definition (wwPDB's chem_comp, or a monomer of a refinement dictionary).
+/// A residue's definition: wwPDB's chem_comp, or a monomer of a refinement dictionary.
 struct Component {
-  std::string name;
-  std::string source;  ///< the file, or the dictionary, it comes from
+  std::string name;    ///< residue name
+  std::string source;  ///< path of the CIF file or of the dictionary's folder
   std::vector<ComponentBond> bonds;
-  bool given = false;  ///< by the user or the structure's own file; else found by its name in a dictionary
+  bool given = false;  ///< true: given by the user or by the structure's own file; false: found by name in a dictionary
 };
 
-/// Components by name: those given, then those of a dictionary, a folder x/XYZ.cif of one file per monomer, each read
-/// when it is first asked for.
+/// Components by residue name: first those added, then those of a monomer dictionary, a folder of files x/XYZ.cif. A
+/// dictionary's file is read at the first find() of its name. Not thread-safe: find() caches.
 class ComponentLibrary {
  public:
   ComponentLibrary() = default;
-  /// dictionary: empty for none. LoadError: not a folder.
+  /// dictionary: a folder; empty: no dictionary. Throws LoadError if it is not a folder.
   explicit ComponentLibrary(std::filesystem::path dictionary);
 
-  /// Components of a CIF file in the layout of wwPDB's dictionary or of a refinement dictionary's monomers, plain or
-  /// gzipped. LoadError: cannot be read, holds no chem_comp_bond, a bond of fewer than two different atoms or of an
-  /// unknown order.
+  /// Adds the components of a CIF file, plain or gzipped, in the layout of wwPDB's dictionary or of a refinement
+  /// dictionary. Throws LoadError if the file cannot be read, has no chem_comp_bond, or has a bond that does not join
+  /// two different atoms or has an unknown order.
   void add_file(const std::filesystem::path& path);
-  /// The first component of a name counts.
+  /// Adds a component and marks it as given. Ignored if the name was added before, or if find() has looked it up
+  /// before.
   void add(Component component);
 
-  /// Null when there is none. LoadError: the dictionary's file cannot be trusted.
+  /// Returns the component of this residue name, or null. The pointer is valid for the library's lifetime. Throws
+  /// LoadError if the dictionary's file of that name cannot be read or parsed.
   const Component* find(const std::string& name);
 
  private:
   std::filesystem::path dictionary_;
-  std::map<std::string, std::optional<Component>, std::less<>> components_;  // nullopt: the dictionary has none
+  std::map<std::string, std::optional<Component>, std::less<>> components_;  // nullopt: not in the dictionary
 };
 
-/// The monomer dictionary of this machine: $CLIBD_MON where that is set, else the folder of Debian's refmac-dictionary;
-/// empty when there is neither.
+/// Returns the monomer dictionary of this machine: $CLIBD_MON if it is set and not empty, otherwise the folder of
+/// Debian's refmac-dictionary, or an empty path if that is not installed.
 std::filesystem::path installed_dictionary();
 
 }  // namespace hinge::molecular

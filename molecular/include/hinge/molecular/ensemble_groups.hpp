@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rigid groups of an ensemble: what keeps its shape from conformation to conformation, and the torsions between.
+// Rigid groups of an ensemble: sets of atoms that keep their shape in all conformations, and the torsions between them.
 #pragma once
 
 #include <cstddef>
@@ -11,32 +11,35 @@
 
 namespace hinge::molecular {
 
-/// Atoms whose mutual placement does not change. Segments are what torsions that stay put join, largest first; one that
-/// other segments follow on is made of several that torsions lie between, as where a chain leaves a domain and returns.
+/// A set of atoms that keep their relative positions. A segment is a set of atoms without a turning torsion inside. A
+/// group has several segments if turning torsions lie between them, as where a chain leaves a domain and returns. The
+/// largest segment is first.
 struct EnsembleGroup {
-  std::vector<std::vector<std::uint32_t>> segments;  ///< atoms, sorted
-  double spread = 0.0;  ///< largest standard deviation of a distance between two points in it, angstrom
+  std::vector<std::vector<std::uint32_t>> segments;  ///< atom indices, each segment sorted
+  double spread = 0.0;  ///< largest standard deviation of a distance between two of its points, angstrom
 
+  /// Number of atoms.
   std::size_t size() const noexcept;
-  std::vector<std::uint32_t> atoms() const;  ///< of all segments, sorted
+  std::vector<std::uint32_t> atoms() const;  ///< atoms of all segments, sorted
 };
 
+/// The result of find_ensemble_groups.
 struct EnsembleGroups {
-  std::vector<EnsembleGroup> groups;  ///< every atom is in one; most atoms first
-  std::vector<std::size_t> torsions;  ///< that join two segments, positions in Molecule::torsions(), sorted
-  std::vector<double> turn_spreads;   ///< of these torsions, rad
+  std::vector<EnsembleGroup> groups;  ///< every atom is in one group; largest group first
+  std::vector<std::size_t> torsions;  ///< torsions that join two segments, indices in Molecule::torsions(), sorted
+  std::vector<double> turn_spreads;   ///< circular standard deviations of these torsions, rad
 };
 
-/// Two points stay together when the standard deviation of their distance over the ensemble is at most `tolerance`
-/// (angstrom); a group is a set of bodies all of whose points do. Torsions are taken by their spread, those that turn
-/// least first, and join the bodies on either side when all of them together are a group and the torsion moves atoms
-/// beside its axis by no more than the tolerance either (1.44 angstrom off it); then segments of four bodies and more
-/// that no turning torsion joins, nearest to rigid first. ModelError: fewer than two conformations; a tolerance that is
-/// no length above 0.
+/// Returns the rigid groups of an ensemble. Two points keep their distance if its standard deviation over the ensemble
+/// is at most `tolerance` (angstrom); a group is a set of bodies whose points all do. First, torsions are visited by
+/// increasing spread: a torsion joins the sets on both sides if their union is a group, and if it moves atoms near its
+/// axis (1.44 angstrom away) by at most the tolerance. The results are the segments. Then segments of at least four
+/// bodies that no turning torsion joins are united, those with the least spread first. Throws ModelError for fewer than
+/// two conformations, or a tolerance that is not a length above 0.
 EnsembleGroups find_ensemble_groups(const EnsembleSpread& spread, double tolerance);
 
-/// The placements that keep groups of several segments together (MoleculeOptions::held): each segment by the largest of
-/// its group.
+/// Returns placements that keep groups of several segments rigid (MoleculeOptions::held): each segment is held with the
+/// largest one of its group. groups: of this molecule.
 std::vector<HeldPlacement> held_placements(const Molecule& molecule, const EnsembleGroups& groups);
 
 }  // namespace hinge::molecular

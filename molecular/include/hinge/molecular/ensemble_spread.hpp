@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// EnsembleSpread: how much torsions turn, and distances change, from conformation to conformation.
+// EnsembleSpread: how much torsions and distances vary over the conformations of an ensemble.
 #pragma once
 
 #include <array>
@@ -13,18 +13,20 @@
 
 namespace hinge::molecular {
 
-/// The bodies that some torsions join: atoms that no one of these torsions moves against each other. A body also has
-/// the axes of the torsions at it, whose atoms it shares with its neighbours.
+/// The bodies that a set of torsions joins. A body is a set of atoms that none of these torsions moves relative to one
+/// another. The points of a body include the axis atoms of its torsions, which it shares with its neighbours.
 class TorsionBodies {
  public:
+  /// torsions: indices in Molecule::torsions(). Independent of the molecule after construction.
   TorsionBodies(const Molecule& molecule, std::span<const std::size_t> torsions);
 
+  /// Number of bodies.
   std::size_t size() const noexcept { return size_; }
-  /// By atom: its body.
+  /// Returns the body of each atom. Valid for this object's lifetime, as are the other views.
   std::span<const std::uint32_t> of_atom() const noexcept { return of_atom_; }
-  /// The two bodies that torsions[k] joins.
+  /// Returns the two bodies that torsions[k] joins.
   const std::array<std::uint32_t, 2>& joined_by(std::size_t k) const noexcept { return joined_[k]; }
-  /// Atoms that say where a body is: those of its axes, and one more where they lie on one line and it has others.
+  /// Returns atoms that determine the body's position: the atoms of its axes, and a further one if those are collinear.
   std::span<const std::uint32_t> points(std::size_t body) const noexcept { return points_[body]; }
 
  private:
@@ -34,36 +36,40 @@ class TorsionBodies {
   std::vector<std::vector<std::uint32_t>> points_;
 };
 
-/// Conformations one by one; memory is 8 bytes for each pair of the bodies' points, however many there are.
+/// Accumulates conformations one by one, without storing them. Memory is 8 bytes per pair of points, independent of the
+/// number of conformations. Not thread-safe: add() changes the sums.
 class EnsembleSpread {
  public:
-  /// torsions: those that may turn, positions in Molecule::torsions(). The molecule must outlive it. ModelError: more
-  /// than most_points points.
+  /// torsions: those that may turn, indices in Molecule::torsions(). The molecule must outlive this object. Throws
+  /// ModelError if the bodies have more than most_points points.
   EnsembleSpread(const Molecule& molecule, std::span<const std::size_t> torsions);
 
-  static constexpr std::size_t most_points = 8192;  ///< 256 MiB
+  static constexpr std::size_t most_points = 8192;  ///< 256 MiB of sums
 
-  /// One more conformation: angstrom, one position per atom. LoadError: a torsion that it leaves undefined.
+  /// Adds a conformation. positions: angstrom, one per atom. Throws LoadError if a torsion is undefined there.
   void add(std::span<const Vec3> positions);
 
+  /// Number of conformations added.
   std::size_t conformations() const noexcept { return count_; }
+  /// The bodies; valid for this object's lifetime.
   const TorsionBodies& bodies() const noexcept { return bodies_; }
+  /// The torsions given to the constructor; valid for this object's lifetime.
   std::span<const std::size_t> torsions() const noexcept { return torsions_; }
-  /// Of torsions[k], rad: the circular standard deviation sqrt(-2 ln R), R the length of the mean of its unit vectors
-  /// (K. Mardia and P. Jupp, Directional Statistics, 2000, eq. 2.3.11); infinite where they cancel.
+  /// Returns the circular standard deviation of torsions()[k], rad: sqrt(-2 ln R), where R is the length of the mean of
+  /// the unit vectors (K. Mardia and P. Jupp, Directional Statistics, 2000, eq. 2.3.11). Infinite if R is 0.
   double circular_std(std::size_t k) const noexcept;
-  /// The largest standard deviation, angstrom, of the distance of a point of one body from one of the other. Of a body
-  /// to itself: between its own points.
+  /// Returns the largest standard deviation, angstrom, of the distance between a point of one body and a point of the
+  /// other. For first == second: between the body's own points. Needs at least one conformation.
   double distance_spread(std::size_t first, std::size_t second) const noexcept;
 
  private:
   const Molecule& molecule_;
   std::vector<std::size_t> torsions_;
   TorsionBodies bodies_;
-  std::vector<std::uint32_t> points_;                  // atoms
-  std::vector<std::vector<std::uint32_t>> points_of_;  // by body: positions in points_
-  std::vector<float> mean_, squares_;                  // of the pairs i < j at j (j - 1) / 2 + i (B. Welford, 1962)
-  std::vector<double> cosines_, sines_;                // by torsion: sums
+  std::vector<std::uint32_t> points_;                  // atom indices
+  std::vector<std::vector<std::uint32_t>> points_of_;  // per body: indices in points_
+  std::vector<float> mean_, squares_;                  // of the pair i < j at j (j - 1) / 2 + i (B. Welford, 1962)
+  std::vector<double> cosines_, sines_;                // sums, per torsion
   std::size_t count_ = 0;
 };
 

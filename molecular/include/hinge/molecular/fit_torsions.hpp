@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The configuration whose torsions are those of given coordinates, and how far two sets of coordinates are apart.
+// fit_torsions: the configuration with the torsions of given coordinates, and the distance between two sets of
+// coordinates.
 #pragma once
 
 #include <array>
@@ -14,34 +15,35 @@
 
 namespace hinge::molecular {
 
-/// The turn from the reference, rad in (-pi, pi], that gives torsions()[k] the dihedral angle it has in `positions`
-/// (angstrom, one per atom). LoadError: these positions leave it undefined.
+/// Returns the rotation relative to the reference, rad in (-pi, pi], that gives torsions()[k] its dihedral angle in
+/// `positions` (angstrom, one per atom). Throws LoadError if these positions leave the torsion undefined.
 double turn_of(const Molecule& molecule, std::size_t k, std::span<const Vec3> positions);
 
-/// Turns from the reference (rad, in (-pi, pi]), one per selected DOF, that give its torsions the dihedral angles they
-/// have in `positions` (angstrom, one per atom). What else differs, bond lengths, bond angles and torsions that are not
-/// selected, stays as in the reference: see superpose. LoadError: a torsion that these positions leave undefined.
+/// Returns such a rotation for each selected DOF, in the selection's order; the selection holds torsions only.
+/// positions: angstrom, one per atom. Bond lengths, bond angles and other torsions stay as in the reference, so the
+/// result is not a superposition (see superpose). Throws LoadError if these positions leave a torsion undefined.
 std::vector<double> fit_torsions(const Molecule& molecule, const DofSelection& selection,
                                  std::span<const Vec3> positions);
 
-/// The values of PlacedPart::dofs, part by part, that lay the parts of `rebuilt`, where they are in their place, over
-/// their atoms in `positions`, once what is not placed lies over its own (both angstrom, one per atom; molecules whose
-/// every atom is placed lie in one frame). Angles in [-pi, pi].
+/// Returns the values of PlacedPart::dofs for each placed part, angstrom and rad in [-pi, pi]. They move a part of
+/// `rebuilt`, where all placements are 0, onto its atoms in `positions` by least squares. Before, `positions` are
+/// superposed on the atoms outside placed parts; if there are none, both sets share one frame. rebuilt, positions:
+/// angstrom, one per atom.
 std::vector<std::array<double, 6>> fit_placements(const Molecule& molecule, std::span<const Vec3> rebuilt,
                                                   std::span<const Vec3> positions);
 
-/// Each turn by as many whole turns as take it within half a turn of `near`. As many values in both.
+/// Adds whole turns to each value so that it is within pi of the value in `near`. rad; both of the same length.
 void take_shorter_way(std::span<const double> near, std::span<double> turns);
 
-/// Distances of atoms from each other once one set is laid over the other, angstrom.
+/// Distances between corresponding atoms after superposition, angstrom.
 struct Superposition {
-  double rmsd = 0.0;       ///< root of the mean squared distance, the smallest that a rigid motion leaves
+  double rmsd = 0.0;       ///< root mean square distance, minimal over rigid motions
   double farthest = 0.0;   ///< largest distance
-  std::uint32_t atom = 0;  ///< whose it is
+  std::uint32_t atom = 0;  ///< the atom with that distance
 };
 
-/// Rigid, without mirroring, all atoms weighing alike (S. Umeyama, IEEE PAMI 13(4), 1991, eq. 34-42). As many positions
-/// in both, at least one.
+/// Returns the distances after the best rigid superposition without reflection, with equal weights (S. Umeyama, IEEE
+/// PAMI 13(4), 1991, eq. 34-42). moved, onto: angstrom, of the same length, at least one position.
 Superposition superpose(std::span<const Vec3> moved, std::span<const Vec3> onto);
 
 }  // namespace hinge::molecular

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// HeldPlacement: two parts of a molecule that torsions lie between and that keep their mutual placement all the same.
+// HeldPlacement: two rigid fragments of a molecule with torsions between them that keep their relative pose.
 #pragma once
 
 #include <array>
@@ -7,11 +7,12 @@
 
 namespace hinge::molecular {
 
-/// All six degrees of freedom between the rigid fragments of two atoms are held as they are in model 0. points: atoms
-/// anywhere, not all in one plane, where the two are compared; what is left open is measured there.
+/// The rigid fragments of two atoms keep their relative pose in model 0, by closures. points: four atoms, not all in
+/// one plane; the residual of the closures is measured at their positions.
 struct HeldPlacement {
+  /// One atom of each fragment, off torsion axes: an axis atom belongs to two fragments.
   std::array<std::uint32_t, 2> atoms{};
-  std::array<std::uint32_t, 4> points{};
+  std::array<std::uint32_t, 4> points{};  ///< anywhere in the structure; far apart is best
 };
 
 }  // namespace hinge::molecular

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hydrogen bonds of the backbone, by the energy of Kabsch and Sander; which atoms may bond at all.
+// Hydrogen bonds of the backbone, by the energy of Kabsch and Sander, and the atoms that can form hydrogen bonds.
 #pragma once
 
 #include <cstdint>
@@ -10,22 +10,22 @@
 
 namespace hinge::molecular {
 
-/// N-H ... O=C; positions in Structure::atoms.
+/// A hydrogen bond N-H ... O=C of the backbone.
 struct HydrogenBond {
-  std::uint32_t nitrogen = 0;
-  std::uint32_t oxygen = 0;
-  double energy = 0.0;  ///< kcal/mol, below 0
+  std::uint32_t nitrogen = 0;  ///< index in Structure::atoms
+  std::uint32_t oxygen = 0;    ///< index in Structure::atoms
+  double energy = 0.0;         ///< kcal/mol, below 0
 };
 
-/// The bonds N-H(i) ... O=C(j) of model 0 with E < -0.5 kcal/mol, sorted by nitrogen: the strongest of each N-H, of
-/// residues that are not neighbours. E = 0.42 e * 0.20 e * 332 kcal A / (mol e^2) * (1/r(ON) + 1/r(CH) - 1/r(OH) -
-/// 1/r(CN)), H 1 A from N against the C=O before it, whatever hydrogens the file has (W. Kabsch and C. Sander,
-/// "Dictionary of protein secondary structure", Biopolymers 22, 1983). Proline has no N-H, a chain's first residue no
-/// C=O before it.
+/// Returns the bonds N-H(i) ... O=C(j) of model 0 with E < -0.5 kcal/mol, sorted by nitrogen: the strongest of each
+/// N-H, between residues that are not neighbours. E = 0.42 e * 0.20 e * 332 kcal A / (mol e^2) * (1/r(ON) + 1/r(CH) -
+/// 1/r(OH) - 1/r(CN)) (W. Kabsch and C. Sander, "Dictionary of protein secondary structure", Biopolymers 22, 1983). H
+/// lies 1 A from N, in the direction from O to C of the preceding carbonyl; hydrogens of the file are not used. Proline
+/// has no N-H, and a residue without a peptide bond to a preceding carbonyl has none either.
 std::vector<HydrogenBond> find_hydrogen_bonds(const Structure& structure);
 
-/// What an atom may be in a hydrogen bond, whether or not the structure has hydrogens. Donor: hydrogen on N, O or S, or
-/// N, O or S that bears one or has fewer bonds than it can have. Acceptor: N, O or S with a lone pair.
+/// The roles of an atom in hydrogen bonds, with or without hydrogens in the structure. Donor: a hydrogen on N, O or S,
+/// or an N, O or S that bears a hydrogen or has fewer bonds than it can have. Acceptor: N, O or S with a lone pair.
 struct HydrogenBondRole {
   bool donor = false;
   bool acceptor = false;
@@ -35,8 +35,8 @@ struct HydrogenBondRole {
   }
 };
 
-/// One per atom: from the residue for amino acids and nucleotides (His as N delta-H, unless hydrogens say otherwise),
-/// of others from bonds and their orders, where these are known.
+/// Returns one role per atom. Amino acids and nucleotides: by residue and atom name (His has its hydrogen on N delta,
+/// unless the structure has hydrogens). Other residues: by bonds, and by their orders if these are known.
 std::vector<HydrogenBondRole> hydrogen_bond_roles(const Structure& structure);
 
 }  // namespace hinge::molecular

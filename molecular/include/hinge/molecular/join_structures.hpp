@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joining structures: the molecules of several files as one structure.
+// join_structures: the molecules of several files as one structure.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace hinge::molecular {
 
-/// Atoms, residues, chains and bonds of all, one file after the other, in the coordinates they have; no bonds between
-/// them. A chain name that an earlier file uses becomes the first free one of A-Z, a-z, 0-9, and a note says so. At
-/// most one may have several models: the others stand still beside them. ModelError: several that have; no name left;
-/// nothing to join.
+/// Returns the atoms, residues, chains and bonds of all structures in order, at their own coordinates, without bonds
+/// between them. A chain name that an earlier structure uses is replaced by the first free one of A-Z, a-z, 0-9, and a
+/// note says so. At most one structure may have several models; the others are repeated in each model. Throws
+/// ModelError if two have several models, if no chain name is left, or if `structures` is empty.
 Structure join_structures(std::vector<Structure> structures);
 
 }  // namespace hinge::molecular

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which closures of a molecule stay closed while torsions are free, and which are left open, and why.
+// find_kept_closures: which closures of a molecule a solver keeps while torsions are free, which stay open, and why.
 #pragma once
 
 #include <cstddef>
@@ -14,22 +14,26 @@
 
 namespace hinge::molecular {
 
+/// The result of find_kept_closures.
 struct KeptClosures {
-  std::vector<std::size_t> closures;  ///< positions in KinematicTree::closures(), of those that free DOF can open
-  std::vector<std::size_t> torsions;  ///< that are free: positions in Molecule::torsions()
-  std::vector<std::size_t> held;      ///< that were to be free and cannot move while all of `closures` hold
-  std::vector<std::string> notes;     ///< one for each closure that is left open: its name and why
+  std::vector<std::size_t> closures;  ///< closures to keep that free DOF can open, indices in KinematicTree::closures()
+  std::vector<std::size_t> torsions;  ///< torsions that stay free, indices in Molecule::torsions()
+  /// Given torsions that cannot move while the closures hold; empty if the molecule has loops.
+  std::vector<std::size_t> held;
+  std::vector<std::string> notes;  ///< one for each closure that stays open: its name and the reason
 };
 
-/// Which closures, of ends of loops alone or of everything, and which torsions? All closures that a solver can keep:
-/// not those that the placement of a part opens, which has its own range. `open`: left open anyhow (find_unclosable).
+/// The closures to choose from: ends of loops, or all.
 enum class Closures : std::uint8_t { of_loops, all };
+/// Returns the closures to keep and the torsions that stay free. Closures that the placement of a part opens are never
+/// kept: the part has its own range. torsions: indices in Molecule::torsions(). open: further closures to leave open
+/// (find_unclosable), indices in the tree's.
 KeptClosures find_kept_closures(const Molecule& molecule, std::span<const std::size_t> torsions, Closures which,
                                 std::span<const std::size_t> open = {});
 
-/// Positions, in the tree's closures, of those to leave open because random starts do not close: none when one of
-/// sixteen does. Else the half of the failing closures that fail most often is given up, again and again until a start
-/// closes. Ends of loops are never given up. A function of the sampling, the selection and the molecule.
+/// Returns the closures to leave open because random starts do not close, indices in the tree's, sorted; empty if one
+/// of sixteen starts closes. Otherwise the half of the failing closures that fails most often is given up, repeatedly,
+/// until a start closes. Ends of loops are never given up. The result depends on the arguments alone.
 std::vector<std::size_t> find_unclosable(const Molecule& molecule, const DofSelection& selection,
                                          const Sampling& sampling, std::span<const PlacementRange> ranges,
                                          std::span<const std::size_t> closures);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loops: stretches of a chain that move while everything outside them stays.
+// Loop: a segment of a chain that moves while all atoms outside it stay fixed.
 #pragma once
 
 #include <cstddef>
@@ -15,25 +15,26 @@ namespace hinge::molecular {
 
 class Molecule;
 
-/// Residues [first, last], positions in Structure::residues. What may turn is phi and psi of each of them (and omega
-/// between two of them); N and CA of the first, CA, C and O of the last and all before and after stand still.
+/// Residues [first, last], indices in Structure::residues. phi and psi of each residue may turn, and omega between two
+/// of them. N and CA of the first residue, CA, C and O of the last one, and all residues outside stay fixed.
 struct Loop {
   std::uint32_t first = 0;
   std::uint32_t last = 0;
 };
 
-/// From "A:40-52"; several joined by commas: a loop is what one word, or one expression of residues (find_part) between
-/// commas, selects. ModelError: another form; residues that do not follow one another, residues that are no amino
-/// acids, lack N, CA or C, or are not joined by peptide bonds to each other, to the one before and to the one after (a
-/// chain's end or a break: free it as it is, it needs no closing); loops that share residues.
+/// Returns the loops that an expression names, as in "A:40-52" or "A:40-52,B:7-15": one for each word, or expression of
+/// residues (find_part), between commas. Throws ModelError for another form; for residues that are not consecutive, are
+/// not amino acids with N, CA and C, or are not joined by peptide bonds to each other and to the residues before and
+/// after (an end of a chain needs no closing); and for loops that share residues.
 std::vector<Loop> find_loops(const Structure& structure, std::string_view words);
 
-/// "A:ASP39-GLY47".
+/// Returns "A:ASP39-GLY47".
 std::string label(const Structure& structure, const Loop& loop);
 
-/// The torsions to free, positions in Molecule::torsions(), sorted: those of the molecule's loops (MoleculeOptions) and
-/// what `side_chains` selects (select_torsions). ModelError: side_chains with torsions of a backbone; a loop with fewer
-/// than the six turns, the one that follows included, that a closed cycle needs to have another conformation.
+/// Returns the torsions to free, indices in Molecule::torsions(), sorted: those of the molecule's loops
+/// (MoleculeOptions::loops; omega only if `omega` is true) and those that `side_chains` selects (select_torsions).
+/// Throws ModelError if side_chains selects a torsion other than chi, or a loop has fewer than six rotations, its last
+/// psi included: a closed cycle needs six to have another conformation.
 std::vector<std::size_t> select_loop_torsions(const Molecule& molecule, std::string_view side_chains, bool omega);
 
 }  // namespace hinge::molecular

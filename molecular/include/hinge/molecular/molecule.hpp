@@ -22,56 +22,62 @@
 
 namespace hinge::molecular {
 
-/// A part with a free rigid-body placement, whatever turns inside it: a position x has away from its reference is first
-/// turned about the centre, c + Rx(q3) Ry(q4) Rz(q5) (x - c), then moved by (q0, q1, q2).
+/// A part with six DOF of its own, in addition to torsions inside it. A position x of the part is first rotated about
+/// the centre, c + Rx(q3) Ry(q4) Rz(q5) (x - c), then translated by (q0, q1, q2).
 struct PlacedPart {
   Part part;
-  Vec3 centre = Vec3::Zero();   ///< mean position of its atoms in model 0, angstrom
+  Vec3 centre = Vec3::Zero();   ///< mean position of the part's atoms in model 0, angstrom
   std::array<DofId, 6> dofs{};  ///< q0 ... q5: along x, y, z (angstrom), then about x, y, z (rad)
 };
 
+/// Options of a Molecule.
 struct MoleculeOptions {
-  /// The molecule is cut at their ends (find_loops): what comes behind a loop does not hang on it, and psi of its last
-  /// residue is no DOF but follows where the loop's closure holds.
+  /// The chain is cut at the end of each loop (find_loops). Residues after a loop do not move with it. psi of the
+  /// loop's last residue is not a DOF: it follows from the others if the loop's closure holds.
   std::vector<Loop> loops{};
-  bool keep_hydrogen_bonds = false;   ///< backbone hydrogen bonds (find_hydrogen_bonds) are closures
+  bool keep_hydrogen_bonds = false;   ///< make closures of backbone hydrogen bonds (find_hydrogen_bonds)
   std::vector<Part> placed{};         ///< parts that get six DOF each
-  std::vector<HeldPlacement> held{};  ///< are closures
+  std::vector<HeldPlacement> held{};  ///< two parts each that keep their relative pose, as closures
 };
 
-/// Every torsion of the structure is a joint; primitive i is atom i of model 0, in angstrom. Joint values are turns
-/// away from that reference (rad), so that all 0 gives back the coordinates read, bit for bit, and a torsion at q has
-/// the dihedral angle reference + q. Rings stay rigid; cycles through disulphides and other cross-links are closures. A
-/// disulphide keeps its length and its two angles; any other bond, and a torsion that closes a cycle, keeps the angles
-/// at both ends as they are, free to turn; of a peptide bond that closes a cycle omega is kept as well.
-/// What no bonds join keeps its place, but for placed parts.
+/// Every torsion of the structure is a joint; primitive i is atom i of model 0, in angstrom. Joint values are rotations
+/// relative to this reference (rad): at 0 the coordinates are those of model 0, bit for bit, and a torsion at q has the
+/// dihedral angle reference + q. Rings stay rigid. Cycles through disulphides and other cross-links are closures. The
+/// closure of a disulphide keeps its length and two angles. The closure of another bond, or of a torsion that closes a
+/// cycle, keeps the bond's length and the angles at both ends; only rotation about the bond is free. If its torsion is
+/// an omega, that is fixed too. One rigid fragment of each connected component of the bond graph is fixed in the world,
+/// or in its placed part. Const members may be called by many threads at once.
 class Molecule {
  public:
-  /// ModelError: the last psi of a loop is undefined; a placed part that is empty, bonded to what it does not hold, or
-  /// shares a residue with another.
+  /// Throws ModelError if psi of a loop's last residue is undefined, or a placed part is empty, is bonded to an atom
+  /// outside it, or shares a residue with another.
   explicit Molecule(Structure structure, const MoleculeOptions& options = {});
 
+  /// The value of torsion_of() for a DOF that places a part.
   static constexpr std::size_t no_torsion = ~std::size_t{0};
 
+  /// The structure given to the constructor.
   const Structure& structure() const noexcept { return structure_; }
+  /// The model of the hierarchy; link poses and primitives in angstrom, world frame = the file's frame.
   const Model<Point>& model() const noexcept { return *model_; }
-  /// Torsions that are DOF, in residue order.
+  /// The torsions that are DOF, in residue order.
   std::span<const Torsion> torsions() const noexcept { return torsions_; }
-  /// The DOF of torsions()[k].
+  /// The DOF of torsions()[k]. k < torsions().size().
   DofId dof(std::size_t k) const noexcept { return dof_[k]; }
-  /// The torsion of a DOF: position in torsions(); no_torsion for those that place a part.
+  /// The index in torsions() of a DOF's torsion, or no_torsion.
   std::size_t torsion_of(DofId dof) const noexcept { return torsion_of_[index(dof)]; }
-  /// The selection that frees these torsions (positions in torsions()).
+  /// Returns the selection that frees these torsions (indices in torsions()). Throws std::out_of_range for a bad index.
   DofSelection select(std::span<const std::size_t> torsions) const;
-  /// As given to the constructor.
+  /// The loops given to the constructor.
   std::span<const Loop> loops() const noexcept { return loops_; }
-  /// These torsions and the placements of all placed parts.
+  /// Returns the selection that frees these torsions and the placements of all placed parts.
   DofSelection select_placed(std::span<const std::size_t> torsions) const;
-  /// In the order they were given.
+  /// The placed parts, in the order given to the constructor.
   std::span<const PlacedPart> placed_parts() const noexcept { return placed_; }
-  /// The two atoms that each closure of the tree joins: of a bond, a hydrogen bond, or two whose parts are held.
+  /// The two atoms that each closure of the tree joins, in the order of the tree's closures: those of a bond or a
+  /// hydrogen bond, or one atom in each of two parts that are held.
   std::span<const std::array<std::uint32_t, 2>> closure_atoms() const noexcept { return closure_atoms_; }
-  /// What was decided while building: torsions inside cycles, closures.
+  /// Decisions of the construction: undefined torsions, torsions in rings, closures. One sentence each.
   std::span<const std::string> notes() const noexcept { return notes_; }
 
  private:
@@ -87,9 +93,9 @@ class Molecule {
   std::optional<Model<Point>> model_;
 };
 
-/// BioCD's basic groups: pseudo-backbone (backbone and C-beta) and pseudo-side-chain of each residue, proline whole,
-/// the side chains a disulphide joins as one; for nucleotides backbone and base; any other residue whole. One label per
-/// atom.
+/// Returns BioCD's basic groups, one label per atom. Amino acid: pseudo-backbone (backbone and C-beta) and
+/// pseudo-side-chain; proline is one group; side chains that a disulphide joins are one group. Nucleotide: backbone and
+/// base. Any other residue: one group.
 std::vector<std::uint32_t> basic_groups(const Structure& structure);
 
 }  // namespace hinge::molecular

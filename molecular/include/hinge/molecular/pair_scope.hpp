@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PairScope: which pairs of atoms are asked about, by the parts they belong to.
+// PairScope: which pairs of atoms are tested, by the parts that they belong to.
 #pragma once
 
 #include <cstddef>
@@ -15,22 +15,24 @@
 
 namespace hinge::molecular {
 
-/// Empty, every pair is asked about; else those of an atom of one part and one of the other (`between`), and those
-/// inside one part (`inside`): the union counts.
+/// A set of pairs: those with one atom in each part of a pair in `between`, and those with both atoms in one part of
+/// `inside`. A default-constructed scope holds every pair. Copies share their data; const members may be called by many
+/// threads at once.
 class PairScope {
  public:
   PairScope() = default;
-  /// ModelError: two parts of `between` that share a residue, which would be neither between nor inside.
+  /// Both lists empty: every pair. Throws ModelError if the two parts of a pair in `between` share a residue.
   PairScope(const Structure& structure, std::span<const std::pair<Part, Part>> between, std::span<const Part> inside);
 
+  /// True if the scope holds every pair.
   bool asks_all() const noexcept { return data_ == nullptr; }
-  /// Atoms of the structure it was made for; any where asks_all().
+  /// True if the pair is in the scope. i, j: atoms of the structure it was made for; any if asks_all().
   bool holds(PrimitiveId i, PrimitiveId j) const noexcept {
     return data_ == nullptr || data_->asked[data_->kind[index(i)] * data_->kinds + data_->kind[index(j)]] != 0;
   }
 
  private:
-  /// Atoms of one kind lie in the same parts.
+  /// A kind is a set of parts: atoms of one kind lie in the same parts.
   struct Data {
     std::vector<std::uint32_t> kind;  // per atom
     std::size_t kinds = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PathChecker: straight paths of a molecule, proved free or looked at, state by state.
+// PathChecker: tests straight paths of a molecule, by a proof for every state or by samples.
 #pragma once
 
 #include <span>
@@ -12,18 +12,20 @@
 
 namespace hinge::molecular {
 
-/// Paths join turns from the reference, rad, one per DOF that the checker's selection frees; its rules decide, and as
-/// in its verdicts pairs of constant distance have no part and closures are not solved. ConfigurationError as from
-/// CertifiedPath::check and check_sampled. One per thread; copies share everything constant.
+/// Tests straight paths in joint space with the clash rules of a Checker. Pairs of constant distance are left out, and
+/// closures are not solved, as in Checker::check. from, to: one value per DOF of the checker's selection, rad or
+/// angstrom, relative to the reference. Throws ConfigurationError for a wrong number of values or one that is not
+/// finite. One per thread; copies share all constant data.
+/// Independent of the checker's later state.
 class PathChecker {
  public:
   explicit PathChecker(const Checker& checker);
 
-  /// For every state between the two. A stretch, as a share of the path, is not cut any more when it is no longer than
-  /// `smallest_step`.
+  /// Proves the verdict for every state of the path. A segment no longer than smallest_step (a share of the path, > 0,
+  /// otherwise ConfigurationError) is not divided.
   PathAnswer certify(std::span<const double> from, std::span<const double> to,
                      double smallest_step = smallest_path_step);
-  /// At states no torsion of which is more than `resolution` (rad) from that of the next.
+  /// Tests states between which no torsion changes by more than `resolution` (rad, > 0, otherwise ConfigurationError).
   PathAnswer sample(std::span<const double> from, std::span<const double> to, double resolution);
 
  private:

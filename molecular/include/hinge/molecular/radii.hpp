@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Radii sets and atom types: from a structure to the thresholds M = rho * d0 by atom type (BioCD section II-C).
+// Radii sets and atom types: from a structure to the thresholds M = rho * d0 of pairs of types (BioCD section II-C).
 #pragma once
 
 #include <cstdint>
@@ -14,76 +14,80 @@
 
 namespace hinge::molecular {
 
-/// What distinguishes atoms in some radii set; `other` atoms are told apart by element.
+/// Atom classes that radii sets distinguish (classify_atoms). Atoms of class `other` are distinguished by element.
 enum class AtomClass : std::uint8_t {
-  carbon,             ///< aliphatic
-  carbon_aromatic,    ///< planar ring
-  carbon_carbonyl,    ///< bonded to an oxygen that has no other bond
-  nitrogen,           ///< cannot accept a hydrogen bond: bears hydrogen, or is bonded three times
-  nitrogen_acceptor,  ///< two heavy neighbours at most and no hydrogen in a residue with hydrogens
+  carbon,             ///< any other carbon
+  carbon_aromatic,    ///< in a ring of Phe, Tyr, Trp or His; radii set probe: also of a base or haem
+  carbon_carbonyl,    ///< at most three covalent bonds, one to an oxygen that has no other bond and is not a hydroxyl
+  nitrogen,           ///< any other nitrogen, as one that bears a hydrogen or has three bonds
+  nitrogen_acceptor,  ///< two heavy neighbours and no hydrogen, in a structure with hydrogens: accepts hydrogen bonds
   oxygen,
-  oxygen_hydroxyl,  ///< bears a hydrogen, or single-bonded in SER, THR, TYR
+  oxygen_hydroxyl,  ///< bears a hydrogen, or should: in SER, THR, TYR and sugars, or a ligand's terminal oxygen with a
+                    ///< single bond
   sulphur,
   phosphorus,
-  hydrogen,        ///< bonded to aliphatic carbon
-  hydrogen_alpha,  ///< bonded to carbon that is bonded to N, O or S
+  hydrogen,        ///< any other hydrogen, as one bonded to aliphatic carbon
+  hydrogen_alpha,  ///< bonded to carbon that has a neighbour N, O or S
   hydrogen_aromatic,
   hydrogen_polar,     ///< bonded to N or S
   hydrogen_hydroxyl,  ///< bonded to O
   other
 };
 
-/// A named, versioned set of radii (angstrom). d0 of a pair is the sum of its radii.
+/// A named, versioned set of radii in angstrom. d0 of a pair is the sum of its two radii.
 struct RadiiSet {
-  std::string_view name;     ///< as on the command line
-  std::string_view version;  ///< changes whenever a number does
-  std::string_view source;
-  int default_min_bonds;  ///< bond distance at which a pair starts to count unless the user says otherwise
-  double (*radius)(AtomClass, std::string_view element);
+  std::string_view name;     ///< name on the command line
+  std::string_view version;  ///< changes with every change of a number
+  std::string_view source;   ///< publication or program
+  int default_min_bonds;     ///< default number of bonds from which a pair counts (MinBonds)
+  double (*radius)(AtomClass, std::string_view element);  ///< angstrom
 };
 
-/// bondi, probe, probe-united, amber.
+/// The sets bondi, probe, probe-united and amber; a static object.
 const std::vector<RadiiSet>& radii_sets();
 
-/// ModelError, listing the names, when there is none of that name.
+/// Returns the set of this name; a static object. Throws ModelError, with the known names, if there is none.
 const RadiiSet& radii_set(std::string_view name);
 
-/// One class per atom, from elements, bonds and residues.
+/// Returns one class per atom, from elements, bonds, residues and the coordinates of the first model.
 std::vector<AtomClass> classify_atoms(const Structure& structure);
 
-/// Rules and radii. By default those are `severe` for a structure with hydrogens, `biocd` for one without, or as soon
-/// as one of the options of biocd is given.
+/// Clash rules and radii. The default rules are `severe` for a structure with hydrogens. They are `biocd` for a
+/// structure without hydrogens, and if any option of biocd is set.
 struct ThresholdOptions {
-  std::optional<std::string> radii{};    ///< none: bondi
-  std::optional<double> rho{};           ///< M = rho * d0; finite, > 0; none: 0.8
-  std::optional<bool> hydrogen_bonds{};  ///< hydrogen-bond rule; none: on when the structure has hydrogens
-  /// Angstrom, taken from M(polar H, acceptor N, O or S), in a structure without hydrogens from M(N, O or S that may
-  /// bear one, acceptor). None: 0.4.
+  std::optional<std::string> radii{};    ///< radii set of biocd; nullopt: bondi
+  std::optional<double> rho{};           ///< M = rho * d0; finite, > 0; nullopt: 0.8
+  std::optional<bool> hydrogen_bonds{};  ///< use the hydrogen-bond rule; nullopt: if the structure has hydrogens
+  /// Angstrom >= 0, subtracted from M of a polar H and an acceptor N, O or S. In a structure without hydrogens: from M
+  /// of a donor and an acceptor (hydrogen_bond_roles). nullopt: 0.4.
   std::optional<double> hydrogen_bond_allowance{};
-  std::string rules = "auto";  ///< or one of all_clash_rules(); others than biocd's fix all of the above
+  std::string rules = "auto";  ///< "auto" or a name in all_clash_rules(); rules other than biocd fix all options above
 
-  /// Is one of the options of biocd given?
+  /// True if an option of biocd is set.
   bool choose_biocd() const noexcept { return radii || rho || hydrogen_bonds || hydrogen_bond_allowance; }
 };
 
-/// Thresholds with what is needed to print them. Tables are type x type, row-major, angstrom.
+/// The thresholds of a structure and the data to report them. Tables are type x type, row-major, angstrom.
 struct Thresholds {
-  TypedThresholds matrix{{}, 0, {}};
-  std::vector<std::string> type_names{};  ///< per type: "C", "C.aromatic", "H.polar", "Zn"
-  std::vector<double> table{};
-  std::vector<double> contact{};    ///< distance of two atoms whose overlap is 0 (Severity)
-  std::vector<double> allowance{};  ///< for a hydrogen bond, already taken off contact
-  const ClashRules* rules = nullptr;
-  std::string_view radii{}, radii_version{};
-  std::optional<double> rho{};  ///< none: the rules are not M = rho * d0
-  bool hydrogen_bonds = false;
-  double hydrogen_bond_allowance = 0.0;  ///< angstrom
-  MinBonds min_bonds{4};                 ///< unless the user says otherwise
+  TypedThresholds matrix{
+      {}, 0, {}};  ///< the distance matrix of the hierarchy: a type per atom, a threshold per pair of types
+  std::vector<std::string> type_names{};      ///< name of each type: "C", "C.aromatic", "H.polar", "Zn"
+  std::vector<double> table{};                ///< thresholds M
+  std::vector<double> contact{};              ///< distance at which the overlap of two atoms is 0 (Severity)
+  std::vector<double> allowance{};            ///< allowance for a hydrogen bond, already subtracted from `contact`
+  const ClashRules* rules = nullptr;          ///< static object
+  std::string_view radii{}, radii_version{};  ///< of the set in use
+  std::optional<double> rho{};                ///< nullopt: the rules are not M = rho * d0
+  bool hydrogen_bonds = false;                ///< the hydrogen-bond rule is in use
+  double hydrogen_bond_allowance = 0.0;       ///< angstrom
+  MinBonds min_bonds{4};                      ///< default of the rules or the radii set
 
+  /// Threshold of types s and t, angstrom; both below type_names.size().
   double between(std::size_t s, std::size_t t) const noexcept { return table[s * type_names.size() + t]; }
 };
 
-/// ModelError: unknown rules or set, rho or allowance out of range, or chosen beside rules that fix them.
+/// Returns the thresholds of a structure. Throws ModelError if the rules or the radii set are unknown, rho or the
+/// allowance is out of range, or one of them is set together with rules that fix it.
 Thresholds make_thresholds(const Structure& structure, const ThresholdOptions& options = {});
 
 }  // namespace hinge::molecular

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reading PDB and mmCIF files, plain or gzipped, with every repair said and every doubt refused.
+// Reading PDB and mmCIF files, plain or gzipped: each repair adds a note, doubtful data are refused.
 #pragma once
 
 #include <filesystem>
@@ -11,27 +11,30 @@
 
 namespace hinge::molecular {
 
-/// A model that has other atoms than the molecule it is to be a conformation of.
+/// Thrown if a model has other atoms than the molecule whose conformation it should be.
 struct OtherAtoms : LoadError {
   using LoadError::LoadError;
 };
 
+/// Choices of read_structure.
 struct ReadOptions {
-  std::optional<int> model;    ///< the model's number in the file; none: all models
-  std::optional<char> altloc;  ///< none: the one of highest summed occupancy, then the first by letter
-  bool hetero = false;         ///< keep ligands, ions and sugars; they are kept anyway where there is nothing else
-  bool waters = false;         ///< keep waters; so are they
+  std::optional<int> model;  ///< model number in the file; nullopt: all models
+  /// Alternative location; nullopt: the one with the highest summed occupancy, then the first letter.
+  std::optional<char> altloc;
+  bool hetero = false;  ///< keep ligands, ions and sugars; a file without a polymer keeps them anyway
+  bool waters = false;  ///< keep waters; a file of waters alone keeps them anyway
   bool keep_hydrogens = true;
-  BondSearch bonds = BondSearch::geometry;             ///< between residues
-  std::vector<std::filesystem::path> components = {};  ///< CIF files; before the structure's own and the dictionary
-  std::filesystem::path dictionary = {};               ///< of monomers (ComponentLibrary); empty: none
-  bool first_model = false;                            ///< read the first model alone, unless one is named
+  BondSearch bonds = BondSearch::geometry;  ///< how bonds between residues are found
+  /// CIF files of components; they take precedence over the structure's own components and the dictionary.
+  std::vector<std::filesystem::path> components = {};
+  std::filesystem::path dictionary = {};  ///< folder of a monomer dictionary (ComponentLibrary); empty: none
+  bool first_model = false;               ///< read only the first model, unless `model` names one
 };
 
-/// Atoms, coordinates (angstrom) and bonds. LoadError names file, line (or entity), what was found and expected: files
-/// that cannot be opened, unpack to more than 64 MiB + 200 times their size, hold no atoms, have blank or non-finite
-/// coordinates, broken MODEL records. Of models with different atoms the common ones are taken, and a note says so;
-/// OtherAtoms: there are none.
+/// Returns the atoms, coordinates (angstrom) and bonds of a PDB or mmCIF file. If models differ, the common atoms are
+/// kept, and a note says so. Throws LoadError, with the file, the line or entity, and what was found and expected, if
+/// the file cannot be opened, unpacks to more than 64 MiB + 200 times its size, has no atoms, blank or non-finite
+/// coordinates, or broken MODEL records. Throws OtherAtoms if the models have no atom in common.
 Structure read_structure(const std::filesystem::path& path, const ReadOptions& options = {});
 
 }  // namespace hinge::molecular

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known of residues by name: heavy-atom bonds and side-chain torsions of the amino acids.
+// Residue tables of the amino acids: heavy-atom bonds and side-chain torsions by residue name.
 #pragma once
 
 #include <cstddef>
@@ -7,31 +7,33 @@
 
 namespace hinge::molecular {
 
-/// Pairs and quadruples of atom names, separated by blanks: "CB-CG CG-CD", "N-CA-CB-CG CA-CB-CG-CD".
+/// Bonds and torsions of an amino acid, by atom names: pairs and quadruples separated by blanks, as in "CB-CG CG-CD"
+/// and "N-CA-CB-CG CA-CB-CG-CD".
 struct ResidueTemplate {
-  std::string_view name;
-  char letter;                  ///< one-letter code
+  std::string_view name;        ///< three-letter name
+  char letter;                  ///< one-letter code; '\0': none
   std::string_view side_chain;  ///< bonds beyond the backbone, from CA-CB on
-  std::string_view chi;         ///< chi1, chi2, ...
+  std::string_view chi;         ///< atoms of chi1, chi2, ...
 };
 
-/// Backbone bonds of every amino acid, terminal atoms in PDB and CHARMM names included.
+/// Backbone bonds of every amino acid, including the terminal oxygens in PDB and CHARMM names.
 inline constexpr std::string_view backbone_bonds = "N-CA CA-C C-O C-OXT C-OT1 C-OT2";
 
-/// GROMOS' terminal oxygens, which take the place of O: beside it these names are other atoms', as of sulphotyrosine.
+/// Terminal oxygens in GROMOS names. Used only if the residue has no atom O: otherwise these names mean other atoms, as
+/// in sulphotyrosine.
 inline constexpr std::string_view gromos_terminal_bonds = "C-O1 C-O2";
 
-/// The template of a residue name, protonation variants, D and modified residues included; null when there is none.
-/// A modified residue has atoms beyond its template.
+/// Returns the template of a residue name, or null; a static object. Protonation variants, D residues and modified
+/// residues share the template of their parent. A modified residue has more atoms than its template.
 const ResidueTemplate* find_residue_template(std::string_view name) noexcept;
 
-/// The template of a one-letter code; null when there is none.
+/// Returns the template of a one-letter code, or null; a static object.
 const ResidueTemplate* find_residue_template(char letter) noexcept;
 
-/// ACE, FOR, NME, NH2, ETA: they end a chain and belong to it.
+/// True for ACE, FOR, NME, NH2 and ETA: caps end a chain and belong to it.
 bool is_cap(std::string_view name) noexcept;
 
-/// Calls visit(first name, second name) for each pair of a bond list.
+/// Calls visit(first name, second name) for each pair of a bond list such as ResidueTemplate::side_chain.
 template <class Visit>
 void for_each_bond(std::string_view bonds, const Visit& visit) {
   while (!bonds.empty()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random conformations of a selection: each a pure function of (seed, index).
+// Random conformations of a selection: each depends on (seed, index) alone.
 #pragma once
 
 #include <array>
@@ -15,32 +15,32 @@
 
 namespace hinge::molecular {
 
-/// Uniform over the full turn, or Gaussian about the reference.
+/// Distribution of torsions: uniform over the full turn, or Gaussian about the reference.
 struct Sampling {
-  std::uint64_t seed = 0;
-  std::optional<double> sigma;  ///< rad; none: full range (-pi, pi]
+  std::uint64_t seed = 0;       ///< the same seed gives the same conformations on every machine
+  std::optional<double> sigma;  ///< standard deviation, rad; nullopt: uniform in (-pi, pi]
 };
 
-/// How far a placed part goes from its reference: its centre, at most (angstrom), and the one turn that all its
-/// rotation amounts to, at most (rad, 0 ... pi).
+/// Range of a placed part, relative to its reference: largest distance of its centre (angstrom, >= 0), and largest
+/// angle of its rotation as a whole (rad, 0 ... pi).
 struct PlacementRange {
-  double distance = 0.0;
-  double turn = 0.0;
+  double distance = 0.0;  ///< angstrom
+  double turn = 0.0;      ///< rad
 };
 
-/// The next configuration of a stream: turns from the reference (rad), one per DOF.
+/// Returns the next configuration of a stream: rotations relative to the reference (rad), dof_count values.
 std::vector<double> draw_configuration(const Sampling& sampling, SampleStream& stream, std::size_t dof_count);
 
-/// Turns from the reference (rad) of sample `index`, one per DOF, in DOF order.
+/// Returns sample `index`: rotations relative to the reference (rad), one per DOF in DOF order.
 std::vector<double> sample_configuration(const Sampling& sampling, std::uint64_t index, std::size_t dof_count);
 
-/// The same with placed parts: torsions as above, whatever is placed; each placement, whatever else is free, uniform in
-/// its range: the centre in volume, the rotation by the invariant measure. ranges: one per placed part; ModelError:
-/// another number of them, one that is no range.
+/// The same with placed parts: one value per selected DOF. Torsions are drawn as above, independent of the placements.
+/// Each placement is uniform in its range, independent of the torsions: the centre by volume, the rotation by the
+/// invariant measure. ranges: one per placed part. Throws ModelError if their number is wrong or one is out of range.
 std::vector<double> sample_configuration(const Sampling& sampling, std::uint64_t index, const Molecule& molecule,
                                          const DofSelection& selection, std::span<const PlacementRange> ranges);
 
-/// Values of PlacedPart::dofs.
+/// Returns the values of PlacedPart::dofs: three in angstrom, three in rad.
 std::array<double, 6> sample_placement(SampleStream& stream, const PlacementRange& range);
 
 }  // namespace hinge::molecular

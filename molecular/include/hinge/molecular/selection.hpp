@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Selections of torsions in words: which of a molecule's degrees of freedom are free.
+// Selections of torsions in words: which degrees of freedom of a molecule are free.
 #pragma once
 
 #include <cstddef>
@@ -11,39 +11,39 @@
 
 namespace hinge::molecular {
 
-/// What an expression selects.
+/// The result of a selection expression.
 struct SelectedTorsions {
-  /// One of the alternatives that ',', '+' or `or` join outside of parentheses.
+  /// One of the alternatives that ',', '+' or `or` join outside parentheses.
   struct Word {
-    std::string text;       ///< as written
-    std::size_t count = 0;  ///< of torsions it frees
+    std::string text;       ///< the text in the expression
+    std::size_t count = 0;  ///< number of torsions it frees
   };
-  std::vector<std::size_t> torsions;  ///< positions in Molecule::torsions(), sorted
-  std::vector<Word> words;            ///< in the order they were written
-  std::vector<std::string> notes;     ///< what may not be meant: words that select nothing, or more than they seem to
+  std::vector<std::size_t> torsions;  ///< indices in Molecule::torsions(), sorted
+  std::vector<Word> words;            ///< in the order of the expression
+  std::vector<std::string> notes;     ///< possible mistakes: words that select nothing, or more than they seem to
 };
 
-/// The words:
+/// Returns the torsions that an expression selects. The words:
 ///   all, none
-///   backbone   phi and psi (and omega when asked), alpha, beta, gamma, epsilon and zeta
-///   chi        side chains and bases: chi, chi1 ..., kappa, and bonds of modified residues beyond those
+///   backbone   phi and psi (and omega if `omega` is true), alpha, beta, gamma, epsilon and zeta
+///   chi        side chains and bases: chi, chi1 ..., kappa, and further bonds of modified residues
 ///   phi, alpha, chi1 ...   the torsion of that name in every residue; or a bond's two atoms, C5-C6
-///   ligands    whatever turns outside of polymers
+///   ligands    all torsions outside polymers
 ///   loops      residues outside HELIX and SHEET records
 ///   every:N    each N-th amino acid or nucleotide of the molecule, starting with the N-th
 ///   count:K    K of them at regular intervals: number floor((i + 1/2) n / K) of n, i = 0 ... K - 1
-///   A  KNI     a chain ("_" for a blank name); the residues of that name, where no chain is called so
+///   A  KNI     a chain ("_" for a blank name); the residues of that name, if no chain has it
 ///   A:45  A:10-20  A:60A  A:HEM  file:2    residues by number (and insertion code) or name; all of a file
 ///   A:45:chi1  A:10-20:backbone  B:401:C5-C6    torsions of these residues
 ///   A:all  A:chi  A:phi    torsions of a chain
-/// From the loosest: ',' '+' and `or` (the union); `and` (what both select); `not` (all else); parentheses. Names of
-/// torsions in a list behind CHAIN: or CHAIN:RESIDUES: belong to these residues: A:1-5:phi,psi is A:1-5:phi and
-/// A:1-5:psi. omega is freed only when `omega` is set or a word names it. ModelError names the word, where it stands
-/// and what was expected: also for an expression other than none that selects nothing, and for residues or torsions of
-/// residues that do.
+/// Operators, from the loosest: ',' '+' and `or` (union); `and` (intersection); `not` (complement); parentheses. Names
+/// of torsions in a list after CHAIN: or CHAIN:RESIDUES: belong to these residues: A:1-5:phi,psi means A:1-5:phi and
+/// A:1-5:psi. omega is freed only if `omega` is true or a word names it. Throws ModelError, with the word, its position
+/// and what was expected; also if an expression other than none selects nothing, or a word for residues or for torsions
+/// of residues does.
 SelectedTorsions read_selection(const Molecule& molecule, std::string_view expression, bool omega);
 
-/// SelectedTorsions::torsions.
+/// Returns read_selection(...).torsions.
 std::vector<std::size_t> select_torsions(const Molecule& molecule, std::string_view expression, bool omega);
 
 }  // namespace hinge::molecular

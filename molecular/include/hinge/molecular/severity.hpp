@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Severity: how much two atoms overlap, and what the rules in use call that.
+// Severity: how much two atoms overlap, and the class of the contact by the rules in use.
 #pragma once
 
 #include <cstddef>
@@ -11,21 +11,22 @@
 
 namespace hinge::molecular {
 
+/// Overlap and class of one pair.
 struct Severity {
-  /// Angstrom, below 0 for atoms apart: the sum of their radii, less what the rules allow a hydrogen bond (nothing by
-  /// biocd's), less their distance.
+  /// Angstrom; negative for atoms apart: the sum of their radii, minus the allowance for a hydrogen bond (biocd: none),
+  /// minus their distance.
   double overlap = 0.0;
-  std::optional<double> relative_distance{};  ///< posebusters: distance over the sum of radii; of heavy atoms only
-  /// molprobity: clash, hydrogen_bond, small_overlap, close_contact, wide_contact; chimerax: clash, contact;
-  /// posebusters: clash, ignored (hydrogens); beyond these apart. biocd has no classes: empty.
+  std::optional<double> relative_distance{};  ///< posebusters: distance / sum of radii; nullopt for hydrogens
+  /// molprobity: clash, hydrogen_bond, small_overlap, close_contact, wide_contact, apart. chimerax: clash, contact,
+  /// apart. posebusters: clash, apart, ignored (hydrogens). biocd and severe have no classes: empty. A static string.
   std::string_view kind{};
 };
 
-/// Of a pair that collides or not by these thresholds, which its rounded distance cannot say. The other classes begin
-/// at their bounds, ties of coordinates with three decimals included.
+/// Returns the severity of a pair. collides: the verdict of these thresholds, which the rounded hit.distance cannot
+/// tell. Bounds of the other classes include ties of coordinates with three decimals.
 Severity severity_of(const Thresholds& thresholds, const Hit& hit, bool collides);
 
-/// MolProbity's clashscore: clashes per 1000 atoms.
+/// MolProbity's clashscore: clashes per 1000 atoms; 0 if atoms is 0.
 double clashscore(std::size_t clashes, std::size_t atoms);
 
 }  // namespace hinge::molecular

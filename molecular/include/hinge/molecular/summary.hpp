@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a structure is made of: residues by kind, torsions by kind.
+// Counts of a structure's residues and torsions by kind.
 #pragma once
 
 #include <cstddef>
@@ -13,20 +13,22 @@
 
 namespace hinge::molecular {
 
-/// "protein", "DNA", "RNA", "ion", "cap" (of a chain's end) or "ligand". A nucleotide with O2' is RNA's, modified or
-/// not; an ion is one atom outside of polymers.
+/// Returns "protein", "DNA", "RNA", "cap" (of a chain's end), "ion" or "ligand". A nucleotide with O2' is RNA, modified
+/// or not. An ion is a residue of one atom outside polymers. residue: index in structure.residues.
 std::string residue_class(const Structure& structure, std::uint32_t residue);
 
-/// Residues of one class.
+/// Number of residues of one class.
 struct ClassSummary {
-  std::size_t residues = 0;
-  std::map<std::string, std::size_t> chains;  ///< residues by chain
-  std::map<std::string, std::size_t> names;   ///< residues by name
+  std::size_t residues = 0;                   ///< in all chains
+  std::map<std::string, std::size_t> chains;  ///< number of residues by chain; "_": blank name
+  std::map<std::string, std::size_t> names;   ///< number of residues by residue name
 };
 
+/// Returns the residues of a structure by residue_class.
 std::map<std::string, ClassSummary> residues_by_class(const Structure& structure);
 
-/// Torsions by name; rotatable bonds, which are called by their atoms, as "bonds of KNI".
+/// Returns the number of torsions by name. Rotatable bonds, which are named by their atoms, are counted by residue
+/// name, as "bonds of KNI".
 std::map<std::string, std::size_t> torsions_by_kind(const Structure& structure, std::span<const Torsion> torsions);
 
 }  // namespace hinge::molecular

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Trajectory: the conformations of a molecule that a file holds, one at a time, in bounded memory.
+// Trajectory: the conformations of a molecule in a file, read one at a time in bounded memory.
 #pragma once
 
 #include <cstddef>
@@ -14,44 +14,45 @@
 
 namespace hinge::molecular {
 
-/// DCD, XTC, NumPy (frames x atoms x 3, angstrom), PDB or mmCIF, gzipped or not, told by content. Frames of the first
-/// three have as many atoms as the first model of the molecule's file has atom records, in the same order, or as the
-/// molecule itself; models name their atoms. Of mmCIF and gzipped files the whole text is in memory, else a frame at a
-/// time and where frames begin. Frames may be read by many threads at once.
+/// A DCD, XTC, NumPy (frames x atoms x 3, angstrom), PDB or mmCIF file, gzipped or not; the content decides. Frames of
+/// the first three have as many atoms as the first model of the molecule's file has atom records, or as the molecule
+/// has atoms, in the same order; PDB and mmCIF models name their atoms. mmCIF and gzipped files are held in memory;
+/// other files only one frame and the offsets of all. Const members may be called by many threads at once.
 class Trajectory {
  public:
-  /// The molecule must outlive it. LoadError: cannot be read, or frames of another molecule. DCD and NumPy
-  /// files may hold 0 frames, which notes() says.
-  /// may_have_more: models of PDB and mmCIF files may have other atoms too, which are left out.
+  /// Opens a file. The molecule must outlive this object. may_have_more: PDB and mmCIF models may have further atoms,
+  /// which are dropped. Throws LoadError if the file cannot be read or its frames belong to another molecule. DCD and
+  /// NumPy files may hold 0 frames; notes() says so.
   Trajectory(const std::filesystem::path& path, const Structure& molecule, const ReadOptions& options = {},
              bool may_have_more = false);
-  /// The molecule's own models.
+  /// Uses the molecule's own models as frames. The molecule must outlive this object.
   explicit Trajectory(const Structure& molecule);
   Trajectory(Trajectory&& other) noexcept;
   Trajectory& operator=(Trajectory&& other) noexcept;
   ~Trajectory();
 
-  /// Frames that begin in the file; the last may be cut short.
+  /// Number of frames that begin in the file; the last may be cut short.
   std::size_t size() const noexcept;
-  /// Of each frame.
+  /// Number of atoms of each frame.
   std::size_t atom_count() const noexcept;
-  /// Are coordinates floats of 32 bits?
+  /// True if the file stores coordinates as 32-bit floats that are read exactly (DCD, NumPy float32; not XTC).
   bool is_single() const noexcept;
-  /// The model's number in its file; k where frames have none.
+  /// Returns the model number of frame k in its file, or k if the format has no numbers.
   int number(std::size_t k) const noexcept;
-  /// What is odd about the file, one sentence each.
+  /// Warnings about the file, one sentence each.
   const std::vector<std::string>& notes() const noexcept { return notes_; }
 
-  /// Frame k < size(): every atom, as the file has them, angstrom. LoadError names the file, the frame and the atom:
-  /// damaged, cut short, not finite. OtherAtoms (a LoadError): a model that is no conformation of the molecule.
+  /// Returns the positions of frame k < size(), angstrom, atom_count() of them. Throws LoadError, with the file, frame
+  /// and atom, if the frame is damaged, cut short or not finite. Throws OtherAtoms (a LoadError) if a PDB or mmCIF
+  /// model is not a conformation of the molecule.
   std::vector<Vec3> frame(std::size_t k) const;
-  /// Those of a frame that are the molecule's atoms, in its order.
+  /// Reduces a frame to the molecule's atoms, in the molecule's order. frame: atom_count() positions.
   std::vector<Vec3> kept(std::vector<Vec3> frame) const;
 
  private:
   struct Format;
   void choose_atoms();
-  void check_unit();  // of files that do not say it
+  void check_unit();  // adds a note if bond lengths of a NumPy file look like nanometres
 
   std::string path_;
   const Structure* molecule_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// TrajectoryWriter: conformations to PDB, mmCIF, DCD or NumPy files, one at a time.
+// TrajectoryWriter: writes conformations to PDB, mmCIF, DCD or NumPy files, one at a time.
 #pragma once
 
 #include <cstddef>
@@ -14,37 +14,40 @@
 
 namespace hinge::molecular {
 
+/// File formats of conformations.
 enum class TrajectoryFormat : std::uint8_t {
-  pdb,  ///< one model each
-  cif,  ///< mmCIF, one model each
-  dcd,  ///< floats of 32 bits, as CHARMM's, without unit cell
-  npy   ///< frames x atoms x 3, C order
+  pdb,  ///< one model per frame
+  cif,  ///< mmCIF, one model per frame
+  dcd,  ///< CHARMM's layout, 32-bit floats, no unit cell
+  npy   ///< array of frames x atoms x 3, C order
 };
 
-/// By extension; none: another one.
+/// Returns the format of a file extension, or nullopt for an unknown one.
 std::optional<TrajectoryFormat> trajectory_format(const std::filesystem::path& path);
-/// ".pdb, .cif, .dcd or .npy".
+/// The known extensions, for messages.
 inline constexpr const char* trajectory_extensions = ".pdb, .cif, .dcd or .npy";
-/// Do its frames hold the molecule's atoms, by name? Frames of the others hold numbers alone.
+/// True if frames of the format name the molecule's atoms; frames of the other formats are numbers alone.
 inline bool names_atoms(TrajectoryFormat format) {
   return format == TrajectoryFormat::pdb || format == TrajectoryFormat::cif;
 }
 
-/// Onto a stream that can be written again at its start, where the number of frames stands.
+/// Writes frames to a stream. DCD and NumPy need a seekable stream: finish() rewrites the number of frames at its
+/// start. Keeps references to the stream and the molecule. Not thread-safe.
 class TrajectoryWriter {
  public:
-  /// Frames of atom_count atoms; PDB and mmCIF: those of the molecule, which must outlive this. single: NumPy's
-  /// coordinates are floats of 32 bits. ModelError: the molecule does not fit the format.
+  /// atom_count: atoms per frame; for PDB and mmCIF it must be the molecule's. single: NumPy coordinates are 32-bit
+  /// floats. The stream and the molecule must outlive this object. Throws ModelError if the molecule does not fit the
+  /// PDB format.
   TrajectoryWriter(std::ostream& out, TrajectoryFormat format, const Structure& molecule, std::size_t atom_count,
                    bool single = false);
 
-  /// positions: angstrom, atom_count of them. number: of the model in PDB and mmCIF. ModelError: they do not fit the
-  /// format.
+  /// Writes one frame. positions: angstrom, atom_count of them. number: model number in PDB and mmCIF files. Throws
+  /// ModelError if the number of positions is wrong or a coordinate does not fit the format.
   void add(std::span<const Vec3> positions, int number);
-  /// Frames written.
+  /// Number of frames written.
   std::size_t size() const noexcept { return frames_; }
-  /// Call once, behind the last frame. Without any frame DCD and NumPy files are valid and hold 0; nothing
-  /// is written of PDB and mmCIF files, which cannot.
+  /// Completes the file; call once, after the last frame. Without frames, DCD and NumPy files are valid and hold 0;
+  /// nothing is written to PDB and mmCIF files, which cannot be empty.
   void finish();
 
  private:
@@ -58,13 +61,15 @@ class TrajectoryWriter {
   std::size_t frames_ = 0;
 };
 
-/// Rows of numbers as a NumPy array of rows x columns, 64-bit floats, onto such a stream.
+/// Writes rows of numbers to a seekable stream as a NumPy array of rows x columns, 64-bit floats. The stream must
+/// outlive this object.
 class RowWriter {
  public:
+  /// columns: numbers per row.
   RowWriter(std::ostream& out, std::size_t columns);
-  /// ModelError: another number of columns.
+  /// Writes one row. Throws ModelError if its length is not `columns`.
   void add(std::span<const double> row);
-  /// Call once, behind the last row; there may be none.
+  /// Completes the file; call once, after the last row. There may be no rows.
   void finish();
 
  private:
