@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The robot first, then the bodies around it.
+// Implements ask() and the worker: the robot first, then the bodies around it.
 #include "answer.hpp"
 
 #include <map>
@@ -56,14 +56,14 @@ Answer ask(Worker& worker, std::span<const double> q, const Mode& mode, bool con
         break;
       case Mode::Kind::closest: answer.closest_body = checker.closest(environment); break;
     }
-    // What is within a margin need not collide.
+    // Pairs within a margin need not collide.
     if (mode.kind == Mode::Kind::within && !answer.body_pairs.empty())
       answer.collides = answer.collides || checker.collides(environment);
     if (mode.kind == Mode::Kind::all) answer.collides = answer.collides || !answer.body_pairs.empty();
     if (answer.closest_body)
       answer.collides = answer.collides || answer.closest_body->gap < 0.0 || answer.closest_body->distance == 0.0;
   }
-  // Closed meshes are solid then: nothing is inside another one without a collision.
+  // With --contained closed meshes are solid, so containment implies a collision.
   if (contained && answer.collides) {
     answer.contained = checker.contained();
     if (worker.environment) answer.contained_bodies = checker.contained(*worker.environment);

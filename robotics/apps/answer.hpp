@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The question asked of every configuration, and what a worker answers.
+// The question asked for every configuration, and the answer of a worker.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,8 @@
 
 namespace robocd {
 
-/// One configuration: the robot against itself, and against the bodies of the environment where there are any.
+/// The answer for one configuration: the robot against itself, and against the bodies of the environment if there are
+/// any.
 struct Answer {
   bool collides = false;
   hinge::robotics::Verdict self;
@@ -25,21 +26,22 @@ struct Answer {
   std::vector<hinge::robotics::BodyContainment> contained_bodies;
 };
 
-/// Everything a thread needs; copies share what is constant.
+/// The data of one thread. Copies share constant data.
 struct Worker {
   hinge::robotics::RobotChecker checker;
   std::optional<hinge::robotics::Environment> environment;
 };
 
-/// job.notes gets what the meshes of the environment have to say. ModelError: engine or clearance. LoadError: such a
-/// mesh.
+/// Makes the robot's checker and the environment. Appends notes about the environment's meshes to job.notes. Throws
+/// ModelError for a bad engine, clearance or body, LoadError for a bad mesh file.
 Worker make_worker(const Options& options, Job& job);
 
-/// q: one value (rad or m) per independent joint. contained: name what is inside closed meshes, too.
+/// Answers for one configuration. q: one value (rad or m) per independent joint. contained: also list links and bodies
+/// inside closed meshes.
 Answer ask(Worker& worker, std::span<const double> q, const hinge::robotics::Mode& mode, bool contained);
 
-/// Sentences on bodies: open meshes, in which --contained can find nothing, and links that no joint moves and that
-/// touch a body therefore in every configuration.
+/// Returns notes about bodies: open meshes, in which --contained finds nothing, and links that no joint moves and that
+/// collide with a body, so that every configuration collides.
 std::vector<std::string> notes_on_bodies(const Options& options, Worker& worker);
 
 }  // namespace robocd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The text of --env, piece by piece.
+// Parses the text of --env.
 #include "bodies.hpp"
 
 #include <algorithm>
@@ -73,7 +73,7 @@ class BodyReader {
  private:
   [[noreturn]] void refuse(const std::string& what) const { throw hinge::ModelError("--env '" + text_ + "': " + what); }
 
-  /// Up to the next comma, which is taken away too.
+  /// Returns the text up to the next comma and removes it, with the comma, from `rest`.
   static std::string_view piece(std::string_view& rest) {
     const std::size_t comma = rest.find(',');
     const std::string_view first = rest.substr(0, comma);
@@ -126,7 +126,7 @@ class BodyReader {
     }
   }
 
-  /// Roll about x, then pitch about y, then yaw about z, all fixed axes, as URDF has it.
+  /// Rotation by roll about x, then pitch about y, then yaw about z, all fixed axes (URDF). Angles in rad.
   static hinge::Mat3 turned(const Vec3& angles) {
     hinge::Mat3 r = hinge::Mat3::Identity();
     for (int axis = 0; axis < 3; ++axis) {

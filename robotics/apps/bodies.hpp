@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies around the robot, as --env describes them.
+// Body: a body around the robot, as --env describes it.
 #pragma once
 
 #include <filesystem>
@@ -13,22 +13,23 @@
 
 namespace robocd {
 
-/// A mesh file or a primitive, and where it stands in the world.
+/// A mesh file or a primitive, and its pose in the world. Lengths in m.
 struct Body {
   std::string name;
-  bool is_named = false;         // by the user; else the name is the text given
-  std::filesystem::path file{};  // of a mesh; empty: a primitive
+  bool is_named = false;         // true: the user gave the name; false: the name is the whole text
+  std::filesystem::path file{};  // mesh file; empty: a primitive
   std::optional<hinge::robotics::Shape> primitive{};
   hinge::Pose pose{};
   hinge::Vec3 scale = hinge::Vec3::Ones();  // of a mesh
 };
 
-/// "[NAME=]SHAPE[,xyz=X Y Z][,rpy=R P Y][,scale=S]", with SHAPE a mesh file, "box:X Y Z", "sphere:R", "cylinder:R L" or
-/// "capsule:R L"; numbers as in URDF, m and rad. The whole text may also be the name of a file that exists. ModelError,
-/// naming the option: a text that does not fit.
+/// Parses "[NAME=]SHAPE[,xyz=X Y Z][,rpy=R P Y][,scale=S]". SHAPE is a mesh file, "box:X Y Z", "sphere:R", "cylinder:R
+/// L" or "capsule:R L"; numbers as in URDF, m and rad. If the whole text is the path of an existing file, it is a mesh.
+/// Throws ModelError, naming the option, for any other text.
 Body parse_body(const std::string& text);
 
-/// `notes` gets what read_mesh() says. LoadError: what it refuses.
+/// Returns the shape, read from the mesh file if there is one. Appends the notes of read_mesh(). Throws LoadError as
+/// read_mesh().
 hinge::robotics::Shape shape_of(const Body& body, std::vector<std::string>& notes);
 
 }  // namespace robocd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// robocd check: configurations, checked in parallel, reported in index order.
+// robocd check: checks configurations in parallel and reports them in index order.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ struct Summary {
   std::size_t colliding = 0;
   std::map<NamedPair, std::size_t> pairs;
 
-  /// The pairs named most often, most frequent first.
+  /// Returns the n most frequent pairs, most frequent first.
   std::vector<std::pair<NamedPair, std::size_t>> top(std::size_t n) const {
     std::vector<std::pair<NamedPair, std::size_t>> all(pairs.begin(), pairs.end());
     std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
@@ -44,7 +44,7 @@ struct Summary {
   }
 };
 
-constexpr std::size_t shown_pairs = 10;  // of a summary: more than anyone reads
+constexpr std::size_t shown_pairs = 10;  // of a summary; longer lists are not read
 
 void print_json_start(const Options& options, const Job& job, const Mode& mode) {
   Json head{{"tool", "robocd"}, {"command", "check"}, {"robot", robot_json(options, job)}, {"mode", mode.text()}};
@@ -55,11 +55,11 @@ void print_json_start(const Options& options, const Job& job, const Mode& mode) 
   head["notes"] = job.notes;
   head["joints"] = joint_names(*job.robot);
   std::string text = hinge::tool::json_text(head, 1);
-  text.resize(text.rfind('\n'));  // the closing brace comes with the summary
+  text.resize(text.rfind('\n'));  // the closing brace follows the summary
   fmt::print("{},\n\"configurations\": [", text);
 }
 
-/// error: where one ended the run early.
+/// error: message of the error that ended the run early; empty: none.
 void print_json_end(const Summary& summary, const std::string& error = {}) {
   Json pairs = Json::array();
   for (const auto& [pair, count] : summary.top(shown_pairs))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random, from a CSV file, named by the SRDF, or all zero.
+// Makes configurations: random, from a CSV file, named by the SRDF, or all zero.
 #include "configurations.hpp"
 
 #include <fmt/format.h>
@@ -19,12 +19,12 @@ using namespace hinge::robotics;
 
 namespace {
 
-/// Uniform within the limits.
+/// Returns configuration k, uniform within the limits.
 std::vector<double> sample(const Robot& robot, std::uint64_t seed, std::uint64_t k) {
   hinge::SampleStream stream(seed, k);
   std::vector<double> q(robot.lower().size());
   for (std::size_t j = 0; j < q.size(); ++j)
-    // Rounding may take the sum past the limit.
+    // Rounding may exceed the limit.
     q[j] = std::min(robot.lower()[j] + stream.uniform() * (robot.upper()[j] - robot.lower()[j]), robot.upper()[j]);
   return q;
 }

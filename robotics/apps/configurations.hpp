@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The configurations that are to be checked, wherever they come from.
+// Configurations: the configurations to check, from any source.
 #pragma once
 
 #include <cstddef>
@@ -11,27 +11,27 @@
 
 namespace robocd {
 
-/// Each is one value (rad or m) per independent joint of the robot; pure in k, so that any thread may ask for any.
+/// `at` returns one value (rad or m) per independent joint. It depends only on k, so any thread may call it.
 struct Configurations {
   std::size_t count = 0;
   std::function<std::vector<double>(std::size_t k)> at;
-  std::vector<std::string> notes{};  // on the file they come from
+  std::vector<std::string> notes{};  // about the file of the configurations
 };
 
-/// LoadError: a CSV file or SRDF that does not fit the robot, limits too far away to sample between. ModelError: a
-/// state that the SRDF does not have, or that takes a joint too far.
+/// Makes the configurations that the options ask for. Throws LoadError if a CSV file does not fit the robot, or limits
+/// are too large to sample. Throws ModelError if the SRDF does not have a state, or a state sets a joint too far.
 Configurations find_configurations(const Options& options, const Job& job);
 
-/// LoadError: limits too far away to sample between.
+/// Throws LoadError if limits are too large to sample between them.
 void check_limits(const Options& options, const hinge::robotics::Robot& robot);
 
-/// Zero but for what the states (GROUP/NAME) say, later ones over earlier ones. ModelError, naming the option: a state
-/// that the SRDF does not have.
+/// Returns the configuration of the given states (GROUP/NAME): later states override earlier ones, all other values are
+/// 0. Throws ModelError, naming the option, if the SRDF does not have a state, or a state sets a joint too far.
 std::vector<double> join_states(const char* option, const std::vector<std::string>& states, const Options& options,
                                 const Job& job);
 
-/// A sentence when joints are outside their limits, with the first of them; nothing when none is. They are checked all
-/// the same.
+/// Returns a sentence with the number of configurations outside the joint limits and the first of them, or nothing if
+/// all are inside. Such configurations are checked nevertheless.
 std::vector<std::string> notes_on_limits(const Configurations& configurations, const hinge::robotics::Robot& robot);
 
 }  // namespace robocd

@@ -22,12 +22,12 @@ using namespace hinge::robotics;
 
 namespace {
 
-/// What the description does not say about a link.
+/// Properties of a link that are not in the description.
 struct LinkFacts {
-  std::size_t group = 0;  // rigid group
+  std::size_t group = 0;  // index of its rigid group
   std::size_t triangles = 0;
   std::size_t degenerate = 0;
-  std::size_t rounded = 0;  // points and segments grown by a radius: spheres and capsules
+  std::size_t rounded = 0;  // points and segments with a radius: spheres and capsules
   bool closed = false;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From options to a robot and its pair rule.
+// Loads the robot, the bodies and the tested pairs that the options name.
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
@@ -31,7 +31,7 @@ void check_outputs(const Options& options) {
 
 namespace {
 
-/// Closed meshes become solid; `notes` names the open ones.
+/// Makes closed meshes solid and appends a note for each open one.
 void fill_meshes(RobotDescription& robot, std::vector<std::string>& notes) {
   for (LinkDescription& link : robot.links)
     for (PlacedShape& placed : link.geometry) {
@@ -58,7 +58,7 @@ std::vector<Body> read_bodies(const Options& options, const Robot& robot) {
   return bodies;
 }
 
-/// A link and a body in either order, or nothing.
+/// Returns a link and a body given in either order, or nothing.
 std::optional<std::pair<std::string, std::string>> link_and_body(const Job& job, const std::string& a,
                                                                  const std::string& b) {
   const auto is_body = [&](const std::string& name) {
@@ -95,7 +95,7 @@ void read_allowed(const Options& options, Job& job) {
   }
 }
 
-/// A floating robot may stand anywhere: against bodies of the world that has to be said.
+/// A floating robot may be anywhere, so with bodies of the world the user must choose its base.
 void check_floating_base(const Options& options, const RobotDescription& robot) {
   const std::string joint = options.urdf + ": joint '" + robot.floating_base + "' lets the whole robot float";
   if (options.floating_base.empty())
@@ -128,7 +128,7 @@ std::shared_ptr<const Robot> load_robot(const Options& options, std::vector<std:
   if (options.contained) fill_meshes(description, notes);
   try {
     return std::make_shared<const Robot>(std::move(description), tessellation);
-  } catch (const hinge::ModelError& error) {  // the file is at fault, not the command line
+  } catch (const hinge::ModelError& error) {  // the fault is in the file, not in the command line
     throw hinge::LoadError(options.urdf + ": " + error.what());
   }
 }

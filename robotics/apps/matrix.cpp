@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// robocd matrix: which pairs of links need no test, as an SRDF file that says why.
+// robocd matrix: writes the pairs of links that need no test, with reasons, as an SRDF file.
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -34,7 +34,7 @@ const char* name(PairKind kind) {
 }
 
 CollisionMatrix find(const Robot& robot, const MatrixOptions& options) {
-  constexpr std::uint64_t steps = 1000;  // of the bar
+  constexpr std::uint64_t steps = 1000;  // of the progress bar
   std::optional<hinge::tool::ProgressBar> bar;
   std::optional<MatrixProgress::Stage> stage;
   return find_collision_matrix(robot, options, [&](const MatrixProgress& progress) {

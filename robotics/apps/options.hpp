@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the robocd command line asks for, after parsing, and the robot it is about.
+// Options: the parsed command line of robocd. Job: the robot and the data loaded for it.
 #pragma once
 
 #include <cstdint>
@@ -23,70 +23,73 @@ using hinge::tool::Exit;
 
 enum class Output : std::uint8_t { table, json, csv };
 
+/// The options of all commands. Lengths in m, angles in rad.
 struct Options {
   std::string urdf;
   std::string srdf;                          // empty: none
   std::vector<std::string> skip_pairs;       // files of pairs of links, or of a link and a body, that are not tested
-  bool note_unknown_links = false;           // in the SRDF, instead of refusing them
-  bool reference_primitives = false;         // tessellated as the published reference data is
+  bool note_unknown_links = false;           // skip pairs with unknown links in the SRDF with a note
+  bool reference_primitives = false;         // tessellate as in the published reference data
   std::vector<std::string> package_folders;  // for package://
-  bool skip_missing_meshes = false;          // and go on with an incomplete model
+  bool skip_missing_meshes = false;          // continue with an incomplete model
   Output output = Output::table;
-  // check: which configurations; one of the four
+  // check: source of the configurations, one of the four
   std::uint64_t count = 0;
   std::uint64_t seed = 1;
   std::string csv_in;
   std::vector<std::string> states;  // GROUP/NAME
   bool zero = false;
-  // check: what is asked of each
+  // check: the question for each configuration
   std::string mode = "all";
   double clearance = 0.0;                                    // m
   std::vector<std::string> environment;                      // bodies, see bodies.hpp
   std::vector<std::pair<std::string, std::string>> allowed;  // a link and a body that may touch
-  std::string floating_base;                                 // fixed or free; empty: not said
+  std::string floating_base;                                 // "fixed" or "free"; empty: not given
   std::string engine = "simd";
   bool contained = false;  // closed meshes are solid
   unsigned threads = 1;
   // path
   std::string from, to;           // see path_end.hpp
-  std::string waypoints;          // CSV file of configurations instead of the two
-  std::optional<double> sampled;  // rad or m, look at states this far apart; none: certify
+  std::string waypoints;          // CSV file of configurations, instead of from and to
+  std::optional<double> sampled;  // rad or m, test states at this distance; empty: certify
   double min_step = hinge::smallest_path_step;
   // matrix
-  hinge::robotics::MatrixOptions matrix;  // its clearance is the one above
+  hinge::robotics::MatrixOptions matrix;  // its clearance is replaced by the one above
   bool disable_unseen = false;
   // check: CSV file of the configurations, empty: none; matrix: SRDF file, empty: standard output
   std::string out;
 };
 
-/// A robot read, and the pairs of its links that are tested.
+/// The loaded robot, the bodies, and the pairs of links that are tested.
 struct Job {
   std::shared_ptr<const hinge::robotics::Robot> robot;
   hinge::robotics::Srdf srdf;                                // without a file: nothing disabled
   std::vector<Body> bodies;                                  // of the environment
-  std::vector<std::pair<std::string, std::string>> allowed;  // a link and a body, by name, that are not tested
-  std::vector<std::string> notes;                            // what the user should know, a sentence each
+  std::vector<std::pair<std::string, std::string>> allowed;  // names of a link and a body that are not tested
+  std::vector<std::string> notes;                            // one sentence each, for the user
   hinge::robotics::LinkPairs disabled;                       // by the SRDF and by files of pairs
   hinge::robotics::LinkPairs tested;
 };
 
-/// ModelError: --out would write over an input of the command, a directory or the file that the results go to. Meshes
-/// are known once the robot is: load_robot looks at them.
+/// Throws ModelError if --out would overwrite an input of the command, or is a directory or the file of standard
+/// output. Mesh files are checked by load_robot(), which knows them.
 void check_outputs(const Options& options);
 
-/// With --contained closed meshes are made solid. `notes` gets what the reader says and the links whose meshes are
-/// open. LoadError: one line naming file and element. ModelError: --floating-base is missing, or free.
+/// Reads the robot. With --contained closed meshes become solid. `notes` receives the notes of the reader and the links
+/// with open meshes. Throws LoadError (one line with file and element), or ModelError if --floating-base is missing or
+/// "free".
 std::shared_ptr<const hinge::robotics::Robot> load_robot(const Options& options, std::vector<std::string>& notes);
-/// ModelError: options that do not fit the robot or each other.
+/// Reads the robot, the SRDF, the bodies and the pairs. Throws LoadError for bad files, ModelError for options that do
+/// not fit the robot or each other.
 Job load(const Options& options);
 
-/// job.notes, on standard error.
+/// Prints job.notes on standard error.
 void print_notes(const Job& job);
 
-/// To go behind a verdict: " (incomplete model: ...)", empty when the geometry is whole.
+/// Returns the text to follow a verdict, " (incomplete model: ...)", or "" if the geometry is complete.
 std::string incomplete(const hinge::robotics::Robot& robot);
 
-/// The same as a note at the end of the run, with the names of the links.
+/// Prints the same as a note on standard error, with the names of the links.
 void print_incomplete(const hinge::robotics::Robot& robot);
 
 Exit run_info(const Options& options);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// robocd path: is the straight path between two configurations free?
+// robocd path: checks whether the straight path between two configurations is free.
 #include <fmt/format.h>
 
 #include <cstddef>
@@ -29,10 +29,10 @@ namespace {
 
 struct Asked {
   std::vector<std::vector<double>> waypoints;  // two or more
-  std::size_t segment = 0;                     // the first that collides, else the first undecided, else the last
-  RobotPathAnswer path;                        // of that segment
-  Answer state;                                // of the configuration that collides
-  std::size_t states_looked_at = 0;            // on all segments
+  std::size_t segment = 0;           // the first that collides, otherwise the first undecided one, otherwise the last
+  RobotPathAnswer path;              // of that segment
+  Answer state;                      // of the colliding configuration
+  std::size_t states_looked_at = 0;  // on all segments
 };
 
 const std::string& name(const Worker& worker, const LinkOrBody& part) {
@@ -40,7 +40,7 @@ const std::string& name(const Worker& worker, const LinkOrBody& part) {
   return worker.environment->name(std::get<BodyId>(part));
 }
 
-/// The two ends, or the rows of a file. ModelError: fewer than two rows.
+/// Returns the two ends, or the rows of a file. Throws ModelError if there are fewer than two rows.
 std::vector<std::vector<double>> read_waypoints(const Options& options, Job& job) {
   if (options.waypoints.empty())
     return {read_path_end("--from", options.from, options, job), read_path_end("--to", options.to, options, job)};
@@ -110,7 +110,7 @@ void print_table(const Options& options, const Job& job, const Worker& worker, c
     case PathVerdict::colliding: {
       fmt::print("collides at t = {}{}{}\n", path.parameter, where, incomplete(*job.robot));
       const std::string lines = pair_lines(worker, asked.state);
-      if (lines.empty()) contact();  // found with followers as the path has them, rounded otherwise
+      if (lines.empty()) contact();  // the path rounds mimic joints differently
       fmt::print("{}", lines);
       break;
     }

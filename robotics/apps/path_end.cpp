@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// States of the SRDF, rows of a CSV file, lists.
+// Reads an end of a path: a state of the SRDF, a row of a CSV file, or a list.
 #include "path_end.hpp"
 
 #include <algorithm>
@@ -45,7 +45,7 @@ std::vector<std::string> split(std::string text) {
 }  // namespace
 
 std::vector<double> read_path_end(const char* option, const std::string& text, const Options& options, Job& job) {
-  constexpr std::size_t prefix = 6;  // of "state:"
+  constexpr std::size_t prefix = 6;  // length of "state:"
   const std::string what = std::string(option) + " '" + text + "'";
   if (text == "zero") return std::vector<double>(job.robot->independent_joints().size(), 0.0);
   if (text.starts_with("state:")) return join_states(option, split(text.substr(prefix)), options, job);

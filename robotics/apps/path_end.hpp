@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An end of a path, as the command line names it.
+// read_path_end: reads an end of a path from the command line.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace robocd {
 
-/// "zero", "state:GROUP/NAME,GROUP/NAME...", "@FILE" or "@FILE:ROW" (a CSV file as of read_configurations, rows from 0;
-/// a file of one row needs no number), or a list of values: one value (rad or m) per independent joint. ModelError,
-/// naming the option: a text, row, state or number that does not fit. LoadError: the file's faults. What is left out of
-/// a file is added to job.notes.
+/// Returns one value (rad or m) per independent joint. text: "zero", "state:GROUP/NAME,GROUP/NAME...", "@FILE" or
+/// "@FILE:ROW" (a CSV file as for read_configurations(), rows from 0; a file with one row needs no number), or a list
+/// of values. Throws ModelError, naming the option, for a bad text, row, state or number, and LoadError for a bad file.
+/// Appends a note to job.notes for skipped columns of the file.
 std::vector<double> read_path_end(const char* option, const std::string& text, const Options& options, Job& job);
 
 }  // namespace robocd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Line by line; the header says where each value goes.
+// Implements the CSV reader line by line. The header assigns columns to joints.
 #include "read_configurations.hpp"
 
 #include <algorithm>
@@ -25,9 +25,9 @@ using hinge::robotics::Robot;
 
 namespace {
 
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // spreadsheets begin UTF-8 with it
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // first bytes of UTF-8 files from spreadsheets
 
-/// Quotes around a field are taken off.
+/// Splits a line at commas, and removes blanks and quotes around fields.
 std::vector<std::string_view> split(std::string_view line) {
   constexpr std::string_view blanks = " \t\r";
   std::vector<std::string_view> fields;
@@ -67,7 +67,7 @@ class ConfigurationReader {
     if (line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
     read_header(line);
     std::vector<std::vector<double>> rows;
-    std::size_t blank = 0;  // the first of the blank lines at the end
+    std::size_t blank = 0;  // number of the first blank line at the end
     while (std::getline(in, line)) {
       ++number_;
       if (line.find_first_not_of(" \t\r") == std::string::npos) {
@@ -86,7 +86,7 @@ class ConfigurationReader {
     throw hinge::LoadError(path_ + ":" + std::to_string(line) + ": " + what);
   }
 
-  /// Why a name of the header is no independent joint.
+  /// Returns why a joint named in the header is not an independent joint.
   std::string fault_of(const std::string& name) const {
     const JointDescription& joint = robot_.description().joints[*robot_.find_joint(name)];
     if (joint.type == JointType::fixed) return "joint '" + name + "' is fixed and takes no value";
@@ -141,8 +141,8 @@ class ConfigurationReader {
   std::string path_;
   const Robot& robot_;
   std::vector<std::string>& notes_;
-  std::vector<std::size_t> place_;  // by column: position among the independent joints; their number: left out
-  std::size_t number_ = 1;          // of the line being read
+  std::vector<std::size_t> place_;  // by column: index into independent_joints(), or its size if skipped
+  std::size_t number_ = 1;          // of the current line
 };
 
 }  // namespace
@@ -174,7 +174,7 @@ std::optional<TooFar> find_too_far(const Robot& robot, std::span<const double> q
   const auto drives = robot.drives();
   for (std::size_t d = 0; d < drives.size(); ++d) {
     const double x = q[drives[d].independent], value = drives[d].multiplier * x + drives[d].offset;
-    if (std::abs(value) <= hinge::tool::largest_value) continue;  // NaN: no
+    if (std::abs(value) <= hinge::tool::largest_value) continue;  // NaN goes on to the error
     const std::string& joint = robot.description().joints[robot.joint_of(hinge::id<hinge::DofId>(d))].name;
     const std::string& leader = robot.independent_name(drives[d].independent);
     return TooFar{drives[d].independent,

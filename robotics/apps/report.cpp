@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shared parts of the outputs.
+// Implements the common parts of the outputs.
 #include "report.hpp"
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ std::size_t rigid_groups(const Robot& robot) {
 
 Json point_json(const hinge::Vec3& x) { return {x[0], x[1], x[2]}; }
 
-/// One finding as two names; distance and points where it has some.
+/// One finding: two names, with distance and points if they are known.
 struct Finding {
   const char* kind;
   const std::string& first;
@@ -44,7 +44,7 @@ struct Finding {
   const hinge::Vec3* point2 = nullptr;
 };
 
-/// Every finding in the order of the JSON keys.
+/// Calls visit(finding) for every finding, in the order of the JSON keys.
 template <class Visit>
 void for_each_finding(const Worker& worker, const Answer& answer, const Visit& visit) {
   const auto link = [&](hinge::LinkId l) -> const std::string& { return worker.checker.robot().link_name(l); };
@@ -172,7 +172,7 @@ std::string pair_lines(const Worker& worker, const Answer& answer) {
 
 std::vector<std::pair<std::string, std::string>> named_pairs(const Worker& worker, const Answer& answer) {
   std::vector<std::pair<std::string, std::string>> pairs;
-  std::set<std::pair<std::string, std::string>> known;  // what is inside another one is a pair, too
+  std::set<std::pair<std::string, std::string>> known;  // a containment is often a colliding pair too
   for_each_finding(worker, answer, [&](const Finding& f) {
     if (known.insert(std::minmax(f.first, f.second)).second) pairs.emplace_back(f.first, f.second);
   });

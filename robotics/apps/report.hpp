@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parts that the outputs of info and check share. The JSON keys are a contract: docs/reference/robocd.md.
+// Common parts of the outputs of the commands. The JSON keys are a contract: docs/reference/robocd.md.
 #pragma once
 
 #include <cstddef>
@@ -13,40 +13,41 @@
 
 namespace robocd {
 
-/// Keys keep the order they were written in.
+/// Keys keep the order in which they are written.
 using Json = nlohmann::ordered_json;
 
+/// Returns the JSON object that describes the robot.
 Json robot_json(const Options& options, const Job& job);
 
-/// What a configuration's row shows of the question asked.
+/// The fields that the question gives to a configuration's row.
 struct Columns {
   hinge::robotics::Mode mode;
   bool environment = false;
   bool contained = false;
 };
 
-/// Names of the independent joints.
+/// Returns the names of the independent joints.
 Json joint_names(const hinge::robotics::Robot& robot);
-/// Names of the bodies around it, in the order given.
+/// Returns the names of the bodies, in the order of the command line.
 Json body_names(const Job& job);
-/// Links and bodies that are not tested against each other.
+/// Returns the pairs of link and body that are not tested.
 Json allowed_json(const Job& job);
 
-/// q: the configuration.
+/// Returns the JSON row of one configuration. q: its values, rad or m.
 Json answer_json(const Worker& worker, std::size_t index, const std::vector<double>& q, const Answer& answer,
                  const Columns& columns);
 
-/// A row per pair, closest pair and containment, or one without a pair.
+/// CSV: one row per pair, closest pair and containment, or one row without a pair.
 std::string csv_header();
 std::string csv_rows(const Worker& worker, std::size_t index, const Answer& answer);
 
-/// Indented lines, a pair each.
+/// Returns indented lines, one per pair.
 std::string pair_lines(const Worker& worker, const Answer& answer);
 
-/// The pairs that an answer names, as two names: links, or link and body.
+/// Returns the pairs of an answer by name: two links, or link and body, each pair once.
 std::vector<std::pair<std::string, std::string>> named_pairs(const Worker& worker, const Answer& answer);
 
-/// Robot and pair rule, for people.
+/// Returns lines of text about the robot and its tested pairs.
 std::string heading(const Options& options, const Job& job);
 
 }  // namespace robocd

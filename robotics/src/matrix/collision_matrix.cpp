@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Samples first; what they never saw meet is searched for a proof.
+// Implements find_collision_matrix: samples first, then searches for proofs for the pairs that no sample found too
+// close.
 #include "hinge/robotics/collision_matrix.hpp"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ namespace {
 
 using Progress = std::function<void(const MatrixProgress&)>;
 
-/// Every pair of links with geometry; those that are no test anyway are marked.
+/// Returns every pair of links with geometry. Pairs that are not tested are marked adjacent.
 std::vector<MatrixEntry> all_pairs(const Robot& robot, const LinkPairs& tested) {
   std::vector<MatrixEntry> entries;
   for (std::size_t k = 1; k < robot.link_count(); ++k)
@@ -53,7 +54,7 @@ std::vector<double> default_configuration(const Robot& robot) {
   return q;
 }
 
-/// Counts the hits of every tested pair and gives the kinds that samples can tell.
+/// Counts the hits of every tested pair and sets the kinds that samples can determine.
 void sample(const Robot& robot, const LinkPairs& tested, const MatrixOptions& options, const Progress& progress,
             std::vector<MatrixEntry>& entries) {
   std::map<std::pair<LinkId, LinkId>, MatrixEntry*> entry_of;
@@ -98,8 +99,9 @@ void sample(const Robot& robot, const LinkPairs& tested, const MatrixOptions& op
   });
 }
 
-/// Searches the joint values of every unseen pair. While surfaces stay apart nothing gets into a solid or out of it, so
-/// what is apart everywhere is also never inside: it was not in the default configuration.
+/// Searches the joint values of every unseen pair. While surfaces stay apart, no component enters or leaves a solid. No
+/// link of an unseen pair is inside the other in the default configuration, so surfaces that are apart everywhere prove
+/// the pair.
 void prove(const Robot& robot, const MatrixOptions& options, const Progress& progress,
            std::vector<MatrixEntry>& entries) {
   const bool some_settled = options.settled.size() > 0;

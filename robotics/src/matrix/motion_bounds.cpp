@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// LinkPath: the joints between two links, and what is proved of a box of their values, rounding included.
+// Implements LinkPath: the joints between two links, their poses for a box of joint values, and a bound on rounding.
 #include "matrix/motion_bounds.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace hinge::robotics {
 
 LinkPath::LinkPath(const Robot& robot, const RigidGroups& groups, LinkId a, LinkId b)
     : groups_(&groups), a_in_group_(groups.link_in_group(a)), b_in_group_(groups.link_in_group(b)) {
-  // Parents have smaller numbers: the larger one is never the common group.
+  // A parent's id is smaller, so the larger of the two ids is never the common group.
   GroupId at_a = groups.group_of(a), at_b = groups.group_of(b);
   const auto climb = [&](GroupId& at, std::vector<Step>& steps) {
     steps.push_back({at, robot.drives()[groups[at].dof]});
@@ -53,9 +53,9 @@ void LinkPath::find_sizes(const Robot& robot, LinkId link) {
 }
 
 double LinkPath::rounding(double reach_a, double reach_b) const noexcept {
-  constexpr double per_joint = 256.0;   // half ulps of the longest length
-  constexpr double at_the_links = 8.0;  // as many joints' worth: placing, sweeping and comparing
-  constexpr double per_departure = 32.0;
+  constexpr double per_joint = 256.0;     // in half ulps of the longest length
+  constexpr double at_the_links = 8.0;    // placing, sweeping and comparing, counted as so many joints
+  constexpr double per_departure = 32.0;  // factor of the deviation of the joints' origins from rigid ones
   const double longest = length_ + reach_a + reach_b;
   return (per_joint * detail::exact::half_ulp * (static_cast<double>(joints_) + at_the_links) +
           per_departure * departure_) *
@@ -71,7 +71,7 @@ void LinkPath::place(const std::vector<Step>& steps, const RigidGroups& groups, 
     const double half = detail::next_up(std::max(middle - interval.lower, interval.upper - middle));
     const double m = step.drive.multiplier, value = m * middle + step.drive.offset;
     end = end * (joint.origin * motion(joint, value));
-    // m q + offset is rounded, here and in what is asked later: twice on either side.
+    // m q + offset is rounded here and in later queries, twice each.
     const double largest = std::abs(m) * (std::abs(middle) + half) + std::abs(step.drive.offset);
     detail::AxisInterval axis;
     axis.kind = joint.kind;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The search through boxes of joint values, halved until each is proved or the budget is spent.
+// Implements PairSearch: bisects boxes of joint values until each is proved or the budget is spent.
 #include "matrix/motion_bounds_search.hpp"
 
 #include <algorithm>
@@ -10,12 +10,12 @@ namespace hinge::robotics {
 
 namespace {
 
-/// A driver whose interval is this small a part of what it was is not halved further: links that come within a
-/// millionth of a millimetre of each other stay undecided.
+/// Smallest fraction of a driver's interval that is still divided. Links that approach each other to about 1e-9 m stay
+/// undecided.
 constexpr double smallest_part = 0x1p-30;
 
-/// A lower bound of the distance of two pieces over the box, radii not taken off: how far apart they are along the unit
-/// vector n at the middles, less what the balls' centres move and what the pieces turn about them.
+/// Returns a lower bound (m) of the distance of two pieces over the box, radii not subtracted: their separation along
+/// the unit vector n at the middles, minus the motion of the balls' centres and the rotation of the pieces about them.
 double triangles_gap(const Vec3& n, const Triangle& p, const Triangle& q, const BallTree::Node& na,
                      const BallTree::Node& nb, const SweptTree::Swept& sa, const SweptTree::Swept& sb) {
   const double low = std::min({dot(n, q.a), dot(n, q.b), dot(n, q.c)});
@@ -76,7 +76,7 @@ PairSearch::Result PairSearch::run(const std::vector<Interval>& box, std::size_t
   pairs_.clear();
   parent_pairs_ = {{0, 0}};
   Outcome outcome = most_cells > 0 ? try_box() : Outcome::open;
-  // The links may meet in one half of a box and just not in the other, so both are tried before either is halved.
+  // The links may meet in one half only, so both halves are tried before either is divided.
   while (outcome != Outcome::met && !cells_.empty() && result_.cells + 2 <= most_cells) {
     const Cell cell = cells_.back();
     cells_.pop_back();
@@ -86,7 +86,7 @@ PairSearch::Result PairSearch::run(const std::vector<Interval>& box, std::size_t
     const double middle = whole.middle();
     if (!(whole.upper - whole.lower > smallest_part * (full.upper - full.lower))) return result_;
     if (!(whole.lower < middle && middle < whole.upper)) return result_;
-    // The last open cell is the last one stored, so its halves can take its place.
+    // The last open cell is stored last, so its halves can overwrite it.
     parent_pairs_.assign(at(pairs_, cell.first_pair), pairs_.end());
     present_.assign(at(intervals_, cell.first_interval), intervals_.end());
     pairs_.resize(cell.first_pair);
@@ -102,8 +102,8 @@ PairSearch::Result PairSearch::run(const std::vector<Interval>& box, std::size_t
   return result_;
 }
 
-/// Joints near A sweep A and the others sweep B, which is the same motion of A against B: where to change over is free,
-/// so as to keep lever arms short.
+/// Splits the chain: the joints near A sweep A, the others sweep B. This gives the same relative motion for every
+/// split; the cheapest one keeps lever arms short.
 void PairSearch::split_path() {
   const auto& joints = state_.joints;
   std::vector<double> cost(joints.size() + 1, 0.0);
@@ -127,7 +127,7 @@ void PairSearch::split_path() {
   b_.begin(state_.second, {joints.rbegin(), joints.rend() - least});
 }
 
-/// Stores the present box when it stays open.
+/// Tests the current box and stores it if it stays open.
 PairSearch::Outcome PairSearch::try_box() {
   ++result_.cells;
   path_.place(present_, state_);
@@ -148,7 +148,8 @@ PairSearch::Outcome PairSearch::try_box() {
   return Outcome::open;
 }
 
-/// Open pairs are those that smaller balls cannot help: they grow more than they measure, or are single triangles.
+/// Tests one pair of nodes. A pair stays open if smaller balls cannot help: the motion dominates their extent, or both
+/// are leaves.
 PairSearch::Outcome PairSearch::test(NodePair pair) {
   const BallTree::Node &na = a_.tree().node(pair.a), &nb = b_.tree().node(pair.b);
   const SweptTree::Swept &sa = a_.swept(pair.a), &sb = b_.swept(pair.b);
@@ -157,14 +158,14 @@ PairSearch::Outcome PairSearch::test(NodePair pair) {
   const Vec3 n = distance > 0.0 ? Vec3(between / distance) : Vec3(Vec3::UnitX());
   const double moved = sa.ball.growth() + sb.ball.growth() + sa.ball.generators_along(n) + sb.ball.generators_along(n);
   const double gap = distance - (na.extent + nb.extent + na.radius + nb.radius) - moved;
-  // Written so that NaN is not apart.
+  // Written so that NaN does not count as apart.
   if (gap > enough_) return Outcome::apart;
   if (na.is_leaf && nb.is_leaf) {
     bool met = false;
     if (triangles_apart(pair, met)) return Outcome::apart;
     return met ? Outcome::met : Outcome::open;
   }
-  // Larger boxes are halved before balls are, smaller ones after.
+  // If the motion exceeds twice the extent, dividing the box of joint values helps more than smaller balls.
   constexpr double worth_opening = 0.5;
   const bool open_a = !na.is_leaf && (nb.is_leaf || na.extent >= nb.extent);
   if (std::max(na.extent, nb.extent) < worth_opening * moved) {
@@ -173,7 +174,7 @@ PairSearch::Outcome PairSearch::test(NodePair pair) {
   }
   for (std::uint32_t child = 0; child < 2; ++child)
     stack_.push_back(open_a ? NodePair{na.first + child, pair.b} : NodePair{pair.a, nb.first + child});
-  return Outcome::apart;  // its children are not yet known to be
+  return Outcome::apart;  // the children are tested later
 }
 
 bool PairSearch::triangles_apart(NodePair pair, bool& met) {
@@ -188,8 +189,8 @@ bool PairSearch::triangles_apart(NodePair pair, bool& met) {
     met = closer_than(a_.triangle(pair.a), b_.triangle(pair.b), RadiusSum{na.radius, nb.radius, clearance_});
     if (met) return false;
   }
-  // Any direction will do: that of the distance; those of the planes, along which faces that slide past each other stay
-  // apart; and what served for a pair before, a neighbour perhaps, whose edges meet theirs where planes are no help.
+  // Any direction may separate the pieces. Tried are: the direction of the distance; the one that separated an earlier
+  // pair, often a neighbour; and the normals, along which faces that slide past each other stay apart.
   double best = -std::numeric_limits<double>::infinity();
   Vec3 along = Vec3::UnitX();
   for (const Vec3& direction :
@@ -210,7 +211,8 @@ bool PairSearch::triangles_apart(NodePair pair, bool& met) {
   return false;
 }
 
-/// Remembers what makes the worst pair overlap. turning: what of the balls' extents counts as moved by turning.
+/// Remembers the drivers' contributions for the pair with the worst gap. turning: factor of the rotation of the pieces
+/// about the balls' centres.
 void PairSearch::blame(double gap, const Vec3& n, NodePair pair, double turning) {
   if (!(gap < worst_gap_)) return;
   worst_gap_ = gap;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PairSearch: do two links keep their distance in a whole box of joint values? Branch and bound.
+// PairSearch: proves by branch and bound that two links keep a distance in a box of joint values.
 #pragma once
 
 #include <cstddef>
@@ -16,23 +16,24 @@
 
 namespace hinge::robotics {
 
-/// A tree's balls and triangles at the present box of joint values, made when first asked for.
+/// The balls and triangles of a tree for the current box of joint values, computed when first needed.
 class SweptTree {
  public:
   SweptTree(const Robot& robot, const BallTree& tree);
 
   const BallTree& tree() const noexcept { return *tree_; }
-  /// joints: what the tree is swept by, in order.
+  /// Starts a new box. pose: link pose at the middles; joints: those that sweep the tree, in this order.
   void begin(const Pose& pose, std::vector<detail::AxisInterval> joints);
   struct Swept {
     Vec3 start;              ///< the ball's centre at the middles of the intervals
-    detail::SweptBall ball;  ///< of that centre
+    detail::SweptBall ball;  ///< sweeps that centre
   };
-  /// Valid until the next node is asked for.
+  /// Returns a swept node. Valid until the next call.
   const Swept& swept(std::uint32_t node);
-  /// What each driver contributes to the motion of a node along n.
+  /// Adds each driver's contribution to the motion of a node along n. turning: factor of the rotation of the node's
+  /// extent.
   void add_shares(std::uint32_t node, const Vec3& n, double turning, std::vector<double>& shares);
-  /// The whole triangle a leaf's piece is of, and the piece, at the middles of the intervals.
+  /// Returns the whole triangle of a leaf, or only its piece, at the middles of the intervals.
   Triangle triangle(std::uint32_t leaf) const;
   Triangle piece(std::uint32_t leaf) const;
 
@@ -42,34 +43,35 @@ class SweptTree {
   Pose pose_;
   std::vector<detail::AxisInterval> joints_;
   std::uint64_t box_ = 0;
-  std::vector<std::uint64_t> made_for_;  // by node: number of the box
-  std::vector<std::uint32_t> place_;     // by node: in swept_
-  std::vector<Swept> swept_;             // of the present box
+  std::vector<std::uint64_t> made_for_;  // by node: number of the box it was computed for
+  std::vector<std::uint32_t> place_;     // by node: index into swept_
+  std::vector<Swept> swept_;             // nodes of the current box
 };
 
+/// Searches for a proof, or for a configuration in which the two links are too close.
 class PairSearch {
  public:
   struct Result {
     enum class Verdict : std::uint8_t { apart, met, unknown } verdict = Verdict::unknown;
-    std::size_t cells = 0;
-    double smallest_gap = std::numeric_limits<double>::infinity();  ///< m, seen
+    std::size_t cells = 0;                                          ///< number of boxes tried
+    double smallest_gap = std::numeric_limits<double>::infinity();  ///< m, smallest computed distance of the surfaces
   };
 
-  /// clearance: m, beyond the radii triangles are grown by. Everything given outlives this.
+  /// clearance: m, in addition to the radii. All arguments must outlive the object.
   PairSearch(const Robot& robot, const LinkPath& path, const BallTree& a, const BallTree& b, double clearance);
 
-  /// box: an interval per driver of the path. Tries at most `most_cells` boxes.
+  /// Searches a box with one interval per driver of the path. Tries at most `most_cells` boxes.
   Result run(const std::vector<Interval>& box, std::size_t most_cells);
 
  private:
   struct NodePair {
     std::uint32_t a = 0, b = 0;
   };
-  /// A box that was tried and stayed open: from here on in `intervals_` and `pairs_`, up to the next cell's.
+  /// A box that was tried and stayed open. Its data in intervals_ and pairs_ end where those of the next cell begin.
   struct Cell {
     std::size_t first_interval = 0;
     std::size_t first_pair = 0;
-    std::size_t side = 0;  // to be halved
+    std::size_t side = 0;  // interval to divide
   };
   enum class Outcome : std::uint8_t { apart, met, open };
 
@@ -83,17 +85,17 @@ class PairSearch {
   const LinkPath& path_;
   SweptTree a_, b_;
   double clearance_;
-  double enough_;  // clearance and rounding
+  double enough_;  // m, clearance plus rounding
   PathState state_;
   std::vector<Interval> present_;
   std::vector<Cell> cells_;
   std::vector<Interval> intervals_;  // of all open cells
-  std::vector<NodePair> pairs_;      // of all open cells: not yet proved apart there
+  std::vector<NodePair> pairs_;      // of all open cells: pairs not proved apart
   std::vector<NodePair> parent_pairs_;
   std::vector<NodePair> stack_;
-  Vec3 last_direction_ = Vec3::Zero();  // along which a pair was found apart
+  Vec3 last_direction_ = Vec3::Zero();  // the direction that last separated a pair
   double worst_gap_ = 0.0;
-  std::vector<double> shares_;  // by driver, of the pair with the worst gap
+  std::vector<double> shares_;  // by driver, for the pair with the worst gap
   Result result_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Trees of balls over a link: what a proof holds against what.
+// Builds trees of balls over a link for the proof.
 #include "matrix/motion_bounds_tree.hpp"
 
 #include <algorithm>
@@ -20,8 +20,9 @@ BallTree::BallTree(const Robot& robot, LinkId link) {
     box.extend(t.bounds());
     for (const Vec3& corner : {t.a, t.b, t.c}) reach_ = std::max(reach_, norm(corner) + radius);
   }
-  // Pieces this much smaller than the link: what turns with the link is bounded by a ball per piece, so a long triangle
-  // would take the whole link's ball; finer ones only cost memory, since small boxes of joint values hardly turn them.
+  // Longest edge of a piece relative to the link. The rotation of a link is bounded by one ball per piece, so a long
+  // triangle would need a ball as large as the link. Finer pieces only cost memory, because small boxes of joint values
+  // rotate them little.
   constexpr double fraction_of_link = 0.125;
   const double longest = fraction_of_link * norm(Vec3(box.upper - box.lower));
   for (std::size_t i = 0; i < model.size(); ++i)
@@ -31,7 +32,7 @@ BallTree::BallTree(const Robot& robot, LinkId link) {
   build(0, 0, pieces_.size(), robot.radii());
 }
 
-/// At the middle of the longest edge.
+/// Bisects a triangle at its longest edge until no edge exceeds `longest` (m).
 void BallTree::cut(const Piece& piece, double longest) {
   const std::array<Vec3, 3> v = {piece.part.a, piece.part.b, piece.part.c};
   std::size_t k = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// BallTree: balls around a link's triangles, ever smaller ones; a link's shape as the search for a proof sees it.
+// BallTree: a binary tree of balls around a link's triangles, for the search for proofs.
 #pragma once
 
 #include <cstddef>
@@ -14,20 +14,20 @@
 
 namespace hinge::robotics {
 
-/// Binary, root first. Lengths in m, link frame.
+/// Binary tree, root first. Lengths in m, link frame.
 class BallTree {
  public:
-  /// The link has at least one triangle.
+  /// The link must have at least one triangle.
   BallTree(const Robot& robot, LinkId link);
 
   struct Node {
     Vec3 centre = Vec3::Zero();
-    double extent = 0.0;      ///< largest distance of the surface (radii left out) from the centre
-    double radius = 0.0;      ///< largest radius the triangles are grown by
-    std::uint32_t first = 0;  ///< inner: its children are first and first + 1; leaf: its piece
+    double extent = 0.0;      ///< largest distance of the surface from the centre, radii not included
+    double radius = 0.0;      ///< largest radius of the triangles
+    std::uint32_t first = 0;  ///< inner node: the children are first and first + 1; leaf: index of its piece
     bool is_leaf = true;
   };
-  /// A triangle, or a part of a large one (its corners rounded).
+  /// A triangle, or a piece of a large triangle (with rounded corners).
   struct Piece {
     Triangle part;
     PrimitiveId triangle{};
@@ -36,7 +36,7 @@ class BallTree {
   const Node& node(std::uint32_t n) const noexcept { return nodes_[n]; }
   const Piece& piece(const Node& leaf) const noexcept { return pieces_[leaf.first]; }
   std::size_t size() const noexcept { return nodes_.size(); }
-  /// Largest distance of any point, radii included, from the link's origin.
+  /// Returns the largest distance of any point, radii included, from the link's origin.
   double reach() const noexcept { return reach_; }
 
  private:

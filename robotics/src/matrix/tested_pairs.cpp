@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pair rule over rigid groups, and the filter's table.
+// Implements tested_pairs and LinkPairFilter.
 #include "hinge/robotics/tested_pairs.hpp"
 
 #include <string>

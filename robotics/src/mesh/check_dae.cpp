@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One pass over the elements, and one over the nodes as they unfold.
+// Implements check_dae: one pass over the elements, and one over the nodes with their instances resolved.
 #include "mesh/check_dae.hpp"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// Scenes of robots' meshes have some ten nodes, few levels deep. assimp and read_mesh walk them by recursion.
+// Meshes of robots have about ten nodes on few levels. assimp and read_mesh traverse them by recursion.
 constexpr std::size_t most_nodes = 1'000'000;
 constexpr std::size_t deepest = 500;
 
@@ -54,7 +54,7 @@ class DaeCheck {
   std::string text() const { return file_.text(); }
 
  private:
-  /// What assimp reads as trustingly, and nobody here asks for.
+  /// Deletes libraries that do not concern shapes. assimp reads them without checks, too.
   void drop_what_is_no_shape() {
     for (const char* library :
          {"library_animations", "library_animation_clips", "library_cameras", "library_controllers", "library_effects",
@@ -62,7 +62,7 @@ class DaeCheck {
       while (tinyxml2::XMLElement* element = file_.root().FirstChildElement(library)) file_.root().DeleteChild(element);
   }
 
-  /// tinyxml2 takes no file of more than 500 levels.
+  /// Collects and checks all elements below. The recursion is bounded: tinyxml2 accepts at most 500 levels.
   void check_below(const XMLElement& element) {
     const std::string_view name = element.Name();
     for (const char* attribute : {"count", "offset", "stride"}) {
@@ -84,7 +84,7 @@ class DaeCheck {
       check_below(*child);
   }
 
-  // assimp looks up what an accessor of a mesh says, whether or not the array has it.
+  // assimp reads the range of an accessor without checking the length of the array.
 
   static std::string source_around(const XMLElement& element) {
     const auto* at = element.Parent();
@@ -92,7 +92,7 @@ class DaeCheck {
     return at != nullptr && at->ToElement() != nullptr ? text_of(*at->ToElement(), "id") : std::string();
   }
 
-  // Whole numbers were seen by check_below().
+  // check_below() has checked that the numbers are whole.
 
   void add_array(const XMLElement& element) {
     const std::int64_t count = element.Int64Attribute("count", -1);
@@ -106,7 +106,7 @@ class DaeCheck {
     if (!read_.insert(source).second)
       file_.refuse(accessor.GetLineNum(), tag(accessor) + " is not the only one of <source id=\"" + source + "\">");
     const auto array = arrays_.find(named_by(accessor, "source"));
-    if (array == arrays_.end()) return;  // of none: see check_dae_mesh()
+    if (array == arrays_.end()) return;  // no such array: check_dae_mesh() refuses uses of the source
     const std::int64_t count = accessor.Int64Attribute("count", 0), offset = accessor.Int64Attribute("offset", 0),
                        stride = accessor.Int64Attribute("stride", 1);
     std::int64_t parameters = 0;
@@ -119,7 +119,7 @@ class DaeCheck {
       if (name == "X" || name == "Y" || name == "Z") ++axes[static_cast<std::size_t>(name.front() - 'X')];
       scalars = scalars && text_of(*child, "type") != "float4x4";
     }
-    // None of them is above the size of a file.
+    // The offset is at most the file size, the other two are at most INT32_MAX, so the sum does not overflow.
     if (parameters > stride || count > INT32_MAX || stride > INT32_MAX || offset + count * stride > array->second)
       file_.refuse(accessor.GetLineNum(), tag(accessor) + " reaches beyond the " + std::to_string(array->second) +
                                               " numbers of '" + text_of(accessor, "source") + "'");
@@ -128,10 +128,10 @@ class DaeCheck {
 
   struct Extent {
     std::size_t nodes = 1;
-    std::size_t height = 0;  // levels below
+    std::size_t height = 0;  // levels below the element
   };
 
-  /// What an element becomes with its instances in place.
+  /// Returns the size of an element with all its instances resolved.
   Extent unfold(const XMLElement& element, std::size_t depth) {
     const auto known = extents_.find(&element);
     Extent extent = known != extents_.end() ? known->second : Extent{};
@@ -164,10 +164,10 @@ class DaeCheck {
   std::int64_t bytes_;
   std::map<std::string, const XMLElement*, std::less<>> nodes_;  // by id
   std::vector<const XMLElement*> scenes_;
-  std::vector<const XMLElement*> meshes_, instances_;                 // of geometries
+  std::vector<const XMLElement*> meshes_, instances_;                 // instances of geometries
   std::set<std::string, std::less<>> geometries_;                     // ids
-  std::map<std::string, std::int64_t, std::less<>> arrays_;           // by id: how many numbers
-  std::vector<std::pair<std::string, const XMLElement*>> accessors_;  // with the source they are in
+  std::map<std::string, std::int64_t, std::less<>> arrays_;           // by id: number of values
+  std::vector<std::pair<std::string, const XMLElement*>> accessors_;  // with the id of their source
   std::set<std::string> read_;                                        // ids of sources with an accessor
   DaeSources sources_;
   std::map<const XMLElement*, Extent> extents_;

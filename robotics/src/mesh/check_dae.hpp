@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// check_dae: a COLLADA file's counts, arrays and references, before a reader that trusts them.
+// check_dae: checks counts, arrays and references of a COLLADA file, because assimp trusts them.
 #pragma once
 
 #include <filesystem>
@@ -7,10 +7,11 @@
 
 namespace hinge::robotics {
 
-/// The file's text, without what is no shape. LoadError, naming the line: no XML, a count or offset that the file has
-/// no room for, accessors beyond their arrays, nodes that contain themselves or unfold to more than 10^6, or deeper
-/// than 500, over each of which assimp 5.2.5 fills the memory or the stack; geometries and nodes that are not in the
-/// file and bent meshes, which it leaves out; and what check_dae_mesh() says of meshes.
+/// Returns the file's text, without libraries that do not concern shapes. Throws LoadError, naming the line, for faults
+/// on which assimp 5.2.5 exhausts the memory or the stack: invalid XML, counts or offsets larger than the file,
+/// accessors that exceed their arrays, and nodes that contain themselves, are deeper than 500, or expand to more than
+/// 10^6. Also throws for geometries and nodes that are not in the file and for controllers, which assimp skips, and as
+/// check_dae_mesh() does.
 std::string check_dae(const std::filesystem::path& path);
 
 }  // namespace hinge::robotics

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// In the order of the file, which is the order assimp reads in: what stands behind <p> does not count for it.
+// Checks the elements in the order of the file, as assimp reads them: elements after <p> do not apply to it.
 #include "mesh/check_dae_mesh.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// Every element below; tinyxml2 takes no file of more than 500 levels.
+/// Visits every element below. The recursion is bounded: tinyxml2 accepts at most 500 levels.
 template <class Visit>
 void for_each_below(const XMLElement& element, const Visit& visit) {
   for (const auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
@@ -63,13 +63,13 @@ class MeshCheck {
     return source->second;
   }
 
-  /// What the parts of an element above its <p> say of the indices.
+  /// The layout of indices, from the elements above <p>.
   struct Layout {
-    std::int64_t count = 0;    // of primitives; DaeCheck has seen that it is a number
-    std::int64_t offsets = 1;  // indices for each vertex
-    std::int64_t others = 1;   // the same, of inputs that assimp does not know
+    std::int64_t count = 0;    // number of primitives; DaeCheck has checked that it is a number
+    std::int64_t offsets = 1;  // indices per vertex
+    std::int64_t others = 1;   // the same, counting only inputs that assimp does not know
     bool has_vertex = false;
-    std::int64_t corners = -1;  // by <vcount>
+    std::int64_t corners = -1;  // sum of <vcount>; -1: none
   };
 
   void check_primitives(const XMLElement& element) const {
@@ -121,7 +121,7 @@ class MeshCheck {
     if (kind == "trifans") refuse(element, " is not read, write <triangles>");
     if (positions_ == 0) refuse(p, " has no <vertices> with a POSITION above it");
     if (!layout.has_vertex) refuse(p, " has no <input> with semantic=\"VERTEX\" above it");
-    if (layout.others > offsets)  // assimp does not count it, and takes its indices for others'
+    if (layout.others > offsets)  // assimp ignores this input and misreads its indices
       refuse(p, " has an <input> of an unknown semantic, with the last offset of all");
     if (kind == "polylist" && corners < 0) refuse(p, " has no <vcount> above it");
     const auto expect = [&](bool right, const std::string& what) {
@@ -129,24 +129,24 @@ class MeshCheck {
         refuse(p, " holds " + std::to_string(indices) + " indices, expected " + std::to_string(offsets) +
                       " for each of " + what + " vertices");
     };
-    // Counts and offsets are below the size of a file, but products of three are not.
+    // Divide instead of multiplying: counts and offsets are below the file size, but products may overflow.
     if (kind == "triangles")
       expect(indices % offsets == 0 && indices / offsets == 3 * count, std::to_string(3 * count));
     if (kind == "polylist") expect(indices % offsets == 0 && indices / offsets == corners, std::to_string(corners));
-    if (kind == "lines")  // SketchUp writes too small a count, and assimp takes what is there
+    if (kind == "lines")  // SketchUp writes too small a count, and assimp reads all indices
       expect(indices % (2 * offsets) == 0 && count <= room_ / (2 * offsets), std::to_string(2 * count));
     const std::int64_t fewest = kind == "tristrips" ? 3 : kind == "linestrips" ? 2 : 0;
     expect(indices % offsets == 0 && indices / offsets >= fewest, std::to_string(fewest) + " or more");
   }
 
-  /// The numbers an element holds.
+  /// Calls visit(number) for each number in the text of an element.
   template <class Visit>
   void for_each_number(const XMLElement& element, const Visit& visit) const {
     constexpr std::string_view blanks = " \t\r\n";
     std::string_view text;
     for (const auto* child = element.FirstChild(); child != nullptr; child = child->NextSibling()) {
       if (child->ToComment() != nullptr) continue;
-      if (child->ToText() == nullptr || !text.empty())  // assimp reads the first text, wherever it stands
+      if (child->ToText() == nullptr || !text.empty())  // assimp reads the first text only
         refuse(element, " holds more than one row of whole numbers");
       text = child->Value();
     }
@@ -166,8 +166,8 @@ class MeshCheck {
   const XmlFile& file_;
   const DaeSources& sources_;
   std::int64_t room_;
-  std::string vertices_;        // the id of the last
-  std::int64_t positions_ = 0;  // inputs
+  std::string vertices_;        // id of the last <vertices>
+  std::int64_t positions_ = 0;  // number of POSITION inputs
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// check_dae_mesh: the primitives of one <mesh> of a COLLADA file, before a reader that trusts them.
+// check_dae_mesh: checks the primitives of one <mesh> of a COLLADA file, because assimp trusts them.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,15 @@
 
 namespace hinge::robotics {
 
-/// The sources with an accessor to numbers, four at most for each element: by id, whether it has X, Y and Z.
+/// Sources whose accessor has at most four numbers per element. By id: true if it has X, Y and Z.
 using DaeSources = std::map<std::string, bool, std::less<>>;
 
-/// The id in source="#id" or url="#id"; "" where there is none.
+/// Returns the id in source="#id" or url="#id", or "" if there is none.
 std::string named_by(const tinyxml2::XMLElement& element, const char* attribute);
 
-/// LoadError, naming the line, for what assimp 5.2.5 reads wrongly, drops, or takes from beyond its arrays: indices
-/// that are no whole numbers, or none for a count; primitives without their vertices; a mesh with more or less than one
-/// position for a vertex; a polylist whose polygons do not have the indices. `room` is the size of the file.
+/// Throws LoadError, naming the line, for faults that assimp 5.2.5 misreads, drops, or reads out of bounds: indices
+/// that are not whole numbers or do not match the count, primitives without vertices, a mesh without exactly one
+/// POSITION, and a polylist whose <vcount> does not match the indices. room: size of the file in bytes.
 void check_dae_mesh(const XmlFile& file, const tinyxml2::XMLElement& mesh, const DaeSources& sources,
                     std::int64_t room);
 

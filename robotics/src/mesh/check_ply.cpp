@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The header is lines of text that end with "end_header", in binary files too.
+// Implements check_ply. The header consists of text lines up to "end_header", in binary files too.
 #include "mesh/check_ply.hpp"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ std::string_view next_word(std::string_view& line) {
   return word;
 }
 
-/// assimp passes over what it does not know.
+/// Refuses unknown types, which assimp skips.
 void check_type(std::string_view type, const std::string& where) {
   constexpr std::array<std::string_view, 16> known{"char",   "int8",    "uchar",  "uint8",  "short", "int16",
                                                    "ushort", "uint16",  "int",    "int32",  "uint",  "uint32",
@@ -32,7 +32,7 @@ void check_type(std::string_view type, const std::string& where) {
     throw LoadError(where + "property has the type '" + std::string(type) + "', which is none of PLY's");
 }
 
-/// The name, of what follows the word "property"; empty for a list.
+/// Returns the property's name from the text after the word "property", or "" for a list.
 std::string_view scalar_property(std::string_view line, const std::string& where) {
   std::string_view type = next_word(line);
   const bool list = type == "list";
@@ -52,7 +52,7 @@ void check_ply(const std::string& bytes, const std::string& path) {
   constexpr std::array<std::string_view, 5> known{"format", "comment", "obj_info", "element", "property"};
   std::size_t number = 0, vertex_line = 0;
   bool of_vertex = false;
-  std::string missing;  // of x, y and z: assimp would have 0 for it
+  std::string missing;  // those of x, y and z not seen yet; assimp would use 0
   std::string_view rest = bytes;
   while (!rest.empty()) {
     const std::size_t end = rest.find('\n');
@@ -86,7 +86,7 @@ void check_ply(const std::string& bytes, const std::string& path) {
       missing = "xyz";
       vertex_line = number;
     }
-    // assimp takes the digits for the count.
+    // assimp would take the digits for the count.
     if (!name.empty() && name.front() >= '0' && name.front() <= '9')
       throw LoadError(where + "element has the name '" + std::string(name) +
                       "', expected one that begins with a letter");

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// check_ply: a PLY file's header, before a reader that trusts it.
+// check_ply: checks the header of a PLY file, because assimp trusts it.
 #pragma once
 
 #include <string>
 
 namespace hinge::robotics {
 
-/// LoadError: a first line other than "ply", a header line that is none, a header without "end_header" (assimp 5.2.5
-/// does not return from it), more elements than the file has bytes (for which assimp takes memory first), properties
-/// without a name or of an unknown type (which it passes over) and vertices without x, y or z (for which it has 0).
+/// Throws LoadError if the first line is not "ply", a header line is invalid, "end_header" is missing (assimp 5.2.5
+/// does not return then), a count exceeds the number of bytes (assimp allocates memory for it), a property has no name
+/// or an unknown type (assimp skips it), or vertices have no x, y or z (assimp uses 0).
 void check_ply(const std::string& bytes, const std::string& path);
 
 }  // namespace hinge::robotics

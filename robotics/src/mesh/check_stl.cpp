@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A binary STL file has 84 + 50 n bytes, n little-endian at byte 80.
+// Implements check_stl. A binary STL file has 84 + 50 n bytes, with n in little-endian order at byte 80.
 #include "mesh/check_stl.hpp"
 
 #include <cstdint>
@@ -16,7 +16,7 @@ constexpr std::size_t facet_size = 50;
 
 struct WordCount {
   std::size_t facets = 0;
-  std::size_t ends = 0;  // endfacet
+  std::size_t ends = 0;  // number of endfacet
   bool is_closed = false;
 };
 
@@ -47,7 +47,7 @@ std::size_t check_stl(const std::string& bytes, const std::string& path) {
   }
   if (bytes.starts_with("solid")) {
     const WordCount count = count_words(bytes);
-    // The word alone proves nothing: many binary files begin with it.
+    // "solid" alone is no evidence: many binary files begin with it.
     if (count.facets > 0 || count.is_closed) {
       if (count.facets != count.ends || !count.is_closed)
         throw LoadError(path + ": text STL with " + std::to_string(count.facets) + " facets, " +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Binary or text, whole or cut short: what an STL file's size and words say before anyone parses it.
+// check_stl: detects binary and text STL files and truncated ones, before they are parsed.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace hinge::robotics {
 
-/// Number of triangles an STL file announces. LoadError (`path` in front): size and count of a binary file differ, a
-/// text without end, nothing of either kind.
+/// Returns the number of triangles that an STL file announces. Throws LoadError (starting with `path`) if size and
+/// count of a binary file differ, a text file has no end, or it is neither.
 std::size_t check_stl(const std::string& bytes, const std::string& path);
 
 }  // namespace hinge::robotics

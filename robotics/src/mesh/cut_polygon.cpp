@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ear clipping (Meisters, "Polygons have ears", 1975). assimp's own is not used: it cuts an L whose inner corner lies
-// on the line between two others into triangles that stand out.
+// Ear clipping (Meisters, "Polygons have ears", 1975). assimp's own triangulation is not used: for an L whose inner
+// corner is collinear with two others it gives triangles outside the polygon.
 #include "mesh/cut_polygon.hpp"
 
 #include <algorithm>
@@ -15,13 +15,13 @@ namespace {
 
 using Vec2 = std::array<double, 2>;
 
-/// Twice the area of abc, above 0 when it turns as the polygon does.
+/// Returns twice the signed area of abc, positive if it is oriented like the polygon.
 double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/// Without the axis nearest to the normal (Newell's: the sum of the cross products along the edges), turned so that the
-/// polygon runs counter-clockwise.
+/// Drops the coordinate of the axis closest to the normal (Newell: sum of the cross products along the edges). The
+/// result runs counter-clockwise.
 std::vector<Vec2> flattened(std::span<const Vec3> polygon) {
   Vec3 normal = Vec3::Zero();
   for (std::size_t k = 0; k < polygon.size(); ++k)
@@ -35,7 +35,7 @@ std::vector<Vec2> flattened(std::span<const Vec3> polygon) {
   return flat;
 }
 
-/// Does a vertex other than the corners' lie in the closed triangle that cuts off corner k of those left?
+/// Returns true if another vertex lies in the closed triangle abc.
 bool holds_another(const std::vector<Vec2>& flat, std::span<const std::size_t> left, const Vec2& a, const Vec2& b,
                    const Vec2& c) {
   return std::any_of(left.begin(), left.end(), [&](std::size_t v) {
@@ -44,7 +44,8 @@ bool holds_another(const std::vector<Vec2>& flat, std::span<const std::size_t> l
   });
 }
 
-/// A corner that can be cut off; where none can, the polygon crosses itself and the first is as good as any.
+/// Returns a convex corner that can be cut off. If there is none, returns a straight corner, otherwise corner 0: the
+/// polygon then crosses itself, and any corner is as good.
 std::size_t find_ear(const std::vector<Vec2>& flat, std::span<const std::size_t> left) {
   std::size_t straight = 0;
   for (std::size_t k = 0; k < left.size(); ++k) {

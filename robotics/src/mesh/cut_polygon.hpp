@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// cut_polygon: a polygon as triangles between its own vertices.
+// cut_polygon: divides a polygon into triangles between its own vertices.
 #pragma once
 
 #include <span>
@@ -10,8 +10,8 @@
 
 namespace hinge::robotics {
 
-/// n - 2 triangles for n >= 3 vertices, convex or not, that together are the polygon where it is flat and does not
-/// cross itself, as seen along its mean normal. One or two vertices make one degenerate triangle.
+/// Returns n - 2 triangles for n >= 3 vertices. If the polygon is flat and does not cross itself, seen along its mean
+/// normal, they cover it exactly, convex or not. One or two vertices give one degenerate triangle.
 std::vector<Triangle> cut_polygon(std::span<const Vec3> polygon);
 
 }  // namespace hinge::robotics

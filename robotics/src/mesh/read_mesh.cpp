@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// assimp as a reader only: none of its processing steps, all of which drop, join or move something.
+// Implements read_mesh with assimp as a reader only. Its processing steps are off, because all of them drop, join or
+// move vertices.
 #include "hinge/robotics/read_mesh.hpp"
 
 #include <algorithm>
@@ -35,10 +36,11 @@ std::string lower_case_extension(const std::filesystem::path& path) {
   return extension;
 }
 
-/// Without the lines that name material libraries, which assimp would read, and refuse the shape with a damaged one.
+/// Removes the lines that name material libraries. assimp would read these files, and refuse the mesh if one is
+/// damaged.
 std::string without_materials(const std::string& obj) {
   std::string kept;
-  bool continued = false;  // by a backslash at the end of the line above
+  bool continued = false;  // the previous line ends with a backslash
   for (std::size_t start = 0; start < obj.size();) {
     const std::size_t end = std::min(obj.find('\n', start), obj.size() - 1) + 1;
     const std::string_view line(obj.data() + start, end - start);
@@ -50,7 +52,7 @@ std::string without_materials(const std::string& obj) {
   return kept;
 }
 
-/// Affine, in double: x -> linear * x + shift.
+/// An affine map in double precision: x -> linear * x + shift.
 struct Transform {
   Mat3 linear = Mat3::Identity();
   Vec3 shift = Vec3::Zero();
@@ -72,7 +74,7 @@ struct Transform {
   }
 };
 
-/// Every face of every mesh a node shows, the nodes below included.
+/// Visits every face of every mesh of a node and of the nodes below.
 template <class Visit>
 void for_each_face(const aiScene& scene, const aiNode& node, const Transform& above, const Visit& visit) {
   const Transform here = above.then(node.mTransformation);
@@ -95,7 +97,7 @@ class TriangleCollector {
     polygon_.clear();
     for (unsigned k = 0; k < face.mNumIndices; ++k) {
       const unsigned index = face.mIndices[k];
-      if (index >= mesh.mNumVertices || mesh.mVertices == nullptr)  // readers of assimp do not all look
+      if (index >= mesh.mNumVertices || mesh.mVertices == nullptr)  // not all readers of assimp check this
         throw LoadError(path_ + ": face " + std::to_string(faces_) + " (from 0): names vertex " +
                         std::to_string(index) + " (from 0) of " + std::to_string(mesh.mNumVertices));
       const Vec3 vertex = transform(mesh.mVertices[index]);
@@ -135,7 +137,7 @@ TriangleMesh read_mesh(const std::filesystem::path& path, std::vector<std::strin
 
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  // assimp would draw the nodes of a scene without meshes as little pyramids.
+  // assimp would add small pyramids for the nodes of a scene without meshes.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, extension.c_str() + 1);
   if (scene == nullptr || scene->mRootNode == nullptr) {

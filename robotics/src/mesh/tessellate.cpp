@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prisms and subdivided icosahedra, inscribed or circumscribed; points and segments with a radius.
+// Implements tessellate: prisms and subdivided icosahedra, inscribed or circumscribed; points and segments with a
+// radius.
 #include "hinge/robotics/tessellate.hpp"
 
 #include <algorithm>
@@ -23,7 +24,7 @@ namespace {
 using Triangles = std::vector<Triangle>;
 
 constexpr double pi = 3.141592653589793;
-// More triangles than this in one shape is a tolerance mistyped, not a wish.
+// Limit per shape. A tolerance that needs more triangles is a mistake.
 constexpr std::size_t most_triangles = 1'000'000;
 
 [[noreturn]] void refuse_tolerance(double tolerance) {
@@ -31,7 +32,7 @@ constexpr std::size_t most_triangles = 1'000'000;
                    " m: expected a finite length above 0 that takes at most 10^6 triangles");
 }
 
-// What has no volume is made of the fewest triangles: one without area for a point or a segment.
+// Shapes without volume get the fewest triangles: a point or a segment is one triangle without area.
 Triangles segment(const Vec3& end) { return {{-end, end, end}}; }
 
 Triangles box(const Vec3& size) {
@@ -40,12 +41,12 @@ Triangles box(const Vec3& size) {
   std::array<Vec3, 8> corner;
   for (std::size_t k = 0; k < 8; ++k)
     for (int axis = 0; axis < 3; ++axis) corner[k][axis] = (k >> axis & 1U) != 0 ? size[axis] / 2 : -size[axis] / 2;
-  // Corner k lies on the upper side of axis a when bit a of k is set; faces turn outward.
+  // Corner k is on the upper side of axis a if bit a of k is set. Faces are oriented outward.
   constexpr std::array<std::array<std::size_t, 4>, 6> faces = {
       {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
   Triangles triangles;
   for (std::size_t k = 0; k < faces.size(); ++k) {
-    // A flat box has one face, that of its thin axis.
+    // A flat box has one face, normal to its thin axis.
     if (flat == 1 && (k % 2 == 0 || size[static_cast<int>(k / 2)] > 0.0)) continue;
     const auto& f = faces[k];
     triangles.push_back({corner[f[0]], corner[f[1]], corner[f[2]]});
@@ -54,7 +55,7 @@ Triangles box(const Vec3& size) {
   return triangles;
 }
 
-/// A prism over the regular polygon with a vertex at angle 0, caps fanned from their centres.
+/// A prism over the regular polygon with a vertex at angle 0. Caps are fans around their centres.
 Triangles prism(double radius, double length, std::size_t sides) {
   const double h = length / 2;
   const auto vertex = [&](std::size_t i) {
@@ -77,7 +78,7 @@ Triangles prism(double radius, double length, std::size_t sides) {
   return triangles;
 }
 
-/// The circumscribed polygon's corners are radius / cos(pi / sides) from the axis.
+/// The vertices of the circumscribed polygon are radius / cos(pi / sides) from the axis.
 Triangles around_cylinder(const CylinderShape& cylinder, double tolerance) {
   for (std::size_t sides = 3; 4 * sides <= most_triangles; ++sides) {
     const double radius = cylinder.radius / detail::sincos(pi / static_cast<double>(sides)).cos;
@@ -104,13 +105,13 @@ const std::array<Vec3, 12>& icosahedron_vertices() {
   return vertices;
 }
 
-/// One face of the icosahedron cut into parts^2 equal triangles, their vertices then scaled to the unit sphere.
+/// Divides one face of the icosahedron into parts^2 equal triangles and scales their vertices to the unit sphere.
 Triangles unit_face(const std::array<std::size_t, 3>& face, std::size_t parts) {
   const std::array<Vec3, 12>& v = icosahedron_vertices();
   const Vec3 a = v[face[0]], b = v[face[1]], c = v[face[2]];
   const auto n = static_cast<double>(parts);
   const auto vertex = [&](std::size_t i, std::size_t j) {
-    // Weighted so that the two faces at an edge compute the same bits.
+    // Weighted so that both faces at an edge compute the same bits.
     const Vec3 flat =
         (a * (n - static_cast<double>(i + j)) + b * static_cast<double>(i) + c * static_cast<double>(j)) / n;
     return Vec3(flat / std::sqrt(squared_norm(flat)));
@@ -131,7 +132,8 @@ Triangles geodesic(double radius, std::size_t parts) {
   return triangles;
 }
 
-/// Distance of the nearest face plane of the unit geodesic polyhedron from its centre; all twenty faces are alike.
+/// Returns the distance of the closest face plane of the unit geodesic polyhedron from its centre. All twenty faces are
+/// congruent.
 double inner_radius(std::size_t parts) {
   double nearest = 1.0;
   for (const Triangle& t : unit_face(icosahedron_faces()[0], parts)) {
@@ -141,8 +143,8 @@ double inner_radius(std::size_t parts) {
   return nearest;
 }
 
-/// Scaled so that every face plane stays clear of the ball: the polyhedron is star-shaped about the centre, so that it
-/// holds the ball, and its vertices are the points farthest from it.
+/// Scales the polyhedron so that no face plane cuts the ball. The polyhedron is star-shaped about the centre, so it
+/// then encloses the ball. Its vertices are its farthest points.
 Triangles around_sphere(double radius, double tolerance) {
   for (std::size_t parts = 1; 20 * parts * parts <= most_triangles; ++parts) {
     const double outer = radius / inner_radius(parts);
@@ -151,8 +153,8 @@ Triangles around_sphere(double radius, double tolerance) {
   refuse_tolerance(tolerance);
 }
 
-/// A convex polyhedron swept along a segment of the z axis: faces that look up go up, the others down, and walls stand
-/// where two such faces met.
+/// Sweeps a convex polyhedron along a segment of the z axis: faces with upward normals move up, the others down, and
+/// walls connect them.
 Triangles drawn_apart(const Triangles& polyhedron, double length) {
   using Edge = std::array<double, 6>;
   const auto edge = [](const Vec3& a, const Vec3& b) { return Edge{a[0], a[1], a[2], b[0], b[1], b[2]}; };
@@ -183,9 +185,9 @@ Triangles scaled(const MeshShape& shape) {
 }
 
 constexpr std::size_t inscribed_sides = 32;
-constexpr std::size_t inscribed_parts = 4;  // two halvings of every edge: 320 triangles
+constexpr std::size_t inscribed_parts = 4;  // every edge bisected twice: 320 triangles
 
-/// Any shape by triangles alone.
+/// Converts any shape to triangles without radius.
 struct InTriangles {
   bool inscribed = false;
   double tolerance = 0.0;
