@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From raw records to a Structure: one conformer, equal models, records resolved.
+// assemble: from raw records to a Structure with one conformer, equal models and resolved records.
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -52,7 +52,7 @@ class Assembler {
   }
 
  private:
-  /// In a model without a polymer hetero atoms are kept, in one of waters alone those.
+  /// Keeps hetero atoms in a model without a polymer, and waters in a model of waters alone.
   void keep_what_is_there(const RawModel& model) {
     bool has_hetero = false;
     for (std::size_t r = 0; r < model.residues.size(); ++r) {
@@ -67,13 +67,13 @@ class Assembler {
                                      : "nothing but waters in the file: they are kept");
   }
 
-  /// Atoms of one model in order, of the conformer chosen; topology is taken from the first.
+  /// Adds the atoms of one model, of the chosen conformer; the first model defines the topology.
   void add_model(const RawModel& model, bool first) {
     std::vector<Vec3> positions;
     difference_.clear();
     const auto& residues = model.residues;
     for (std::size_t begin = 0; begin < residues.size();) {
-      std::size_t end = begin + 1;  // residue types that share one position
+      std::size_t end = begin + 1;  // residue types that share the position
       while (end < residues.size() && residues[end].chain == residues[begin].chain &&
              residues[end].number == residues[begin].number &&
              residues[end].insertion_code == residues[begin].insertion_code && has_altlocs(residues[begin]) &&
@@ -121,7 +121,7 @@ class Assembler {
     Residue residue{raw.name, raw.number, raw.insertion_code, 0, static_cast<std::uint32_t>(s_.atoms.size()), 0, kind};
     std::map<std::string, int> seen;
     for (const RawAtom& atom : raw.atoms) {
-      if (kind == ResidueKind::water && element_by_name(atom, raw).empty()) continue;  // a water model's virtual site
+      if (kind == ResidueKind::water && element_by_name(atom, raw).empty()) continue;  // virtual site of a water model
       if (atom.altloc != '\0' && atom.altloc != altloc) {
         if (first) conformers_->count_dropped(name_of(raw) + ":" + atom.name + " at " + atom.altloc);
         continue;
@@ -151,14 +151,14 @@ class Assembler {
     s_.chains.back().last_residue = static_cast<std::uint32_t>(s_.residues.size());
   }
 
-  /// Does this atom of a later model have the name and residue of the first model's at this position?
+  /// True if this atom of a later model has the name and residue of the first model's atom at this index.
   bool is_same(std::size_t position, const RawAtom& atom, const RawResidue& raw) const {
     if (position >= s_.atoms.size() || s_.atoms[position].name != atom.name) return false;
     const Residue& residue = s_.residues[s_.atoms[position].residue];
     return residue.sequence_number == raw.number && residue.insertion_code == raw.insertion_code;
   }
 
-  /// The atom's element; counts those that differ from what the file says.
+  /// Returns the atom's element; counts elements that differ from the file's.
   std::string element_of(const RawAtom& atom, const RawResidue& residue, const std::string& where, bool first) {
     std::string element = element_by_name(atom, residue);
     if (element.empty())
@@ -217,7 +217,7 @@ class Assembler {
     }
   }
 
-  /// CONECT names serial numbers; one that several atoms have names none. Links that other records have are not
+  /// CONECT names serial numbers; a number that several atoms have is ignored. Pairs that other records list are not
   /// repeated.
   void resolve_conect() {
     if (raw_.conect.empty()) return;
@@ -241,7 +241,7 @@ class Assembler {
   const std::string& path_;
   ReadOptions options_;
   Structure s_;
-  std::string difference_;  ///< first atom of the model being added that the first model does not have there
+  std::string difference_;  ///< first atom of the current model that differs from the first model's
   std::optional<ConformerChoice> conformers_;
   std::size_t repaired_ = 0;
   std::string first_repair_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Models of one file that have different atoms.
+// Models of one file with different atoms: comparison, and reduction to the common atoms.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -33,7 +33,7 @@ std::map<Key, std::uint32_t> atoms_by_key(const Structure& s) {
 
 constexpr std::uint32_t not_kept = static_cast<std::uint32_t>(-1);
 
-/// The structure with some of its atoms, one at least; those of its coordinates too.
+/// Returns the structure reduced to some atoms, at least one, with their coordinates.
 Structure with_atoms(const Structure& all, const std::vector<bool>& keep) {
   Structure s = all;
   s.atoms.clear();
@@ -144,7 +144,7 @@ Structure assemble_common(RawFile raw, const std::string& path, const ReadOption
   Structure& first = each.front();
   std::vector<std::map<Key, std::uint32_t>> atoms;
   for (const Structure& s : each) atoms.push_back(atoms_by_key(s));
-  std::map<Key, std::uint32_t> left_out;  // and the model that has it
+  std::map<Key, std::uint32_t> left_out;  // atom -> a model that has it
   std::vector<bool> keep(first.atoms.size());
   for (std::uint32_t m = 0; m < each.size(); ++m)
     for (const auto& [key, i] : atoms[m]) {

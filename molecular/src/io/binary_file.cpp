@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// POSIX: pread needs no position that threads would share.
+// BinaryFile: uses POSIX pread, which needs no file position, so threads can share the file.
 #include "io/binary_file.hpp"
 
 #include <fcntl.h>
@@ -67,7 +67,7 @@ void BinaryFile::read_all(std::uint64_t offset, std::span<char> to, const std::s
 }
 
 std::vector<char> BinaryFile::read_all(std::uint64_t offset, std::size_t count, const std::string& what) const {
-  // Damaged counts may be anything: no memory for what cannot be there.
+  // A damaged count may be huge: check it before allocating memory.
   if (offset > size_ || count > size_ - offset)
     throw LoadError(name_ + ": ends at byte " + std::to_string(size_) + " in " + what + " of " + std::to_string(count) +
                     " bytes from byte " + std::to_string(offset) + " on; it may be cut short");

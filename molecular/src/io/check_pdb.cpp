@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Refusals that need the text of a PDB file: what a lenient parser turns into zeros.
+// check_pdb: refuses errors in the text of a PDB file that a lenient parser turns into zeros.
 #include <algorithm>
 #include <charconv>
 #include <set>
@@ -51,19 +51,19 @@ Vec3 read_pdb_coordinates(std::string_view line, const std::string& path, std::s
 
 void check_pdb(std::string_view text, const std::string& path, std::size_t number, std::vector<std::string>* notes) {
   const std::size_t lines_before = number;
-  std::size_t atoms = 0, atoms_before = 0;  // before: when the model began
-  std::set<int> models;                     // their numbers
+  std::size_t atoms = 0, atoms_before = 0;  // atoms_before: at the start of the open model
+  std::set<int> models;                     // model numbers
   std::size_t model_count = 0;
-  std::string twice;                  // what is wrong with the first number that is there again
-  std::size_t open_model = 0;         // its line; 0: none is open
-  std::size_t longest = 0, last = 0;  // atom records' lengths without blanks at their ends
-  bool is_closed = false;             // by a record that stands behind all models
+  std::string twice;                  // message about the first repeated number
+  std::size_t open_model = 0;         // its line; 0: no model is open
+  std::size_t longest = 0, last = 0;  // lengths of atom records without trailing blanks
+  bool is_closed = false;             // by a record that follows all models
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     ++number;
-    // The parser would end the line there, and lose the next one.
+    // The parser would end the line at the NUL and lose the next one.
     if (line.find('\0') != std::string_view::npos)
       throw LoadError(path + ":" + std::to_string(number) +
                       ": a NUL character, expected the text of a PDB or mmCIF file");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sums of occupancies, by alternative location.
+// ConformerChoice: compares sums of occupancies by alternative location.
 #include "io/conformer.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace hinge::molecular {
 
 namespace {
 
-/// Occupancies are hundredths; sums that differ by less are the same.
+/// Occupancies are hundredths: sums that differ by less are equal.
 constexpr double occupancy_tie = 1e-3;
 
 bool has_altloc(const RawResidue& residue, char altloc) {

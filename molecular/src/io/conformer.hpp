@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ConformerChoice: which alternative location of each residue is read.
+// ConformerChoice: chooses the alternative location of each residue.
 #pragma once
 
 #include <cstddef>
@@ -10,29 +10,30 @@
 
 namespace hinge::molecular {
 
-/// One conformer for the whole structure, so that atoms of one are not held against those of another: the one asked
-/// for, else that of the highest summed occupancy, then the first by letter.
+/// Chooses one conformer for the whole structure, so that atoms of different conformers are not tested against each
+/// other: the requested one, otherwise the one of highest summed occupancy, then the first letter.
 class ConformerChoice {
  public:
+  /// Sums the occupancies of the residues that the options keep.
   ConformerChoice(const RawModel& first_model, const ReadOptions& options);
 
-  /// Of residue types that share a position the one with the highest is read.
+  /// Rank of a residue among residue types that share a position; the highest is read.
   double preference(const RawResidue& residue) const;
-  /// The alternative location to read in a residue; '\0' when there is none. One that lacks the structure's conformer
-  /// takes its own of highest occupancy, then the first by letter.
+  /// Returns the alternative location to read in a residue, or '\0' if it has none. A residue without the structure's
+  /// conformer uses its own location of highest occupancy, then the first letter.
   char altloc_of(const RawResidue& residue) const;
 
-  /// For the note: that this residue is read at this location, and that this atom, "A:LYS3:CB at B", is not read.
+  /// Both count for note(): a residue read at a location, and an atom, "A:LYS3:CB at B", that is not read.
   void count(char altloc, const std::string& residue);
   void count_dropped(const std::string& atom);
-  /// Which conformer is read, in one sentence; empty where the file has one only.
+  /// Describes the choice in one sentence; empty if the file has no alternative locations.
   std::string note() const;
 
  private:
   std::optional<char> conformer_;
-  bool asked_for_;
-  std::size_t inside_ = 0, beside_ = 0;  // residues with alternative locations
-  std::size_t dropped_ = 0;              // atoms
+  bool asked_for_;                       ///< requested in the options
+  std::size_t inside_ = 0, beside_ = 0;  // residues with alternative locations: read in conformer_, or not
+  std::size_t dropped_ = 0;              // atoms that were not read
   std::string first_beside_, first_dropped_;
 };
 

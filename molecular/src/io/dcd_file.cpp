@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Records, headers, frames.
+// DcdFile: reads records, headers and frames.
 #include "io/dcd_file.hpp"
 
 #include <array>
@@ -15,10 +15,10 @@ namespace {
 
 constexpr std::string_view dcd_magic = "CORD";
 constexpr std::size_t header_bytes = 84, cell_bytes = 48;
-/// Positions in the twenty integers behind the magic.
+/// Indices in the twenty integers after the magic.
 constexpr std::size_t frame_count_at = 0, fixed_count_at = 8, has_cell_at = 10, has_fourth_at = 11, version_at = 19;
 
-/// The size and order of the length before the magic; 0: none of them.
+/// Returns the size of a record marker and whether its bytes are reversed; size 0: not a DCD file.
 std::pair<std::size_t, bool> markers(const BinaryFile& file) {
   std::array<char, 12> start{};
   const std::size_t got = file.read(0, start);
@@ -46,7 +46,8 @@ std::uint64_t DcdFile::record(std::uint64_t offset, std::uint64_t& next, const s
   const std::span<char> length(bytes.data(), marker_size_);
   file_.read_all(offset, length, what);
   const std::uint64_t size = marker(bytes.data());
-  if (size > file_.size()) file_.read_all(offset + marker_size_, std::size_t{size}, what);  // throws
+  if (size > file_.size())
+    file_.read_all(offset + marker_size_, std::size_t{size}, what);  // the length is damaged: throws
   file_.read_all(offset + marker_size_ + size, length, what);
   if (marker(bytes.data()) != size)
     throw LoadError(file_.name() + ": " + what + ": a record of " + std::to_string(size) + " bytes at byte " +
@@ -67,7 +68,7 @@ DcdFile::DcdFile(BinaryFile file) : file_(std::move(file)) {
   record(0, next, "its header");
   const std::vector<char> header =
       file_.read_all(marker_size_ + dcd_magic.size(), header_bytes - dcd_magic.size(), "its header");
-  const bool is_charmm = integer(header, version_at) != 0;  // X-PLOR has a double where CHARMM has its flags
+  const bool is_charmm = integer(header, version_at) != 0;  // X-PLOR stores a double at the position of CHARMM's flags
   has_cell_ = is_charmm && integer(header, has_cell_at) != 0;
   has_fourth_ = is_charmm && integer(header, has_fourth_at) != 0;
 
@@ -88,7 +89,7 @@ DcdFile::DcdFile(BinaryFile file) : file_(std::move(file)) {
       refuse("the list of moving atoms has " + std::to_string(size) + " bytes, expected " + std::to_string(4 * moving));
     const std::vector<char> list = file_.read_all(list_at, 4 * moving, "its list of moving atoms");
     for (std::size_t k = 0; k < moving; ++k) {
-      const std::int32_t number = integer(list, k);  // from 1
+      const std::int32_t number = integer(list, k);  // counted from 1
       if (number < 1 || number > atoms)
         refuse("moving atom " + std::to_string(number) + ", expected 1 to " + std::to_string(atoms));
       moving_.push_back(static_cast<std::uint32_t>(number - 1));
@@ -96,7 +97,7 @@ DcdFile::DcdFile(BinaryFile file) : file_(std::move(file)) {
   }
   frames_at_ = next;
   if (frames_at_ == file_.size()) {
-    if (integer(header, frame_count_at) == 0) return;  // as a writer leaves it when there was nothing to write
+    if (integer(header, frame_count_at) == 0) return;  // a writer without frames leaves such a file
     throw LoadError(file_.name() + ": holds no frame, its header claims " +
                     std::to_string(integer(header, frame_count_at)));
   }
@@ -117,7 +118,7 @@ void DcdFile::read_axes(std::size_t k, std::uint64_t offset, std::vector<Vec3>& 
   const std::string what = "frame " + std::to_string(k);
   const std::uint64_t count = all ? atoms_ : moving_.size();
   const std::vector<char> bytes = file_.read_all(offset, static_cast<std::size_t>(frame_bytes(count)), what);
-  if (all) positions.resize(atoms_);  // only now: there are bytes for so many
+  if (all) positions.resize(atoms_);  // after read_all, so that a damaged count allocates nothing
   const char* at = bytes.data();
   const auto enter = [&](std::uint64_t expected) {
     const std::uint64_t open = marker(at), closed = marker(at + marker_size_ + expected);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// DcdFile: trajectories of CHARMM, NAMD and X-PLOR.
+// DcdFile: reads trajectories of CHARMM, NAMD and X-PLOR.
 #pragma once
 
 #include <cstddef>
@@ -12,26 +12,29 @@
 
 namespace hinge::molecular {
 
-/// Fortran records of 32-bit numbers, in either byte order, record lengths of four or eight bytes. A frame is an
-/// optional unit cell, the x, the y and the z of its atoms as floats (angstrom), and in CHARMM's 4D dynamics a fourth
-/// coordinate. Atoms that are held fixed are in the first frame only. (CHARMM, dynio.src; VMD, dcdplugin.c.)
+/// Fortran records of 32-bit numbers in either byte order, with record markers of four or eight bytes. A frame is an
+/// optional unit cell, then x, y and z of its atoms as floats (angstrom), and a fourth coordinate in CHARMM's 4D
+/// dynamics. Fixed atoms are stored in the first frame only (CHARMM, dynio.src; VMD, dcdplugin.c).
 class DcdFile {
  public:
-  /// LoadError: the header is damaged, or there is no frame.
+  /// Throws LoadError if the header is damaged, or claims frames in a file without any.
   explicit DcdFile(BinaryFile file);
 
+  /// True if the file starts as a DCD file.
   static bool is_one(const BinaryFile& file);
 
-  /// Frames that begin in the file, whatever its header says.
+  /// Frames that begin in the file, whatever its header claims.
   std::size_t size() const noexcept { return frames_; }
+  /// Atoms per frame.
   std::size_t atom_count() const noexcept { return atoms_; }
+  /// Warnings about the file.
   const std::vector<std::string>& notes() const noexcept { return notes_; }
 
-  /// Angstrom. LoadError: damaged, or cut short.
+  /// Returns the positions of frame k, angstrom. Throws LoadError if it is damaged or cut short.
   std::vector<Vec3> frame(std::size_t k) const;
 
  private:
-  /// A record's length without its two markers; `next` becomes where the next one starts.
+  /// Returns a record's length without its two markers; `next` becomes the offset of the next record.
   std::uint64_t record(std::uint64_t offset, std::uint64_t& next, const std::string& what) const;
   std::uint64_t marker(const char* bytes) const noexcept;
   std::int32_t integer(const std::vector<char>& bytes, std::size_t k) const noexcept {
@@ -41,14 +44,14 @@ class DcdFile {
   void read_axes(std::size_t k, std::uint64_t offset, std::vector<Vec3>& positions, bool all) const;
 
   BinaryFile file_;
-  bool reversed_ = false;
-  std::size_t marker_size_ = 4;
+  bool reversed_ = false;        ///< numbers are not in this machine's byte order
+  std::size_t marker_size_ = 4;  ///< bytes
   bool has_cell_ = false;
-  bool has_fourth_ = false;
+  bool has_fourth_ = false;  ///< a fourth coordinate per atom
   std::size_t atoms_ = 0;
-  std::vector<std::uint32_t> moving_;  ///< atoms of every frame but the first; empty: all of them
-  std::vector<Vec3> first_;            ///< the first frame, where atoms are fixed
-  std::uint64_t frames_at_ = 0;        ///< byte
+  std::vector<std::uint32_t> moving_;  ///< atoms stored in frames after the first; empty: all atoms
+  std::vector<Vec3> first_;            ///< the first frame, if atoms are fixed
+  std::uint64_t frames_at_ = 0;        ///< byte offset
   std::size_t frames_ = 0;
   std::vector<std::string> notes_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers in few columns of a PDB file.
+// hybrid36: large numbers in few columns of a PDB file.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace hinge::molecular {
 
-/// Hybrid-36 (Grosse-Kunstleve) in so many columns: of five, decimal up to 99999, then A0000 ... ZZZZZ, a0000 ... in
-/// base 36.
+/// Returns the hybrid-36 text (Grosse-Kunstleve) of a number. With five columns: decimal up to 99999, then base 36:
+/// A0000 ... ZZZZZ, a0000 ... zzzzz.
 inline std::string hybrid36(std::size_t value, std::size_t width = 5) {
   std::size_t decimal = 1, block = 26, shift = 10;
   for (std::size_t k = 0; k < width; ++k) decimal *= 10;
@@ -26,7 +26,8 @@ inline std::string hybrid36(std::size_t value, std::size_t width = 5) {
   return text;
 }
 
-/// The number of such a field, blanks around it or not; none where it holds another thing.
+/// Returns the number in such a field of five columns, with or without blanks around it; nullopt if it holds other
+/// text.
 inline std::optional<int> read_hybrid36(std::string_view field) {
   const std::size_t first = field.find_first_not_of(' ');
   if (first == std::string_view::npos) return std::nullopt;

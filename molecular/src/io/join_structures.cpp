@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Positions shift by what came before; chains keep their names apart.
+// join_structures: shifts indices by the sizes of the preceding structures and renames chains.
 #include "hinge/molecular/join_structures.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace hinge::molecular {
 
 namespace {
 
-/// A name that no chain has yet.
+/// Returns a chain name that is not taken.
 std::string free_name(const std::set<std::string>& taken) {
   for (const char c : std::string("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"))
     if (!taken.contains({c})) return {c};

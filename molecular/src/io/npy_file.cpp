@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The header is a Python dictionary of three entries.
+// NpyFile: the header is a Python dictionary of three entries.
 #include "io/npy_file.hpp"
 
 #include <array>
@@ -17,9 +17,9 @@ namespace hinge::molecular {
 namespace {
 
 constexpr std::string_view npy_magic = "\x93NUMPY";
-constexpr std::size_t longest_header = 65536;  // more than any that NumPy writes for such an array
+constexpr std::size_t longest_header = 65536;  // longer than any that NumPy writes for three dimensions
 
-/// What stands behind "'key':" and blanks; empty: nothing does.
+/// Returns the text after "'key':" and blanks; empty if the key is missing.
 std::string_view behind(std::string_view header, std::string_view key) {
   for (const char quote : {'\'', '"'}) {
     std::size_t at = header.find(quote + std::string(key) + quote);
@@ -32,7 +32,7 @@ std::string_view behind(std::string_view header, std::string_view key) {
   return {};
 }
 
-/// "(10, 5, 3)"; false: no tuple of whole numbers.
+/// Reads "(10, 5, 3)"; false if the text is not a tuple of integers.
 bool read_tuple(std::string_view text, std::vector<std::uint64_t>& numbers) {
   if (!text.starts_with('(')) return false;
   text.remove_prefix(1);
@@ -87,7 +87,7 @@ NpyFile::NpyFile(BinaryFile file) : file_(std::move(file)) {
   std::vector<std::uint64_t> shape;
   const std::string_view tuple = behind(header, "shape");
   const bool is_tuple = read_tuple(tuple, shape);
-  constexpr std::uint64_t most = std::uint64_t{1} << 48;  // no file holds more, and products stay below 2^64
+  constexpr std::uint64_t most = std::uint64_t{1} << 48;  // larger than any file; products of these stay below 2^64
   if (shape.size() == 2) shape.insert(shape.begin(), 1);
   if (!is_tuple || shape.size() != 3 || shape[2] != 3 || shape[1] == 0 || shape[0] > most || shape[1] > most / 3 / 8)
     refuse("shape " + std::string(tuple.substr(0, tuple.find(')') + 1)) + ", expected frames x atoms x 3");
@@ -96,10 +96,10 @@ NpyFile::NpyFile(BinaryFile file) : file_(std::move(file)) {
   const std::uint64_t frame_bytes = 3 * width_ * shape[1], rest = file_.size() - data_at_;
   const std::uint64_t begun = (rest + frame_bytes - 1) / frame_bytes;
   if (begun > shape[0] || (begun == shape[0] && rest > shape[0] * frame_bytes) ||
-      (fortran_ && rest < shape[0] * frame_bytes))  // every frame would lack some
+      (fortran_ && rest < shape[0] * frame_bytes))  // in a short file every frame lacks numbers
     refuse(std::to_string(rest) + " bytes of data, expected " + std::to_string(shape[0]) + " frames of " +
            std::to_string(frame_bytes));
-  // One frame more than there are whole ones, if any is missing: whoever asks for it is told.
+  // Count an incomplete frame too: reading it throws.
   frames_ = static_cast<std::size_t>(std::min(shape[0], rest / frame_bytes + 1));
 }
 
@@ -110,7 +110,7 @@ std::vector<Vec3> NpyFile::frame(std::size_t k) const {
   if (!fortran_) {
     file_.read_all(data_at_ + k * std::uint64_t{size}, bytes, what);
   } else {
-    // Frames change fastest, then atoms: each number of a frame stands alone, far from the next.
+    // Frames change fastest, then atoms: the numbers of a frame are far apart.
     for (std::uint64_t n = 0; n < 3 * atoms_; ++n) {
       const std::uint64_t atom = n / 3, axis = n % 3;
       file_.read_all(data_at_ + width_ * (k + frames_ * (atom + atoms_ * axis)),

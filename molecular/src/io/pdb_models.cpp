@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Models found line by line; read one by one.
+// PdbModels: finds models line by line and reads one at a time.
 #include "io/pdb_models.hpp"
 
 #include <algorithm>
@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
 
-/// Columns of an atom record that say which atom it is: what, name, altloc, residue; occupancy; segment, element.
+/// Columns of an atom record that identify the atom: record name; atom and residue; occupancy; segment, element and
+/// charge.
 struct Columns {
   std::size_t first, count;
 };
@@ -46,7 +47,7 @@ class PdbModels::Finder {
  public:
   explicit Finder(std::vector<Model>& models) : models_(models) {}
 
-  /// The next line, without its end.
+  /// Adds the next line, without its line end.
   void add(std::string_view line) {
     const bool is_model = line.starts_with("MODEL ");
     if (!open_ && (is_model || is_atom_record(line))) {
@@ -75,7 +76,7 @@ void PdbModels::find_models() {
   Finder finder(models_);
   std::string chunk;
   for (std::uint64_t at = 0; at < file_.size();) {
-    const std::size_t kept = chunk.size();  // the start of a line
+    const std::size_t kept = chunk.size();  // the start of an incomplete line
     chunk.resize(kept + chunk_bytes);
     const std::size_t got = file_.read(at, std::span(chunk).subspan(kept));
     if (got == 0) break;
@@ -107,7 +108,8 @@ PdbModels::PdbModels(BinaryFile file, const Structure& structure, const ReadOpti
     append_identity(records_, line);
     all.push_back(read_pdb_coordinates(line, file_.name(), 0));
   });
-  // The parser takes "atom" and "ATOMX" for atoms, too: the short way must find what it found, or there is none.
+  // The parser also accepts "atom" and "ATOMX" as atoms. Direct reading is used only if it finds the same positions
+  // here.
   for (std::size_t i = 0; i < known.records.size() && !records_.empty(); ++i) {
     kept_.push_back(known.records[i]);
     if (kept_[i] >= all.size() || all[kept_[i]] != known.positions[i]) records_.clear();
@@ -117,7 +119,7 @@ PdbModels::PdbModels(BinaryFile file, const Structure& structure, const ReadOpti
 std::string PdbModels::text(const Model& model) const {
   std::string text(static_cast<std::size_t>(model.end - model.begin), '\0');
   const std::size_t got = file_.read(model.begin, text);
-  text.resize(got);  // the last line may have no end
+  text.resize(got);  // the last line may have no line end
   return text;
 }
 
@@ -146,7 +148,7 @@ std::vector<Vec3> PdbModels::frame(std::size_t k) const {
     same = at < records_.size() && records_.compare(at, identity_bytes, record) == 0;
     all.push_back(read_pdb_coordinates(line, file_.name(), line_number));
   });
-  // Cut short, or another choice of atoms: the long way knows.
+  // The model is cut short or has other records: parse it.
   if (!same || !ended || all.empty() || all.size() * identity_bytes != records_.size())
     return parsed(own, model).positions;
   std::vector<Vec3> positions;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PdbModels: the models of a PDB file one at a time, as frames of a molecule that is known.
+// PdbModels: reads the models of a PDB file one at a time, as frames of a known molecule.
 #pragma once
 
 #include <cstddef>
@@ -16,27 +16,28 @@
 
 namespace hinge::molecular {
 
-/// Where models begin is looked up when the file is opened; of a plain file no more than that stays in memory. Models
-/// are read like any structure, and must hold the molecule's atoms, in its order unless they may have more. Those whose
-/// records are the first one's but for coordinates take the short way: what is kept of one is kept of all.
+/// Finds the offsets of all models when the file is opened; for a plain file only these stay in memory. Models are read
+/// like a structure and must have the molecule's atoms, in its order unless may_have_more. A model whose atom records
+/// equal those of the first one, except coordinates, is read directly: the same records are kept.
 class PdbModels {
  public:
-  /// The structure must outlive this. LoadError: no model, MODEL numbers that
-  /// repeat, or a first model that is damaged or another molecule.
-  /// may_have_more: models may have other atoms beside the structure's, which are left out.
+  /// The structure must outlive this object. may_have_more: models may have further atoms, which are dropped. Throws
+  /// LoadError if there is no model, MODEL numbers repeat, or the first model is damaged or of another molecule.
   PdbModels(BinaryFile file, const Structure& structure, const ReadOptions& options, bool may_have_more);
 
+  /// Number of models.
   std::size_t size() const noexcept { return models_.size(); }
-  /// As its MODEL record says, else its position from 1.
+  /// Number in the MODEL record of model k, otherwise its position from 1.
   int number(std::size_t k) const noexcept { return models_[k].number; }
 
-  /// Positions of the structure's atoms, angstrom. LoadError names line, or atom. OtherAtoms: the model has others.
+  /// Returns the positions of the structure's atoms in model k, angstrom. Throws LoadError, with line or atom, if it is
+  /// damaged, and OtherAtoms if it has other atoms.
   std::vector<Vec3> frame(std::size_t k) const;
 
  private:
   struct Model {
-    std::uint64_t begin = 0, end = 0;  ///< bytes
-    std::size_t line = 0;              ///< lines before it
+    std::uint64_t begin = 0, end = 0;  ///< byte offsets
+    std::size_t line = 0;              ///< number of lines before it
     int number = 0;
   };
   class Finder;
@@ -49,8 +50,8 @@ class PdbModels {
   ReadOptions options_;
   bool may_have_more_;
   std::vector<Model> models_;
-  std::string records_;              ///< what is the same in each atom record of models like the first one
-  std::vector<std::uint32_t> kept_;  ///< which of these records the structure's atoms are
+  std::string records_;              ///< identity columns of each atom record of the first model; empty: always parse
+  std::vector<std::uint32_t> kept_;  ///< indices of these records for the structure's atoms
 };
 
 }  // namespace hinge::molecular

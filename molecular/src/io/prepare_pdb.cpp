@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The text of a PDB file as the parser gets it.
+// prepare_pdb: the text of a PDB file as the parser receives it.
 #include <algorithm>
 #include <charconv>
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace hinge::molecular {
 
 namespace {
 
-/// gemmi looks at four letters, of either case.
+/// gemmi compares four letters, in either case.
 bool is_record(std::string_view line, std::string_view name) {
   return line.size() >= name.size() &&
          std::equal(name.begin(), name.end(), line.begin(), [](char a, char b) { return a == (b & ~0x20); });
@@ -32,12 +32,13 @@ int model_number(std::string_view line, int otherwise) {
 
 PreparedPdb prepare_pdb(const std::string& text, std::size_t columns) {
   constexpr std::size_t length_column = 72;
-  constexpr std::size_t most_atoms = 100000 + 26UL * 36 * 36 * 36 * 36;  // that gemmi reads from five columns
+  constexpr std::size_t most_atoms =
+      100000 + 26UL * 36 * 36 * 36 * 36;  // the largest count that gemmi reads from five columns
   PreparedPdb result;
   std::vector<int>& serials = result.serials;
   std::string& kept = result.text;
   kept.reserve(text.size());
-  int model = 1;  // number of the one that is open or to come
+  int model = 1;  // number of the open or the next model
   bool open = false;
   for (std::size_t first = 0; first < text.size();) {
     const std::size_t end = std::min(text.find('\n', first), text.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// CONECT records of PDB files, which the parser passes over.
+// Reads CONECT records, which the parser ignores, and the bonds that Hinge records in REMARK 999.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +17,8 @@
 namespace hinge::molecular {
 
 std::vector<RawConnection> read_conect(const std::string& text) {
-  constexpr std::size_t serial_column = 6, width = 5, most = 4;  // beyond: hydrogen bonds and salt bridges of old files
+  constexpr std::size_t serial_column = 6, width = 5,
+                        most = 4;  // further fields: hydrogen bonds and salt bridges of old files
   std::map<std::pair<int, int>, int> directed;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
@@ -47,7 +48,7 @@ std::vector<RawConnection> read_conect(const std::string& text) {
 
 namespace {
 
-/// The serial numbers behind a word of a REMARK: pairs of positions from 0, serial numbers being positions from 1.
+/// Reads the serial numbers after a word of a REMARK, as pairs of indices from 0; serial numbers count from 1.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> read_pairs(std::string_view numbers) {
   std::vector<std::uint32_t> found;
   while (!numbers.empty()) {
@@ -77,7 +78,7 @@ std::optional<RecordedBonds> read_recorded(const std::string& text, const std::v
     const std::size_t end = std::min(text.find('\n', at), text.size());
     const std::string_view line = std::string_view(text).substr(at, end - at);
     at = end + 1;
-    if (is_atom_record(line)) break;  // remarks stand before atoms
+    if (is_atom_record(line)) break;  // remarks precede atoms
     if (line.starts_with(head)) {
       const std::string counts(line.substr(head.size()));
       is_recorded = std::sscanf(counts.c_str(), " %zu ATOMS, %zu CONECT PAIRS", &recorded.atoms, &pairs) == 2;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The only file that includes gemmi, which takes long to compile.
+// The parser. The only file that includes gemmi, which takes long to compile.
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -32,7 +32,7 @@ RawAddress address(const gemmi::AtomAddress& a) {
   return {a.chain_name, *a.res_id.seqid.num, or_null(a.res_id.seqid.icode), a.atom_name};
 }
 
-/// What an mmCIF file says. From gemmi 0.7 on it is a number, before a text.
+/// Returns the number of a model. From gemmi 0.7 on it is an int `num`; before, a text `name`.
 template <class Model>
 auto number_of(const Model& model, int) -> decltype(model.num) {
   return model.num;
@@ -54,18 +54,18 @@ ResidueKind kind_of(const std::string& name) {
   return ResidueKind::other;
 }
 
-/// gemmi joins residues and chains that a file has in parts, and keeps no order of atoms through that. So atoms are
-/// numbered from 0 in the place of their serial numbers, which are kept here.
+/// gemmi merges residues and chains that are split in the file, and loses the order of atoms. So serial numbers are
+/// replaced by indices from 0, and kept here.
 struct AtomIds {
-  std::vector<int> serials;
-  std::vector<std::uint32_t> labels;  ///< mmCIF alone: a number for each label_asym_id and label_seq_id
-  std::vector<int> model_numbers;     ///< PDB alone
+  std::vector<int> serials;           ///< serial number in the file, by index
+  std::vector<std::uint32_t> labels;  ///< mmCIF only: a number for each label_asym_id and label_seq_id
+  std::vector<int> model_numbers;     ///< PDB only
 };
 
 RawModel convert(const gemmi::Model& model, int number, const AtomIds& ids) {
   RawModel raw;
   raw.number = number;
-  int first = std::numeric_limits<int>::max();  // of the model
+  int first = std::numeric_limits<int>::max();  // smallest index in the model
   for (const gemmi::Chain& chain : model.chains)
     for (const gemmi::Residue& residue : chain.residues)
       for (const gemmi::Atom& atom : residue.atoms) first = std::min(first, atom.serial);
@@ -79,7 +79,7 @@ RawModel convert(const gemmi::Model& model, int number, const AtomIds& ids) {
       r.insertion_code = or_null(residue.seqid.icode);
       r.hetero = residue.het_flag == 'H';
       r.kind = kind_of(residue.name);
-      std::map<std::uint32_t, std::vector<RawAtom>> parts;  // by label: residues that the authors call the same
+      std::map<std::uint32_t, std::vector<RawAtom>> parts;  // by label: several residues may have the same author name
       for (const gemmi::Atom& atom : residue.atoms) {
         RawAtom a;
         a.name = atom.name;
@@ -103,8 +103,8 @@ RawModel convert(const gemmi::Model& model, int number, const AtomIds& ids) {
   return raw;
 }
 
-/// Leaves of a document what is read of it here: gemmi would refuse a file for other things that are wrong in it, or
-/// unfold them. Its whole numbers wrap around where they leave the range of int; those are refused.
+/// Keeps only the categories that are read here: gemmi would refuse a file for errors in others, or expand them.
+/// gemmi's integers wrap around outside the range of int; such values are refused.
 void keep_what_is_read(gemmi::cif::Document& document) {
   const auto is_read = [](const std::string& tag) {
     for (const char* category :
@@ -113,13 +113,13 @@ void keep_what_is_read(gemmi::cif::Document& document) {
     return false;
   };
   const auto check = [](const std::string& tag, const std::string& value) {
-    if (value.size() <= std::numeric_limits<int>::digits10) return;  // nearly all
+    if (value.size() <= std::numeric_limits<int>::digits10) return;  // nearly all values
     const std::string text = gemmi::cif::as_string(value);
     std::size_t first = std::min(text.find_first_not_of(" \t\n\v\f\r"), text.size());
     if (first < text.size() && (text[first] == '-' || text[first] == '+')) ++first;
     std::size_t end = first;
     while (end < text.size() && text[end] >= '0' && text[end] <= '9') ++end;
-    // Whatever comes behind them: it takes the digits in front of a fraction or a letter, too.
+    // Whatever follows: gemmi also takes the digits before a fraction or a letter as a number.
     if (end - first > std::numeric_limits<int>::digits10)
       throw std::runtime_error(tag + " is " + text + ", expected a number that starts with at most " +
                                std::to_string(std::numeric_limits<int>::digits10) + " digits");
@@ -138,7 +138,7 @@ void keep_what_is_read(gemmi::cif::Document& document) {
     }
 }
 
-/// wwPDB's value_order or the type of a refinement dictionary; both in words of which the first letters count.
+/// Converts wwPDB's value_order or the type of a refinement dictionary; the first letters of the word decide.
 BondOrder bond_order(std::string word, bool aromatic) {
   for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (aromatic) return BondOrder::multiple;
@@ -182,7 +182,7 @@ std::vector<Component> components_of(gemmi::cif::Document& document, const std::
   return components;
 }
 
-/// What write_cif_head wrote of bonds; none: another file, or one that is not as it was written.
+/// Returns the bonds that write_cif_head recorded; nullopt if the file is from another program or was edited.
 std::optional<RecordedBonds> recorded_of(gemmi::cif::Document& document) {
   if (document.blocks.empty()) return std::nullopt;
   const auto read = [](const std::string& text) {
@@ -204,10 +204,10 @@ std::optional<RecordedBonds> recorded_of(gemmi::cif::Document& document) {
   return recorded;
 }
 
-/// A message on one line that names the file.
+/// Throws LoadError with the message on one line and the file's name.
 [[noreturn]] void refuse_file(const std::exception& error, const std::string& path) {
   std::string what = error.what();
-  std::replace(what.begin(), what.end(), '\n', ' ');  // some messages quote a line with its end
+  std::replace(what.begin(), what.end(), '\n', ' ');  // some messages quote a line with its line end
   throw LoadError(what.find(path) != std::string::npos ? what : path + ": " + what);
 }
 
@@ -244,10 +244,9 @@ gemmi::Structure parse(const std::string& bytes, const std::string& path, bool c
     return gemmi::read_pdb_from_memory(pdb.text.data(), pdb.text.size(), path, options);
   };
   try {
-    return read(120);  // more than it looks at
+    return read(120);  // more columns than gemmi reads
   } catch (const std::exception& first) {
-    // Files from before 1996 carry the entry's name and a line number in columns 73-80, where element and charge are
-    // now.
+    // Before 1996, columns 73-80 held the entry's name and a line number; now they hold segment, element and charge.
     try {
       gemmi::Structure st = read(72);
       raw.notes.emplace_back("old PDB format: columns 73-80 ignored, elements taken from atom names");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bytes, checks, parser, assembly, bonds.
+// read_structure: reads the bytes, checks and parses them, assembles a structure and finds its bonds.
 #include "hinge/molecular/read_structure.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace hinge::molecular {
 
-// Its first word that is no comment is data_..., loop_ or an item; PDB lines start otherwise.
+// The first word of an mmCIF file that is not a comment is data_..., loop_ or an item; PDB lines start otherwise.
 bool looks_like_cif(const std::string& bytes) {
   std::size_t line = 0;
   while (line < bytes.size()) {
@@ -33,9 +33,8 @@ bool looks_like_cif(const std::string& bytes) {
 
 namespace {
 
-/// What a file may unpack to: harmless, or this many times what was read of it. Structures shrink 4 to 10 times, models
-/// of a small molecule that are the same but for one side chain 84 times, all the same 109 times; a file made to fill
-/// the memory shrinks 1000 times.
+/// Limit of the unpacked size: harmless + most_times * bytes read. Structures shrink 4 to 10 times, equal models of a
+/// small molecule 109 times (84 times if one side chain moves); a file made to fill the memory shrinks 1000 times.
 constexpr std::size_t harmless = std::size_t{64} << 20, most_times = 200;
 
 std::string stem(std::filesystem::path path) {
@@ -43,10 +42,10 @@ std::string stem(std::filesystem::path path) {
   return path.stem().string();
 }
 
-/// Finds the end of a PDB file's first model in text that grows, when another model follows.
+/// Finds the end of a PDB file's first model in text that arrives in pieces, if another model follows.
 class FirstModel {
  public:
-  /// Where the model ends, or npos: not known yet, or nothing follows it so far.
+  /// Returns the offset of the model's end, or npos if it is unknown or nothing follows so far.
   std::size_t end(std::string_view text) {
     for (std::size_t line_end = 0; (line_end = text.find('\n', next_)) != std::string_view::npos;
          next_ = line_end + 1) {
@@ -62,10 +61,10 @@ class FirstModel {
 
  private:
   std::size_t end_ = std::string_view::npos;
-  std::size_t next_ = 0;  // the line to look at next
+  std::size_t next_ = 0;  // offset of the next line
 };
 
-/// Takes whole lines off the start of `text`; CONECT records, which stand behind all models, go to the end of `bytes`.
+/// Removes whole lines from the start of `text` and appends CONECT records, which follow all models, to `bytes`.
 void move_conect(std::string& text, std::string& bytes) {
   std::size_t line = 0;
   for (std::size_t end = 0; (end = text.find('\n', line)) != std::string::npos; line = end + 1)
@@ -77,7 +76,7 @@ void move_conect(std::string& text, std::string& bytes) {
 
 std::string read_bytes(const std::filesystem::path& path, bool first_model, bool* cut_short) {
   UnpackedFile file(path);
-  std::string bytes, rest;  // rest: what was read behind the first model and not looked at yet
+  std::string bytes, rest;  // rest: text after the first model, not yet searched for CONECT
   FirstModel first;
   bool behind = false;
   std::size_t total = 0;
@@ -85,7 +84,7 @@ std::string read_bytes(const std::filesystem::path& path, bool first_model, bool
   while (const std::size_t got = file.read(chunk)) {
     (behind ? rest : bytes).append(chunk.data(), got);
     total += got;
-    // Plain files never get there: they are as long as what was read of them.
+    // Plain files never exceed this: total equals the bytes read.
     if (const std::uint64_t read = file.packed(); total > harmless + most_times * read)
       throw LoadError(path.string() + ": " + std::to_string(read) + " bytes unpack to more than " +
                       std::to_string(total) + ", expected at most 64 MiB + " + std::to_string(most_times) +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Labels; what atoms there are.
+// Structure: labels of atoms, and the search for hydrogens.
 #include "hinge/molecular/structure.hpp"
 
 #include <algorithm>

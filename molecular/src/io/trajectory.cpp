@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The formats behind one face.
+// Trajectory: selects the reader of a file by its content.
 #include "hinge/molecular/trajectory.hpp"
 
 #include <concepts>
@@ -19,11 +19,11 @@
 namespace hinge::molecular {
 
 struct Trajectory::Format {
-  /// Models that are in memory.
+  /// Models in memory.
   struct Models {
-    std::vector<std::vector<Vec3>> own;  ///< empty: the molecule's
+    std::vector<std::vector<Vec3>> own;  ///< empty: the molecule's own models
     std::vector<int> numbers;
-    std::vector<std::string> refusals;  ///< of each model that has other atoms, why it is no frame; else empty
+    std::vector<std::string> refusals;  ///< per model: why it is not a frame, if it has other atoms; otherwise empty
     const Structure& molecule;
 
     std::size_t size() const noexcept { return numbers.size(); }
@@ -41,7 +41,7 @@ struct Trajectory::Format {
 
   static Format open(const std::filesystem::path& path, const Structure& molecule, const ReadOptions& options,
                      bool may_have_more);
-  /// Of mmCIF.
+  /// Reads the models of an mmCIF file.
   static Models models(const std::filesystem::path& path, const Structure& molecule, const ReadOptions& options,
                        bool may_have_more);
 };
@@ -114,12 +114,12 @@ void Trajectory::check_unit() {
   try {
     positions = kept(frame(0));
   } catch (const LoadError&) {
-    return;  // whoever asks for the frame is told
+    return;  // frame(0) reports the error
   }
   double sum = 0.0;
   for (const Bond& bond : molecule_->bonds) sum += (positions[bond.first] - positions[bond.second]).norm();
   const double mean = sum / static_cast<double>(molecule_->bonds.size());
-  // Bonds of organic molecules measure 1 to 2 angstrom, a tenth of that in nanometres.
+  // Bonds of organic molecules measure 1 to 2 angstrom: 0.1 to 0.2 if the unit is nanometres.
   if (!molecule_->bonds.empty() && mean < 0.3)
     notes_.push_back(path_ + ": bonds are " + number_text(mean) +
                      " long in its first frame, like nanometres; it is read as angstrom");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// zlib's inflate, member by member.
+// UnpackedFile: unpacks gzip members with zlib's inflate.
 #include "io/unpacked_file.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace hinge::molecular {
 
 UnpackedFile::UnpackedFile(const std::filesystem::path& path)
     : file_(path, "a PDB or mmCIF file"), packed_(std::size_t{1} << 16U) {
-  constexpr int gzip_alone = 15 + 16;  // window bits, as inflateInit2 wants them
+  constexpr int gzip_alone = 15 + 16;  // inflateInit2's window bits for gzip only
   is_gzipped_ = fill() && stream_.avail_in >= 2 && packed_[0] == '\x1f' && packed_[1] == '\x8b';
   if (is_gzipped_ && inflateInit2(&stream_, gzip_alone) != Z_OK) throw std::bad_alloc();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// UnpackedFile: the bytes of a file, gunzipped where it is gzipped.
+// UnpackedFile: the bytes of a file, gunzipped if it is gzipped.
 #pragma once
 
 #include <zlib.h>
@@ -15,24 +15,24 @@
 
 namespace hinge::molecular {
 
-/// A gzipped file is one or more members and nothing else, but for zeros that fill up the last block of a tape. zlib's
-/// own gzread takes whatever else stands behind a member for the end of the file, and drops it.
+/// A gzipped file consists of one or more members; only zeros, which pad the last block of a tape, may follow. zlib's
+/// gzread would stop at any other data after a member and drop them silently.
 class UnpackedFile {
  public:
-  /// LoadError as InputFile's.
+  /// Throws LoadError as tool::InputFile does.
   explicit UnpackedFile(const std::filesystem::path& path);
   UnpackedFile(const UnpackedFile&) = delete;
   UnpackedFile& operator=(const UnpackedFile&) = delete;
   ~UnpackedFile();
 
-  /// The next bytes; 0: the file is at its end. LoadError naming file and byte: damaged, cut short, or followed by what
-  /// is no gzip member.
+  /// Reads the next bytes and returns their number; 0 at the end of the file. Throws LoadError, with file and byte, if
+  /// it is damaged, cut short, or followed by data that are not a gzip member.
   std::size_t read(std::span<char> to);
-  /// Bytes of the file that were taken so far.
+  /// Number of bytes of the file consumed so far.
   std::uint64_t packed() const noexcept { return file_.position() - stream_.avail_in; }
 
  private:
-  /// Reads on when nothing is left; false: the file is at its end.
+  /// Reads more bytes if none are left; false at the end of the file.
   bool fill();
   std::size_t unpack(std::span<char> to);
   [[noreturn]] void refuse(const std::string& what) const;

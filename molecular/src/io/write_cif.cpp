@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// mmCIF: loops of the PDBx dictionary, and one of our own for bonds. Numbers become text before they go to the stream,
-// whose locale may group their digits.
+// mmCIF: loops of the PDBx dictionary, and a category of Hinge for bonds. Numbers are converted to text first: the
+// stream's locale could group digits.
 #include <map>
 #include <ostream>
 #include <set>
@@ -18,7 +18,7 @@ namespace hinge::molecular {
 
 namespace {
 
-/// A value of a loop: quoted where it holds anything but letters, digits and - + * / : too.
+/// A value of a loop; quoted if it has characters other than letters, digits and - + * / :.
 std::string value(const std::string& text) {
   if (text.empty()) return ".";
   constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+-*/:";
@@ -32,13 +32,13 @@ bool is_hetero_record(const Residue& residue) {
   return residue.kind == ResidueKind::other || residue.kind == ResidueKind::water;
 }
 
-/// Its place among the residues of its chain, as label_seq_id; hetero residues have none.
+/// label_seq_id: the residue's index in its chain, from 1; "." for hetero residues.
 std::string sequence_id(const Structure& s, std::uint32_t r) {
   return is_hetero_record(s.residues[r]) ? "." : std::to_string(r - s.chains[s.residues[r].chain].first_residue + 1);
 }
 
-/// label_asym_id of every residue: its chain's name. Hetero residues that the authors call as one before them, which no
-/// label_seq_id tells apart, get a name of their own: "A-1", "A-2" ...
+/// label_asym_id of every residue: the name of its chain. Hetero residues that repeat an earlier author name would be
+/// ambiguous, because they have no label_seq_id: they get a name of their own, "A-1", "A-2" ...
 std::vector<std::string> label_chains(const Structure& s) {
   std::set<std::string> names;
   for (const Chain& chain : s.chains) names.insert(chain.name);
@@ -63,7 +63,7 @@ std::string insertion_code(const Residue& residue) {
 std::string_view order_word(BondOrder order) {
   switch (order) {
     case BondOrder::single: return "sing";
-    case BondOrder::multiple: return "delo";  // double, triple or aromatic: Hinge does not tell
+    case BondOrder::multiple: return "delo";  // double, triple or aromatic: BondOrder does not distinguish them
     case BondOrder::coordination:
     case BondOrder::unknown: break;
   }
@@ -126,7 +126,7 @@ void write_connections(std::ostream& out, const Structure& s, const std::vector<
   if (count > 0) out << "#\n";
 }
 
-/// Of residues whose bonds are recorded, by residue name: the bonds of all that bear it.
+/// Writes the recorded bonds inside residues, by residue name: the union over all residues of that name.
 void write_components(std::ostream& out, const Structure& s, const RecordedBonds& recorded) {
   std::map<std::tuple<std::string, std::string, std::string>, BondOrder> bonds;
   for (const RecordedBond& bond : recorded.bonds) {

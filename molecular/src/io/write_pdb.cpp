@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PDB format 3.3 columns. Numbers become text before they go to the stream, whose locale may group their digits.
+// PDB format 3.3. Numbers are converted to text first: the stream's locale could group digits.
 #include <algorithm>
 #include <cmath>
 #include <ostream>
@@ -29,7 +29,7 @@ std::string left(std::string text, std::size_t width) {
 
 std::string fixed(double value, int digits, std::size_t width) { return right(fixed_text(value, digits), width); }
 
-/// A name of fewer than four characters starts in column 14 when its element symbol has one letter.
+/// The atom name's columns: a name of fewer than four characters starts in column 14 if its element has one letter.
 std::string atom_field(const Atom& atom) {
   return left(atom.name.size() < 4 && atom.element.size() < 2 ? " " + atom.name : atom.name, 4);
 }
@@ -45,14 +45,14 @@ char chain_of(const Structure& s, const Residue& residue) {
   return name.empty() ? ' ' : name.front();
 }
 
-/// Four columns of number and one of insertion code.
+/// Four columns of residue number and one of insertion code.
 std::string number_field(const Residue& residue) {
   const int number = residue.sequence_number;
   return right(number < 0 ? std::to_string(number) : hybrid36(static_cast<std::size_t>(number), 4), 4) +
          (residue.insertion_code == '\0' ? ' ' : residue.insertion_code);
 }
 
-/// "CYS A  32 ", as SSBOND and HELIX have residues.
+/// "CYS A  32 ", the form of residues in SSBOND and HELIX.
 std::string residue_field(const Structure& s, const Residue& residue) {
   return right(residue.name, 3) + ' ' + chain_of(s, residue) + ' ' + number_field(residue);
 }
@@ -72,7 +72,7 @@ void write_elements(std::ostream& out, const Structure& s) {
       out << "HELIX  " << name << ' ' << name << ' ' << residue_field(s, first) << ' ' << residue_field(s, last) << " 1"
           << right("", 30) << ' ' << right(std::to_string(element.last - element.first + 1), 5) << "\n";
     } else {
-      const std::string name = right(std::to_string(++strands % 1000), 3);  // each a sheet of its own
+      const std::string name = right(std::to_string(++strands % 1000), 3);  // every strand is a sheet of its own
       out << "SHEET    1 " << name << " 1 " << right(first.name, 3) << ' ' << chain_of(s, first) << number_field(first)
           << ' ' << right(last.name, 3) << ' ' << chain_of(s, last) << number_field(last) << " 0\n";
     }
@@ -103,7 +103,7 @@ void write_links(std::ostream& out, const Structure& s) {
   out << links;
 }
 
-/// "REMARK 999 SINGLE  1     2     1     3", five pairs a line.
+/// Writes "REMARK 999 SINGLE  1     2     1     3", five pairs per line.
 void write_pairs(std::ostream& out, std::string_view word, const std::vector<RecordedBond>& bonds, bool bonded) {
   std::size_t count = 0;
   for (const RecordedBond& bond : bonds) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Atom specifications as ChimeraX and PyMOL write them.
+// Scripts that mark pairs, with atom specifications of ChimeraX and PyMOL.
 #include "hinge/molecular/write_structure.hpp"
 
 #include <ostream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers are written in this machine's byte order, which DCD and NumPy files name.
+// TrajectoryWriter: numbers have this machine's byte order, which readers of DCD and NumPy files detect.
 #include "hinge/molecular/write_trajectory.hpp"
 
 #include <array>
@@ -31,12 +31,12 @@ void put_record(std::string& bytes, std::string_view content) {
   put(bytes, size);
 }
 
-/// As DcdFile reads them; a version above 0 says that there are CHARMM's flags, all 0.
+/// The header of a DCD file, as DcdFile reads it; a version above 0 means CHARMM's flags, all 0 here.
 std::string dcd_head(std::size_t frames, std::size_t atoms) {
   constexpr std::int32_t charmm_version = 24;
   std::array<std::int32_t, 20> numbers{};
   numbers[0] = static_cast<std::int32_t>(frames);
-  numbers[1] = numbers[2] = 1;  // first step, and steps between frames
+  numbers[1] = numbers[2] = 1;  // first step; steps between frames
   numbers[3] = static_cast<std::int32_t>(frames);
   numbers[19] = charmm_version;
   std::string head = "CORD", title, bytes;
@@ -52,7 +52,7 @@ std::string dcd_head(std::size_t frames, std::size_t atoms) {
   return bytes;
 }
 
-/// shape: "10, 5, 3".
+/// The header of a NumPy file. shape: "10, 5, 3".
 std::string npy_head(const std::string& shape, bool single) {
   std::string text = "{'descr': '";
   text += std::endian::native == std::endian::little ? '<' : '>';
@@ -60,7 +60,7 @@ std::string npy_head(const std::string& shape, bool single) {
   text += "', 'fortran_order': False, 'shape': (";
   text += shape;
   text += "), }";
-  constexpr std::uint16_t length = 128 - 10;  // room for any number of frames, and data at a multiple of 64
+  constexpr std::uint16_t length = 128 - 10;  // fits any number of frames, and aligns the data to 64 bytes
   text.resize(length - 1, ' ');
   text += '\n';
   std::string bytes("\x93NUMPY\x01\x00", 8);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The format of GROMACS' XTC files (F. van Hoesel's xdr3dfcoord; manual, "xtc"), read from its description. Coordinates
-// are whole numbers. One atom is packed in the range of all, then up to ten in a small range about the one before it.
+// Unpacks the coordinates of GROMACS' XTC files (F. van Hoesel's xdr3dfcoord; GROMACS manual, "xtc"); written from its
+// description. Coordinates are integers. An atom is packed in the range of all atoms; up to ten atoms after it are
+// packed as small differences from their predecessor.
 #include "io/xtc_coordinates.hpp"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ namespace {
 
 __extension__ using UInt128 = unsigned __int128;
 
-/// Small small_ranges by number: about the cube root of 2^number, so that three of them take that many bits.
+/// Small ranges by number: about the cube root of 2^number, so that three values take that many bits.
 constexpr std::array<std::uint32_t, 73> small_ranges = {
     0,       0,       0,       0,       0,        0,        0,       0,       0,       8,       10,
     12,      16,      20,      25,      32,       40,       50,      64,      80,      101,     128,
@@ -26,22 +27,23 @@ constexpr std::array<std::uint32_t, 73> small_ranges = {
     330280,  416127,  524287,  660561,  832255,   1048576,  1321122, 1664510, 2097152, 2642245, 3329021,
     4194304, 5284491, 6658042, 8388607, 10568983, 13316085, 16777216};
 constexpr std::int32_t first_range = 9;
-/// Ranges beyond it are packed one by one.
+/// Axes with larger ranges are packed separately.
 constexpr std::uint64_t largest_together = 0xffffff;
 
-/// Bits from the most significant one of each byte on.
+/// Reads bits, from the most significant one of each byte.
 class BitReader {
  public:
   explicit BitReader(std::span<const char> bits) : bits_(bits), end_(8 * (bits.size() - xtc_padding)) {}
 
-  /// At most 32.
+  /// Returns the next `count` bits as a number; at most 32.
   std::uint32_t number(unsigned count) noexcept {
     const std::uint64_t value = count == 0 ? 0 : window() >> (64 - count);
     position_ += count;
     return static_cast<std::uint32_t>(value);
   }
 
-  /// At most 72 bits, the bytes of a number from the least significant one on; the last may be part of one.
+  /// Returns the next `count` bits (at most 72) as a number, least significant byte first; the last byte may be
+  /// partial.
   UInt128 bytes(unsigned count) noexcept {
     if (count > 64) {
       const UInt128 low = bytes(64);
@@ -55,12 +57,13 @@ class BitReader {
     return whole == 64 ? low : low | part << whole;
   }
 
+  /// True if bits after the end were read.
   bool overrun() const noexcept { return position_ > end_; }
 
  private:
-  /// The next 64 bits.
+  /// Returns the next 64 bits without consuming them.
   std::uint64_t window() const noexcept {
-    // Whoever has read beyond the end is stopped by overrun() soon, and until then reads the last words again.
+    // A read after the end returns the last words again; overrun() reports it later.
     const std::size_t byte = std::min(position_ / 8, bits_.size() - 9);
     const unsigned shift = position_ % 8;
     std::uint64_t word = 0;
@@ -77,7 +80,7 @@ class BitReader {
 
 using Steps = std::array<std::int64_t, 3>;
 
-/// Three numbers below their sizes, packed as one in mixed radix.
+/// Unpacks three numbers, each below its size, from one number in mixed radix.
 Steps unpack(BitReader& bits, unsigned count, const std::array<std::uint64_t, 3>& sizes) noexcept {
   const UInt128 packed = bits.bytes(count);
   Steps cell{};
@@ -133,7 +136,7 @@ std::vector<Vec3> unpack_xtc(const XtcBlock& block, std::span<const char> bits, 
     positions.emplace_back(angstrom(cell[0]), angstrom(cell[1]), angstrom(cell[2]));
   };
   BitReader reader(bits);
-  unsigned run = 0;  // small atoms that follow; stays what it was when nothing is said
+  unsigned run = 0;  // number of small atoms that follow; unchanged if the flag bit is 0
   while (positions.size() < atoms) {
     Steps large{};
     if (together)
@@ -141,7 +144,7 @@ std::vector<Vec3> unpack_xtc(const XtcBlock& block, std::span<const char> bits, 
     else
       for (std::size_t k = 0; k < 3; ++k) large[k] = reader.number(static_cast<unsigned>(std::bit_width(sizes[k])));
     large = large + least;
-    std::int32_t change = 0;  // of the small range
+    std::int32_t change = 0;  // of the number of the small range
     if (reader.number(1) != 0) {
       const std::uint32_t said = reader.number(5);
       run = said / 3;
@@ -154,7 +157,7 @@ std::vector<Vec3> unpack_xtc(const XtcBlock& block, std::span<const char> bits, 
     for (unsigned k = 0; k < run; ++k) {
       last = unpack(reader, static_cast<unsigned>(small), {size, size, size}) + last + half;
       put(last);
-      if (k == 0) put(large);  // the first two change places: an oxygen, in the middle of its water, is nearer to both
+      if (k == 0) put(large);  // the first two are swapped: a water's oxygen, stored second, is near both hydrogens
     }
     if (run == 0) put(large);
     if (reader.overrun()) refuse("coordinates go on behind their end");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Headers of frames.
+// XtcFile: reads the headers of frames and passes their coordinates to unpack_xtc.
 #include "io/xtc_file.hpp"
 
 #include <array>
@@ -15,13 +15,13 @@ namespace hinge::molecular {
 
 namespace {
 
-constexpr std::int32_t xtc_magic = 1995, magic_of_large_systems = 2023;  // the latter: lengths of 64 bits
+constexpr std::int32_t xtc_magic = 1995, magic_of_large_systems = 2023;  // the latter: 64-bit data lengths
 constexpr bool swaps_bytes = std::endian::native == std::endian::little;
-/// Bytes: magic, atoms, step, time, box of nine, atoms again.
+/// Bytes of magic, atoms, step, time, box of nine, atoms again.
 constexpr std::size_t plain_head = 56;
-/// And precision, least and largest coordinates, small range, length.
+/// Adds precision, smallest and largest coordinates, small range, data length.
 constexpr std::size_t packed_head = plain_head + 4 + 12 + 12 + 4 + 4;
-/// Frames of so few atoms are plain floats.
+/// Frames of so few atoms are stored as plain floats.
 constexpr std::int32_t most_plain_atoms = 9;
 
 std::int32_t integer(const char* bytes) noexcept { return number_at<std::int32_t>(bytes, swaps_bytes); }
@@ -43,14 +43,14 @@ XtcFile::XtcFile(BinaryFile file) : file_(std::move(file)) {
     try {
       h = head(offset);
     } catch (const LoadError&) {
-      break;  // whoever asks for this frame is told
+      break;  // frame() reports the error when this frame is read
     }
     if (frames_at_.size() == 1) atoms_ = static_cast<std::size_t>(h.atoms);
     const std::uint64_t padded = (static_cast<std::uint64_t>(h.data_size) + 3) / 4 * 4;
     if (padded > file_.size() - h.data_at) break;
     offset = h.data_at + padded;
   }
-  if (atoms_ == 0) frame(0);  // damaged: throws
+  if (atoms_ == 0) frame(0);  // the first header is damaged: throws
 }
 
 XtcFile::Head XtcFile::head(std::uint64_t offset) const {
@@ -84,7 +84,7 @@ XtcFile::Head XtcFile::head(std::uint64_t offset) const {
   h.data_at = offset + size;
   h.data_size =
       h.magic == xtc_magic ? integer(at + packed_head - 4) : number_at<std::int64_t>(at + packed_head - 4, swaps_bytes);
-  // No atom takes less than two bits.
+  // Every atom takes at least two bits.
   if (h.data_size <= 0 || h.atoms / 4 > h.data_size)
     refuse("coordinates of " + std::to_string(h.data_size) + " bytes for " + std::to_string(h.atoms) + " atoms");
   return h;

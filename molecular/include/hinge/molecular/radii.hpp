@@ -69,8 +69,7 @@ struct ThresholdOptions {
 
 /// The thresholds of a structure and the data to report them. Tables are type x type, row-major, angstrom.
 struct Thresholds {
-  TypedThresholds matrix{
-      {}, 0, {}};  ///< the distance matrix of the hierarchy: a type per atom, a threshold per pair of types
+  TypedThresholds matrix{{}, 0, {}};          ///< distance matrix: a type per atom, a threshold per pair of types
   std::vector<std::string> type_names{};      ///< name of each type: "C", "C.aromatic", "H.polar", "Zn"
   std::vector<double> table{};                ///< thresholds M
   std::vector<double> contact{};              ///< distance at which the overlap of two atoms is 0 (Severity)

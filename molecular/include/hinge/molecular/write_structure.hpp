@@ -14,8 +14,8 @@
 namespace hinge::molecular {
 
 /// Throws ModelError, with the chain, residue or atom, if PDB columns cannot hold the structure: a chain name longer
-/// than one character, a residue name longer than three, an atom name longer than four, or a residue number outside
-/// -999 and the range of hybrid-36.
+/// than one character, a residue name longer than three, an atom name longer than four, or a residue number below
+/// -999 or beyond hybrid-36.
 void check_fits_pdb(const Structure& structure);
 
 /// Writes the records before the models of a PDB file: HELIX, SHEET, SSBOND, LINK (bonds between residues that are not
