@@ -54,7 +54,7 @@ struct Options {
   std::optional<double> sampled;  // rad or m, test states at this distance; empty: certify
   double min_step = hinge::smallest_path_step;
   // matrix
-  hinge::robotics::MatrixOptions matrix;  // its clearance is replaced by the one above
+  hinge::robotics::MatrixOptions matrix;  // its clearance is replaced by `clearance` above
   bool disable_unseen = false;
   // check: CSV file of the configurations, empty: none; matrix: SRDF file, empty: standard output
   std::string out;

@@ -118,8 +118,8 @@ std::vector<std::size_t> parts(std::span<const Triangle> mesh) {
 
 Place place_of(const Vec3& point, std::span<const Triangle> closed_mesh) noexcept {
   // Adds the orientations of all triangles that the ray from the point towards +z crosses. The shift of pushed_side()
-  // keeps the ray off edges and vertices. A triangle whose plane contains the point and that the ray meets contains the
-  // point itself; the infinitesimal shift does not change this.
+  // keeps the ray off edges and vertices. If the ray crosses a triangle whose plane contains the point, the triangle
+  // contains the point; the infinitesimal shift does not change this.
   std::ptrdiff_t winding = 0;
   for (const Triangle& t : closed_mesh) {
     double low = std::min({t.a[0], t.b[0], t.c[0]}), high = std::max({t.a[0], t.b[0], t.c[0]});

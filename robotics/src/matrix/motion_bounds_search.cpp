@@ -76,7 +76,7 @@ PairSearch::Result PairSearch::run(const std::vector<Interval>& box, std::size_t
   pairs_.clear();
   parent_pairs_ = {{0, 0}};
   Outcome outcome = most_cells > 0 ? try_box() : Outcome::open;
-  // The links may meet in one half only, so both halves are tried before either is divided.
+  // The links may collide in one half only, so both halves are tested before either is divided.
   while (outcome != Outcome::met && !cells_.empty() && result_.cells + 2 <= most_cells) {
     const Cell cell = cells_.back();
     cells_.pop_back();

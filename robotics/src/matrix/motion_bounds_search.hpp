@@ -22,7 +22,7 @@ class SweptTree {
   SweptTree(const Robot& robot, const BallTree& tree);
 
   const BallTree& tree() const noexcept { return *tree_; }
-  /// Starts a new box. pose: link pose at the middles; joints: those that sweep the tree, in this order.
+  /// Starts a new box. pose: link pose at the middles; joints: the joints that sweep the tree, in this order.
   void begin(const Pose& pose, std::vector<detail::AxisInterval> joints);
   struct Swept {
     Vec3 start;              ///< the ball's centre at the middles of the intervals
@@ -67,7 +67,7 @@ class PairSearch {
   struct NodePair {
     std::uint32_t a = 0, b = 0;
   };
-  /// A box that was tried and stayed open. Its data in intervals_ and pairs_ end where those of the next cell begin.
+  /// A box that was tried and stayed open. Its data in intervals_ and pairs_ end at the first entry of the next cell.
   struct Cell {
     std::size_t first_interval = 0;
     std::size_t first_pair = 0;

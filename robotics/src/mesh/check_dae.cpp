@@ -106,7 +106,7 @@ class DaeCheck {
     if (!read_.insert(source).second)
       file_.refuse(accessor.GetLineNum(), tag(accessor) + " is not the only one of <source id=\"" + source + "\">");
     const auto array = arrays_.find(named_by(accessor, "source"));
-    if (array == arrays_.end()) return;  // no such array: check_dae_mesh() refuses uses of the source
+    if (array == arrays_.end()) return;  // no such array: check_dae_mesh() refuses any use of the source
     const std::int64_t count = accessor.Int64Attribute("count", 0), offset = accessor.Int64Attribute("offset", 0),
                        stride = accessor.Int64Attribute("stride", 1);
     std::int64_t parameters = 0;

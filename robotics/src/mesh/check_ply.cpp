@@ -52,7 +52,7 @@ void check_ply(const std::string& bytes, const std::string& path) {
   constexpr std::array<std::string_view, 5> known{"format", "comment", "obj_info", "element", "property"};
   std::size_t number = 0, vertex_line = 0;
   bool of_vertex = false;
-  std::string missing;  // those of x, y and z not seen yet; assimp would use 0
+  std::string missing;  // letters of x, y and z not seen yet; assimp would use 0
   std::string_view rest = bytes;
   while (!rest.empty()) {
     const std::size_t end = rest.find('\n');

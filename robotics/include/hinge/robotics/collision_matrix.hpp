@@ -40,10 +40,10 @@ struct MatrixOptions {
 struct MatrixEntry {
   LinkId link1{};  ///< always less than link2
   LinkId link2{};
-  PairKind kind = PairKind::unseen;  ///< what is known about the pair
-  std::size_t samples = 0;           ///< number of samples tested; 0 for adjacent pairs
-  std::size_t hits = 0;              ///< number of samples in which the links were too close
-  std::size_t cells = 0;             ///< number of boxes of joint values that the search tried
+  PairKind kind = PairKind::unseen;
+  std::size_t samples = 0;  ///< number of samples tested; 0 for adjacent pairs
+  std::size_t hits = 0;     ///< number of samples in which the links were too close
+  std::size_t cells = 0;    ///< number of boxes of joint values that the search tried
   /// Smallest distance (m) between the two surfaces that the search computed at a configuration. It is an upper bound
   /// on the true smallest distance. Empty if the search computed no distance: bounding volumes were sufficient, or the
   /// pair was not searched.

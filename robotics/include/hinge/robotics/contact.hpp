@@ -45,24 +45,24 @@ struct ClosestLinks {
 /// A link that is too close to a body. If `held` is set: the body `held`, attached to `link`, is too close to another
 /// body. hit.first is a triangle of the link (or of the held body), hit.second a triangle of `body`.
 struct BodyContact {
-  LinkId link{};
+  LinkId link{};                 ///< the link, or the link that holds `held`
   std::optional<BodyId> held{};  ///< the attached body; empty: the link itself
-  BodyId body{};
-  Hit hit;  ///< as in LinkContact
+  BodyId body{};                 ///< the body that it is too close to
+  Hit hit;                       ///< as in LinkContact
 };
 
 /// The closest pair of a link (or held body) and a body. Numbers as in ClosestLinks; point1 is on the link (or held
 /// body), point2 on `body`.
 struct ClosestBody {
-  LinkId link{};  ///< the attached body; empty: the link itself
-  std::optional<BodyId> held{};
-  BodyId body{};
-  PrimitiveId triangle1{};  ///< of the link or held body
-  PrimitiveId triangle2{};  ///< of `body`
-  double distance = 0.0;    ///< m, as in ClosestLinks
-  double gap = 0.0;         ///< m, as in ClosestLinks
-  Vec3 point1 = Vec3::Zero();
-  Vec3 point2 = Vec3::Zero();
+  LinkId link{};                 ///< the link, or the link that holds `held`
+  std::optional<BodyId> held{};  ///< the attached body; empty: the link itself
+  BodyId body{};                 ///< the body that it is closest to
+  PrimitiveId triangle1{};       ///< of the link or held body
+  PrimitiveId triangle2{};       ///< of `body`
+  double distance = 0.0;         ///< m, as in ClosestLinks
+  double gap = 0.0;              ///< m, as in ClosestLinks
+  Vec3 point1 = Vec3::Zero();    ///< on the link (or held body), world frame
+  Vec3 point2 = Vec3::Zero();    ///< on `body`, world frame
 
   /// Returns true if the pair touches, overlaps or is closer than its clearance.
   bool collides() const noexcept { return gap < 0.0 || distance == 0.0; }

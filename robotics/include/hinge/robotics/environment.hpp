@@ -39,8 +39,8 @@ class Environment {
   BodyId add(std::shared_ptr<const TriangleMesh> mesh, const Pose& pose = {}, std::string name = {}) {
     return add(Shape(MeshShape{std::move(mesh)}), pose, std::move(name));
   }
-  /// Allows these links of the robot to touch the body, for example a base that stands on it. Adds to earlier calls.
-  /// Throws ModelError if the robot is null or does not have a link.
+  /// Allows these links of the robot to touch the body, for example a base mounted on it. Adds to earlier calls. Throws
+  /// ModelError if the robot is null or does not have a link.
   void allow(BodyId body, const std::shared_ptr<const Robot>& robot, const std::vector<LinkId>& links);
   /// Removes a body. Its id stays invalid.
   void remove(BodyId body);

@@ -21,8 +21,8 @@ namespace hinge::robotics {
 
 /// The distance (m) that two links must keep. It replaces the general clearance for this pair.
 struct PairClearance {
-  LinkId link1{};
-  LinkId link2{};
+  LinkId link1{};          ///< one link
+  LinkId link2{};          ///< another link; the order does not matter
   double clearance = 0.0;  ///< m, finite, >= 0
 };
 
@@ -40,8 +40,9 @@ class LinkMargins {
     if (data_->plain) return {0.0, 0.0, data_->clearance};
     return {radius(i), radius(j), clearance(link_of(i), link_of(j))};
   }
-  /// Threshold between two models: each contributes half of its general clearance. Boxes inflated by reach() cover no
-  /// more than that. RobotChecker passes the difference to the larger clearance as an extra clearance of the query.
+  /// Returns the threshold of two triangles of different models, as an unrounded sum. Each model contributes half of
+  /// its general clearance: boxes inflated by reach() cover no more than that. RobotChecker passes the difference to
+  /// the larger clearance as an extra clearance of the query.
   RadiusSum sum(PrimitiveId i, const LinkMargins& other, PrimitiveId j) const noexcept {
     return {radius(i), other.radius(j), data_->clearance / 2 + other.data_->clearance / 2};
   }
@@ -50,7 +51,8 @@ class LinkMargins {
   double threshold(PrimitiveId i, const LinkMargins& other, PrimitiveId j) const noexcept { return sum(i, other, j); }
   /// Always true: two robots may be queried against each other.
   bool compatible(const LinkMargins&) const noexcept { return true; }
-  /// Returns a length (m) such that M(i, j) <= reach(i) + reach(j) for all j: half the largest threshold, rounded up.
+  /// Returns a length (m) such that M(i, j) <= reach(i) + reach(j) for all j: the radius plus half the link's largest
+  /// clearance, rounded up.
   double reach(PrimitiveId i) const noexcept { return data_->plain ? data_->plain_reach : data_->reach[index(i)]; }
   /// Returns the number of triangles.
   std::size_t size() const noexcept { return data_->model->size(); }

@@ -30,20 +30,20 @@ using LinkOrBody = std::variant<LinkId, BodyId>;
 
 /// Two links or bodies that are too close.
 struct PathContact {
-  LinkOrBody first, second;
-  double distance =
-      0.0;  ///< m, of one pair of triangles, radii not subtracted; 0 if one is inside a solid of the other
+  LinkOrBody first, second;  ///< order without meaning
+  /// Distance (m) of one pair of triangles, radii not subtracted; 0 if one is inside a solid of the other.
+  double distance = 0.0;
   double threshold = 0.0;  ///< m, sum of the two radii and the clearance
 };
 
 /// The answer for a path: a PathAnswer in terms of the robot.
 struct RobotPathAnswer {
-  PathVerdict verdict = PathVerdict::undecided;
+  PathVerdict verdict = PathVerdict::undecided;  ///< free, colliding or undecided
   double parameter = 0.0;   ///< colliding: t of the collision; undecided: t in the middle of an undecided segment
   double half_width = 0.0;  ///< undecided: half the length of that segment; otherwise 0
   std::vector<double> configuration;  ///< at `parameter`, one value per independent joint (rad or m); empty if free
-  std::optional<PathContact>
-      contact;        ///< colliding: a pair that collides; undecided: a pair not proved apart, if known
+  /// Colliding: a pair that collides. Undecided: a pair not proved apart, if known.
+  std::optional<PathContact> contact;
   PathCounts counts;  ///< states tested and work done
 
   /// Returns true if the verdict is free.

@@ -17,14 +17,14 @@ namespace hinge::robotics {
 
 /// A named group of joints.
 struct JointGroup {
-  std::string name;
-  std::vector<std::size_t>
-      joints;  ///< movable joints, mimic joints included: indices into description().joints, sorted
+  std::string name;  ///< as in the file
+  /// Indices into description().joints of the movable joints, mimic joints included, sorted.
+  std::vector<std::size_t> joints;
 };
 
 /// Values (rad or m) of some independent joints. Mimic joints follow.
 struct NamedConfiguration {
-  std::string name;
+  std::string name;                                    ///< without the group
   std::string group;                                   ///< empty: the file names none
   std::vector<std::pair<std::size_t, double>> values;  ///< index into independent_joints(), value
 
@@ -39,11 +39,11 @@ struct NamedConfiguration {
 
 /// The contents of an SRDF file.
 struct Srdf {
-  LinkPairs disabled;  ///< pairs that the file disables
-  LinkPairs enabled;   ///< by enable_collisions, unless disable_collisions disables them again
-  std::vector<JointGroup> groups;
-  std::vector<NamedConfiguration> configurations;
-  std::vector<std::string> notes;  ///< one sentence for each kind of skipped element
+  LinkPairs disabled;              ///< pairs that the file disables
+  LinkPairs enabled;               ///< by enable_collisions, unless disable_collisions disables them again
+  std::vector<JointGroup> groups;  ///< in the order of the file
+  std::vector<NamedConfiguration> configurations;  ///< states of groups, in the order of the file
+  std::vector<std::string> notes;                  ///< one sentence for each kind of skipped element
 };
 
 /// What to do if a pair names an unknown link: throw LoadError, or skip the pair with a note. An SRDF file for several
@@ -59,8 +59,8 @@ Srdf read_srdf(const std::filesystem::path& path, const Robot& robot, UnknownLin
 
 /// A pair of names from a text file.
 struct NamedPair {
-  std::string first, second;
-  int line = 0;  ///< line number in the file, from 1
+  std::string first, second;  ///< in the order of the line
+  int line = 0;               ///< line number in the file, from 1
 };
 
 /// Reads pairs from a text file: two names per line, separated by blanks or a comma; `#` starts a comment. Throws

@@ -47,7 +47,7 @@ class Robot {
   const std::string& link_name(LinkId link) const noexcept { return link_names_[index(link)]; }
   /// Returns the link with this name, or nothing.
   std::optional<LinkId> find_link(std::string_view name) const noexcept;
-  /// Returns the number of triangles. A link with 0 triangles takes part in no test.
+  /// Returns the number of triangles. A link with 0 triangles is never tested.
   std::size_t triangle_count(LinkId link) const noexcept { return triangle_counts_[index(link)]; }
   /// Returns one radius (m) per triangle, or an empty span if all are 0. Spheres and capsules are points and segments
   /// inflated by their radius.
@@ -78,8 +78,8 @@ class Robot {
   /// Relates a DOF to an independent joint: DOF value = multiplier * joint value + offset.
   struct Drive {
     std::size_t independent = 0;  ///< index into independent_joints()
-    double multiplier = 1.0;
-    double offset = 0.0;  ///< rad or m
+    double multiplier = 1.0;      ///< DOF unit per unit of the independent joint
+    double offset = 0.0;          ///< rad or m
   };
   /// Returns one Drive per DOF, with chains of mimic joints resolved.
   std::span<const Drive> drives() const noexcept { return drives_; }

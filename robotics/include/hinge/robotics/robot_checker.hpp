@@ -43,24 +43,24 @@ struct CheckOptions {
 /// The answer of RobotChecker::check(). `pairs` is sorted. Mode all: pairs of links that collide; mode within: pairs
 /// closer than the margin; modes any and closest: empty.
 struct Verdict {
-  bool collides = false;  ///< true if any tested pair collides
-  std::vector<LinkContact> pairs;
+  bool collides = false;                ///< true if any tested pair collides
+  std::vector<LinkContact> pairs;       ///< pairs that the mode lists
   std::vector<ClosestLinks> distances;  ///< mode within: closest points of the pairs, in the same order
   std::optional<ClosestLinks> closest;  ///< mode closest: the closest pair; otherwise empty
 };
 
 /// `inner`, or some of its connected components, lies inside the closed mesh of `outer`.
 struct LinkContainment {
-  LinkId outer{};
-  LinkId inner{};
+  LinkId outer{};     ///< the link that contains the other
+  LinkId inner{};     ///< the link inside
   bool whole = true;  ///< true: all connected components of inner
 };
 
 /// A link and a body, one inside the closed mesh of the other. If `held` is set, the body attached to `link` replaces
 /// it.
 struct BodyContainment {
-  LinkId link{};
-  std::optional<BodyId> held{};
+  LinkId link{};                 ///< the link, or the link that holds `held`
+  std::optional<BodyId> held{};  ///< the attached body; empty: the link itself
   BodyId body{};
   bool body_is_outer = true;  ///< true: the body contains the link (or held body)
   bool whole = true;          ///< true: all connected components of the inner one
@@ -82,8 +82,9 @@ class RobotChecker {
   RobotChecker(std::shared_ptr<const Robot> robot, LinkPairs tested, LinkMargins margins,
                const CheckOptions& options = {});
 
-  /// Returns the robot; also the shared pointer that owns it, which Environment::attach() takes.
+  /// Returns the robot.
   const Robot& robot() const noexcept { return *robot_; }
+  /// Returns the robot as the shared pointer that Environment::attach() and allow() take.
   const std::shared_ptr<const Robot>& shared_robot() const noexcept { return robot_; }
   /// Returns the pairs of links that are tested.
   const LinkPairs& tested() const noexcept { return filter_.tested(); }

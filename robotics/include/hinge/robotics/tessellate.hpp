@@ -12,6 +12,7 @@ namespace hinge::robotics {
 
 /// How shapes become triangles. Boxes and meshes are exact in every manner.
 struct Tessellation {
+  /// The three ways to approximate.
   enum class Manner : std::uint8_t {
     /// Spheres and capsules are exact: a point or a segment with a radius. Cylinders are circumscribed.
     rounded,
