@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// biocd's output is a function of the question: the same bytes on every instruction set, thread count and engine.
+// Tests that the output of biocd has the same bytes on every instruction set, with every thread count and engine.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -22,7 +22,7 @@ using test::Said;
 
 std::string file() { return test::ubiquitin().string(); }
 
-/// Several models, some free and some not, written by biocd itself; removed with the object.
+/// A file of several models, some free and some colliding, written by biocd; removed by the destructor.
 class Sampled {
  public:
   Sampled() : file_("") {
@@ -36,7 +36,8 @@ class Sampled {
   Said said_;
 };
 
-/// Both commands in every mode and output: full turns, small ones, and selections with few and with large groups.
+/// Returns command lines of sample and check in every mode and output: full turns and small ones, selections with small
+/// and with large groups.
 std::vector<std::string> questions(const std::string& models) {
   std::vector<std::string> all;
   for (const char* output : {"--json", "--csv"})
@@ -52,7 +53,7 @@ std::vector<std::string> questions(const std::string& models) {
   return all;
 }
 
-/// Walks of one and of several torsions a step, and the models they write.
+/// Returns command lines of walks with one and with several torsions per step, which also print the written models.
 std::vector<std::string> walks(const std::string& models) {
   std::vector<std::string> all;
   for (const char* how : {"--steps 3000 --seed 3", "--steps 1500 --changes 5 --step-size 0.5",
@@ -62,7 +63,7 @@ std::vector<std::string> walks(const std::string& models) {
   return all;
 }
 
-/// What every variation of a question must give, byte for byte.
+/// Expects the same bytes and exit status from every variation of a question.
 void expect_same(const std::string& question, const std::vector<std::string>& variations,
                  const std::string& environment) {
   const Said expected = run_biocd(question + " 2>/dev/null", "HINGE_ISA=baseline");
@@ -71,7 +72,7 @@ void expect_same(const std::string& question, const std::vector<std::string>& va
   for (const std::string& variation : variations) {
     const Said said = run_biocd(question + variation + " 2>/dev/null", environment);
     EXPECT_EQ(said.status, expected.status) << environment << ' ' << question << variation;
-    // Not EXPECT_EQ: it would print megabytes.
+    // EXPECT_EQ would print megabytes.
     EXPECT_TRUE(said.out == expected.out) << environment << ' ' << question << variation << ": " << said.out.size()
                                           << " bytes, expected " << expected.out.size();
   }
@@ -90,7 +91,7 @@ TEST(BiocdBytes, AreTheSameOnEveryInstructionSet) {
       EXPECT_EQ(run_biocd("--version 2>&1", environment).status, 2) << "this CPU lacks " << name;
       continue;
     }
-    // Where speed is no matter there is no program for it, and the baseline answers in its place.
+    // Only Release builds have a program for each instruction set; otherwise the baseline program answers: skip.
     if (run_biocd("--version", environment).out.find("(" + name + ")") == std::string::npos) continue;
     compared += name;
     for (const std::string& question : questions(sampled.path())) expect_same(question, {""}, environment);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Disulphides while sampling, walking and along paths: kept by default, opened on request, and what is noted.
+// Tests disulphides in sample, walk and path: kept by default, opened on request, and reported in notes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,14 +33,15 @@ namespace biocd_closures_test {
 using Json = nlohmann::json;
 using test::run_biocd;
 
-constexpr double promised = 1e-6;  // angstrom
+constexpr double promised = 1e-6;  // angstrom: largest residual of a kept closure
 
 /// Residues 14 to 28 of crambin, with the disulphide 16-26.
 std::filesystem::path file() {
   return std::filesystem::path(HINGE_SOURCE_DIR) / "tests" / "molecular" / "data" / "disulphide.pdb";
 }
 
-/// By how much the disulphide's length and the distances across its two angles differ from the reference, angstrom.
+/// Measures the change of the disulphide's length, and of the distances across its two angles, from the reference
+/// (angstrom).
 class Bridge {
  public:
   Bridge() : s_(read_structure(file())) {
@@ -69,7 +70,7 @@ class Bridge {
   std::array<std::uint32_t, 4> atoms_{};  // CB, SG, CB, SG
 };
 
-/// Frames of an .npy file of doubles, frames x atoms x 3.
+/// Reads an .npy file of doubles, frames x atoms x 3.
 std::vector<std::vector<Vec3>> frames_of(const std::filesystem::path& path, std::size_t atoms) {
   std::ifstream in(path, std::ios::binary);
   const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
@@ -134,7 +135,7 @@ TEST(BiocdClosures, WalksMoveLoops) {
 }
 
 TEST(BiocdClosures, SayWhatIsHeldAndWhatIsLeftOpen) {
-  // Three turns in a cycle that keeps three lengths cannot move.
+  // Three torsions in a cycle with three fixed lengths cannot move.
   const std::string question = "sample " + file().string() + " --mode any -n 3 --free A:18:phi,psi,A:20:phi --json ";
   const auto held = run_biocd(question + "2>&1 >/dev/null");
   EXPECT_NE(held.out.find("3 torsions are held by closed cycles and stay at their reference: A:LEU18:phi"),
@@ -228,7 +229,7 @@ TEST(KeptClosures, LeaveOpenWhatDoesNotClose) {
 }
 
 TEST(BiocdClosures, ThatNoStartClosesAreGivenUpWithANote) {
-  // The hydrogen bonds of ubiquitin join its strands across the whole molecule: full turns do not close them all.
+  // The hydrogen bonds of ubiquitin join strands across the whole molecule; full turns cannot close all of them.
   const std::string question = "sample " + test::ubiquitin().string() +
                                " --keep-hbonds --mode any -n 2 --json 2>&1 >/dev/null",
                     why = " is left open: no random start closes it";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// biocd on ensembles: trajectories, filters and shards, and what is left when a file breaks off.
+// Tests biocd on ensembles: trajectories, filters, shards, and the output of truncated files.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,14 +31,14 @@ using test::TemporaryFile;
 
 std::string file() { return test::ubiquitin().string(); }
 
-/// Where biocd may write; removed with the object.
+/// An output file for biocd; removed by the destructor.
 struct Target {
   explicit Target(const std::string& extension) : file("", extension) {}
   std::string path() const { return file.path().string(); }
   TemporaryFile file;
 };
 
-/// Twelve conformations of ubiquitin, some of which are free under this rule.
+/// Twelve conformations of ubiquitin; some of them are free under this rule.
 const std::string rule = " --rho 0.7";
 std::string sample_to(const Target& target) {
   return "sample " + file() + " -n 12 --seed 4 --sigma 0.4 --json --mode any --out " + target.path() + rule;
@@ -59,7 +59,7 @@ TEST(BiocdEnsemble, FindsTheSameInEveryFormat) {
   ASSERT_NE(std::count(expected.begin(), expected.end(), false), 0);
   run_biocd(sample_to(dcd));
   run_biocd(sample_to(pdb));
-  // The coordinates of the PDB file are the topology's, too.
+  // The last question uses the PDB file as both topology and trajectory.
   for (const std::string& question :
        {file() + " " + npy.path(), file() + " " + dcd.path(), file() + " " + pdb.path(), pdb.path()}) {
     const Said said = run_biocd("check " + question + " --json" + rule);
@@ -136,7 +136,7 @@ TEST(BiocdEnsemble, MergesOnlyWhatBelongsTogether) {
       std::string command = "merge";
       for (const TemporaryFile* f : files) command.append(" ").append(f->path().string());
       const Said said = run_biocd(command + " 2>&1");
-      EXPECT_TRUE(said.status != 3 || said.out.starts_with("biocd: ")) << said.out;  // nothing is printed before
+      EXPECT_TRUE(said.status != 3 || said.out.starts_with("biocd: ")) << said.out;  // no other output
       return said.status;
     };
     EXPECT_EQ(status({&one, &two}), 1);
@@ -179,7 +179,7 @@ TEST(BiocdEnsemble, KeepsWhatWasCheckedBeforeAFileBreaksOff) {
       EXPECT_EQ(merged.status, 3);
       EXPECT_NE(merged.out.find("ended early"), std::string::npos) << merged.out;
     }
-  // What cannot be begun says so and prints nothing.
+  // If the file cannot be read at all, nothing is printed to standard output.
   for (const std::string& bytes : {std::string(), std::string("junk"), test::dcd_file({Frame(5, Vec3::Zero())})}) {
     const TemporaryFile bad(bytes, ".dcd");
     const Said said = run_biocd("check " + file() + " " + bad.path().string() + " --json 2>/dev/null");
@@ -191,7 +191,7 @@ TEST(BiocdEnsemble, KeepsWhatWasCheckedBeforeAFileBreaksOff) {
 }
 
 TEST(BiocdEnsemble, SaysWhichBondsAndClosuresABrokenConformationHas) {
-  // Crambin's disulphides close cycles; its second half 3 angstrom away tears bonds, and some of them.
+  // Crambin's disulphides are closures. Moving its second half by 3 angstrom breaks bonds and some of the closures.
   const auto crambin = test::shared_molecules() / "1crn.pdb";
   if (!std::filesystem::exists(crambin)) GTEST_SKIP() << "shared data not found";
   const Structure s = read_structure(crambin);
@@ -205,7 +205,7 @@ TEST(BiocdEnsemble, SaysWhichBondsAndClosuresABrokenConformationHas) {
   EXPECT_EQ(whole["worst_bond"]["residual"], 0.0);
   ASSERT_EQ(whole["closures"].size(), 3U);
   for (const Json& closure : whole["closures"]) EXPECT_EQ(closure["residual"], 0.0);
-  // The distances that change are known from the coordinates alone.
+  // The expected values are computed from the coordinates alone.
   const auto length = [&](const Frame& x, const Json& b) {
     return (x[b["i"].get<std::size_t>()] - x[b["j"].get<std::size_t>()]).norm();
   };
@@ -236,7 +236,7 @@ TEST(BiocdEnsemble, SaysWhichBondsAndClosuresABrokenConformationHas) {
 }
 
 TEST(BiocdEnsemble, FindsRigidGroups) {
-  // Two halves that phi and psi of one residue move.
+  // Two rigid halves, moved by phi and psi of one residue.
   const Target frames(".npy");
   run_biocd("sample " + file() + " --free A:35:backbone -n 30 --seed 3 --sigma 30 --out " + frames.path());
   const std::string from = file() + " --rigid-from " + frames.path();
@@ -248,7 +248,7 @@ TEST(BiocdEnsemble, FindsRigidGroups) {
   EXPECT_EQ(found["torsions"][1]["torsion"], "A:GLY35:psi");
   EXPECT_NEAR(found["torsions"][0]["spread_degrees"].get<double>(), 30.0, 12.0);
   ASSERT_EQ(found["groups"].size(), 3U) << found;
-  EXPECT_EQ(found["groups"][2]["atoms"], 1);  // C-alpha of the glycine, between the two
+  EXPECT_EQ(found["groups"][2]["atoms"], 1);  // C-alpha of the glycine between the halves
   EXPECT_EQ(json["model"]["dof"], 2);
   for (const Json& group : found["groups"]) {
     EXPECT_LE(group["superposed"]["worst_rmsd"].get<double>(), 0.001);
@@ -258,7 +258,7 @@ TEST(BiocdEnsemble, FindsRigidGroups) {
   const std::string table = run_biocd("info " + from + " 2>/dev/null").out;
   EXPECT_NE(table.find("rigid groups of 30 conformations, tolerance 0.5 angstrom: 3\n"), std::string::npos) << table;
   EXPECT_NE(table.find("free A:GLY35:phi"), std::string::npos) << table;
-  // The same model wherever it is asked for.
+  // sample uses the same model.
   EXPECT_EQ(Json::parse(run_biocd("sample " + from + " -n 2 --json 2>/dev/null").out)["model"]["dof"], 2);
 
   const auto refused = [&](const std::string& more, const std::string& message, int status) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// biocd and the files around it: what --out may not destroy, and how outputs fail.
+// Tests the files of biocd: inputs that --out must not overwrite, and output errors.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ std::string content(const fs::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// A copy of 1UBQ in a folder of its own.
+/// Has a copy of 1UBQ in a folder of its own.
 class BiocdFiles : public testing::Test {
  protected:
   BiocdFiles() {
@@ -65,7 +65,7 @@ TEST_F(BiocdFiles, NoInputIsWrittenOver) {
   EXPECT_EQ(content(folder / "in.pdb"), before);
   EXPECT_EQ(content(folder / "other.pdb"), before);
   EXPECT_EQ(content(folder / "parts.cif"), "data_X\n");
-  // demo writes worst.pdb into its folder.
+  // demo writes worst.pdb into its folder, so it must not read that file.
   fs::rename(folder / "other.pdb", folder / "worst.pdb");
   EXPECT_EQ(run_biocd("demo" + file("worst.pdb") + " -n 1 --out " + folder.string() + " 2>&1").status, 2);
   EXPECT_EQ(run_biocd("demo" + in + " -n 1 --out" + in + " 2>&1").status, 2);
@@ -76,7 +76,7 @@ TEST_F(BiocdFiles, ResultsAndConformationsDoNotMix) {
   EXPECT_EQ(run_biocd(sample + " --out" + file("x.pdb") + " >" + file("x.pdb")).status, 2);
   EXPECT_EQ(run_biocd(sample + " --out " + folder.string() + " 2>/dev/null").status, 2);
   fs::remove(folder / "x.pdb");
-  // Standard output is closed: the results go nowhere, and that is said.
+  // Standard output is closed: the results are lost, and this is reported.
   const test::Said said = run_biocd(sample + " --json --out" + file("x.pdb") + " 2>&1 >&-");
   EXPECT_EQ(said.status, 3);
   EXPECT_EQ(said.out,
@@ -107,7 +107,7 @@ TEST_F(BiocdFiles, RunsToOneNameDoNotMeet) {
 }
 
 TEST_F(BiocdFiles, AFullDiskEndsTheRun) {
-  // 10 million conformations take hours.
+  // 10 million conformations would take hours: the error must end the run.
   for (const std::string& command : {"sample" + in + " -n 10000000 --free count:1 --mode any --out",
                                      "walk" + in + " --exempt-reference --steps 1000000000 --every 1 --out"}) {
     fs::create_symlink("/dev/full", folder / "x.pdb");
@@ -129,7 +129,7 @@ TEST_F(BiocdFiles, AFullDiskEndsTheRun) {
   EXPECT_TRUE(full.out.ends_with(
       "biocd: standard output: cannot be written: No space left on device; what was written is cut short\n"))
       << full.out;
-  // JSON is closed, and says why.
+  // The JSON is complete and contains the error.
   fs::create_symlink("/dev/full", folder / "x.pdb");
   const auto json = nlohmann::json::parse(run_biocd(results + "--json --out" + file("x.pdb") + " 2>/dev/null").out);
   EXPECT_NE(json["summary"]["error"].get<std::string>().find("No space left"), std::string::npos);
@@ -196,7 +196,7 @@ TEST_F(BiocdFiles, PipesDevicesAndFoldersAreWhatTheyAre) {
 
 TEST_F(BiocdFiles, NamesNeedNotBeText) {
   std::string text = content(folder / "in.pdb");
-  // A residue's name in Latin-1, everywhere; and the file's.
+  // Residue names and the file name contain Latin-1 characters.
   for (std::size_t at = 0; (at = text.find("LYS A", at)) != std::string::npos;) text[at + 1] = '\xdc';
   const std::string odd = (folder / "l\xfcs.pdb").string();
   std::ofstream(odd) << text;
@@ -239,7 +239,7 @@ TEST_F(BiocdFiles, FormatsFollowTheExtensionInEveryCommand) {
     const test::Said said = run_biocd(command + " --out" + file("x.xyz") + " 2>&1");
     EXPECT_EQ(said.status, 2) << command;
     EXPECT_NE(said.out.find("x.xyz: expected .pdb, .cif, .dcd or .npy"), std::string::npos) << said.out;
-    EXPECT_EQ(std::count(said.out.begin(), said.out.end(), '\n'), 1) << said.out;  // before any work
+    EXPECT_EQ(std::count(said.out.begin(), said.out.end(), '\n'), 1) << said.out;  // one line: rejected before any work
     EXPECT_FALSE(fs::exists(folder / "x.xyz"));
   }
 }
@@ -262,7 +262,7 @@ TEST_F(BiocdFiles, NothingFreeIsAFileOfNoFramesOrNoFile) {
 }
 
 TEST_F(BiocdFiles, ModelsThatDifferAreCheckedAsWhatTheyAre) {
-  // The second model has an OXT, on the oxygen of a second residue that both have.
+  // The second model also has an OXT; it overlaps an oxygen of residue 2, which all models have.
   const std::string far = pdb_atom(6, "N", "GLY", 2, 9, 9, 9, "N") + pdb_atom(7, "CA", "GLY", 2, 10.4, 9, 9, "C") +
                           pdb_atom(8, "C", "GLY", 2, 11, 10.4, 9, "C") + pdb_atom(9, "O", "GLY", 2, 10.2, 11.4, 9, "O"),
                     end = pdb_atom(10, "OXT", "GLY", 2, 1.46, 0.5, 0.5, "O");
@@ -285,14 +285,14 @@ TEST_F(BiocdFiles, ModelsThatDifferAreCheckedAsWhatTheyAre) {
   const test::Said path = run_biocd("path" + file("nmr.pdb") + " --from reference --to model:2 2>&1");
   EXPECT_NE(path.out.find("models differ: 1 atoms"), std::string::npos) << path.out;
   EXPECT_EQ(run_biocd("check" + file("nmr.pdb") + " --rigid-from" + file("nmr.pdb") + " 2>&1").status, 1);
-  // As a trajectory of another file they are refused.
+  // As a trajectory of another file, these models are rejected.
   std::ofstream(folder / "top.pdb") << alanine() << far;
   const test::Said frames = run_biocd("check" + file("top.pdb") + file("nmr.pdb") + " 2>&1");
   EXPECT_EQ(frames.status, 3) << frames.out;
   EXPECT_NE(frames.out.find("A:GLY2:OXT is there, too"), std::string::npos) << frames.out;
 }
 
-/// ATOM records as mmCIF, model by model.
+/// Converts the ATOM records of the models to mmCIF.
 std::string cif_of(const std::vector<std::string>& models) {
   std::string text = "data_nmr\nloop_\n";
   for (const char* tag : {"group_PDB", "id", "type_symbol", "label_atom_id", "label_alt_id", "label_comp_id",
@@ -324,13 +324,13 @@ TEST_F(BiocdFiles, ModelsThatDifferMayBeMmcif) {
                             "model 2 has other atoms than the first: A:GLY2:OXT is there, too"})
     EXPECT_NE(said.out.find(words), std::string::npos) << words << "\n" << said.out;
   for (const std::string& command : {"info" + file("nmr.cif"), "sample" + file("nmr.cif") + " -n 1",
-                                    "path" + file("nmr.cif") + " --from reference --to model:2",
-                                    "check" + file("nmr.cif") + " --out" + file("all.cif")}) {
+                                     "path" + file("nmr.cif") + " --from reference --to model:2",
+                                     "check" + file("nmr.cif") + " --out" + file("all.cif")}) {
     const test::Said common = run_biocd(command + " 2>&1");
     EXPECT_LE(common.status, 1) << common.out;
     EXPECT_NE(common.out.find("models differ: 1 atoms"), std::string::npos) << command << "\n" << common.out;
   }
-  // What was written has the same atoms in every model.
+  // The written file has the same atoms in every model.
   const test::Said again = run_biocd("check" + file("all.cif") + " 2>&1");
   EXPECT_EQ(again.status, 0) << again.out;
   EXPECT_NE(again.out.find("0 of 3 models collide"), std::string::npos) << again.out;
@@ -386,13 +386,13 @@ TEST_F(BiocdFiles, SamplesSayTheTorsionsTheyDrew) {
   double first = 0.0;
   std::memcpy(&first, npy.data() + 128, sizeof first);
   EXPECT_NEAR(first, std::stod(last), 1e-12);
-  // They are the angles of the coordinates that are written: found again as the reference of that file.
+  // The torsions are the dihedral angles of the written coordinates: info finds them as the reference of that file.
   ASSERT_LE(run_biocd("sample" + in + " --free A:20-22:phi -n 1 --seed 4 --out" + file("s.cif") + " 2>&1").status, 1);
   const test::Said info = run_biocd("info --json --atoms" + file("s.cif") + " --free A:20-22:phi 2>/dev/null");
   const std::size_t at = info.out.find("\"reference_degrees\": ");
   ASSERT_NE(at, std::string::npos);
   EXPECT_NEAR(std::stod(info.out.substr(at + 21)), first, 1e-6);
-  // Shards join to the same bytes.
+  // Merged shards give the same bytes.
   for (const std::string shard : {"1", "2"})
     ASSERT_LE(run_biocd(command + " --csv --shard " + shard + "/2 >" + file(shard + ".csv") + " 2>/dev/null").status,
               1);

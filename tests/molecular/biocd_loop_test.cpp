@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// biocd sample --loop and --closures from outside: what is written, what is reported, what is refused.
+// Tests biocd sample with --loop and --closures: written files, reports, rejected input.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -22,7 +22,7 @@ using test::run_biocd;
 
 std::string file() { return test::ubiquitin().string(); }
 
-/// Name, residue and coordinates of each atom, as the columns say, model by model.
+/// Returns, per model, the coordinates of each atom by its name and residue, as text columns.
 std::vector<std::map<std::string, std::string>> models_of(const std::filesystem::path& path) {
   std::ifstream stream(path);
   std::vector<std::map<std::string, std::string>> models(1);
@@ -45,7 +45,7 @@ TEST(BiocdLoop, MovesTheLoopAndNothingElse) {
   std::set<std::string> moved;
   for (const auto& model : models)
     for (const auto& [atom, x] : model)
-      if (x != reference.at(atom)) moved.insert(atom.substr(10, 5));  // residue number with its insertion code
+      if (x != reference.at(atom)) moved.insert(atom.substr(10, 5));  // residue number and insertion code
   for (const std::string& residue : moved) {
     const int number = std::stoi(residue);
     EXPECT_GE(number, 7);
@@ -74,7 +74,7 @@ TEST(BiocdLoop, ReportsEachClosureByName) {
 }
 
 TEST(BiocdLoop, LeavesOutWhatDidNotCloseAndSaysSo) {
-  // One start each: some of them fail, and none of those may look like a sample.
+  // One start per sample: some fail, and failed starts must not appear as samples.
   const test::TemporaryFile out("");
   const auto said = run_biocd("sample " + file() + " --loop A:8-11 -n 60 --tries 1 --json --out " +
                               out.path().string() + " 2>/dev/null");

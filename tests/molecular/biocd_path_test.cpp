@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// biocd path and PathChecker: verdicts, exit status, JSON contract, ends from lists, files and models, refusals.
+// Tests biocd path and PathChecker: verdicts, exit status, JSON contract, ends from lists, files and models, rejected
+// input.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,7 +40,7 @@ Said path(const std::string& arguments) {
   return test::run_biocd("path " + test::ubiquitin().string() + " --exempt-reference " + arguments);
 }
 
-/// The line on standard error, and the exit status before it.
+/// Returns the exit status and standard error.
 std::string refusal(const std::string& arguments) {
   const Said said = path("--free A:72:psi " + arguments + " 2>&1 >/dev/null");
   return std::to_string(said.status) + ": " + said.out;
@@ -61,7 +62,7 @@ TEST(BiocdPath, ExitsWithTheVerdict) {
   EXPECT_EQ(path(psi + "--to -90").status, 1);
   EXPECT_EQ(path(psi + "--to 20 --sampled 1").status, 0);
   EXPECT_EQ(path(psi + "--to -90 --sampled 1").status, 1);
-  // A step so long that nothing is cut: what one look does not prove is left open.
+  // The minimal step is so long that nothing is split: an interval that one test cannot prove stays undecided.
   const Said open = path("--free A:75-76 --from reference --to 179,0,0,0 --min-step 1 --json");
   ASSERT_EQ(open.status, 4);
   const Json json = Json::parse(open.out);
@@ -87,7 +88,7 @@ TEST(BiocdPath, KeepsTheJsonContract) {
   EXPECT_TRUE(free["from"]["model_rmsd"].is_null());
   EXPECT_TRUE(free["pairs"].empty());
   EXPECT_TRUE(free.contains("constant_contacts"));
-  // A sampled path that is free is not proved to be.
+  // A sampled path that is free is not proved.
   EXPECT_EQ(Json::parse(path("--free A:72:psi --from reference --to 20 --sampled 5 --json").out)["proved"], false);
 
   const Json hit = Json::parse(path("--free A:72:psi --from reference --to -90 --json").out);
@@ -134,7 +135,7 @@ TEST(BiocdPath, MovesPlacedParts) {
     const test::Said said = test::run_biocd("path " + arguments + " --json 2>/dev/null");
     return nlohmann::json::parse(said.out);
   };
-  // Beside each other, and through each other; values in the order in which dofs names them.
+  // The first path keeps the parts apart, the second crosses the other part. Values are in the order of `dofs`.
   const auto beside = ask(two + "--place B --from 60,0,0,0,0,0,0 --to 60,20,0,90,-30,170,60");
   EXPECT_EQ(beside["dofs"], (std::vector<std::string>{"move B x", "move B y", "move B z", "turn B x", "turn B y",
                                                       "turn B z", "B:LYS48:chi1"}));
@@ -150,7 +151,8 @@ TEST(BiocdPath, MovesPlacedParts) {
                 .out.find("largest turn 90 degrees (turn B x); largest move 20 angstrom (move B y)"),
             std::string::npos);
 
-  // Models are rebuilt with their placements: what sample wrote comes back within the decimals of its file.
+  // Models are rebuilt with their placements: the models that sample wrote are recovered within the decimals of their
+  // file.
   const test::TemporaryFile poses("");
   test::run_biocd("sample " + two + " --place B=40,180 -n 6 --seed 8 --sigma 60 --out " + poses.path().string());
   const std::string models = poses.path().string() + " --place B --free B:48:chi1 --between A B --from model:1 --to ";
@@ -189,12 +191,12 @@ TEST(BiocdPath, JoinsModelsThatSampleWrote) {
   const Said said = test::run_biocd("path " + out.string() + free + " --from model:2 --to model:3 --json 2>/dev/null");
   ASSERT_LE(said.status, 1);
   const Json json = Json::parse(said.out);
-  // Model 1 is the reference of the file read back.
+  // Model 1 is the reference of the written file.
   const auto turns = [&](std::uint64_t k) { return sample_configuration({4, 2 * degree}, k, free_end.dof_count()); };
   const std::vector<double> first = turns(0), second = turns(1), third = turns(2);
   ASSERT_EQ(json["from"]["turns"].size(), first.size());
   for (std::size_t k = 0; k < first.size(); ++k) {
-    // Three decimals of coordinates are worth some tenths of a degree.
+    // Coordinates of three decimals change torsions by some tenths of a degree.
     EXPECT_NEAR(json["from"]["turns"][k].get<double>(), (second[k] - first[k]) / degree, 0.5) << k;
     EXPECT_NEAR(json["to"]["turns"][k].get<double>(), (third[k] - first[k]) / degree, 0.5) << k;
   }
@@ -235,21 +237,21 @@ TEST(Superpose, LeavesWhatNoMotionTakesAway) {
   std::vector<Vec3> b;
   for (const Vec3& x : a) b.push_back(motion * x);
   EXPECT_NEAR(superpose(a, b).rmsd, 0.0, 1e-12);
-  // Mirroring is no motion.
+  // A mirror image is not a rigid motion.
   for (Vec3& x : b) x[0] = -x[0];
   EXPECT_GT(superpose(a, b).rmsd, 0.5);
-  // Two pairs of points: the distance that is left is shared by the ends.
+  // Two points each: the difference in length is shared equally by both ends.
   const Superposition pairs =
       superpose(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}}, std::vector<Vec3>{{0, 0, 0}, {2, 0, 0}});
   EXPECT_NEAR(pairs.rmsd, 0.5, 1e-12);
   EXPECT_NEAR(pairs.farthest, 0.5, 1e-12);
 }
 
-/// An eighth of the paths each, so that none takes long; with HINGE_TEST_ALL 13 000 in all.
+/// Each slice tests an eighth of the paths to keep tests short; with HINGE_TEST_ALL 13 000 paths in all.
 class PathCheckerSlice : public testing::TestWithParam<std::uint64_t> {};
 INSTANTIATE_TEST_SUITE_P(All, PathCheckerSlice, testing::Range<std::uint64_t>(0, 8));
 
-/// Free paths are asked at a thousand states, collisions at the one they name by brute force.
+/// Tests free paths at 1000 states, and collisions by brute force at the reported state.
 TEST_P(PathCheckerSlice, AgreesWithBruteForce) {
   const auto molecule = ubiquitin();
   const bool all = std::getenv("HINGE_TEST_ALL") != nullptr;
@@ -283,7 +285,8 @@ TEST_P(PathCheckerSlice, AgreesWithBruteForce) {
       std::vector<double> q(from);
       for (int state = 0; state < 1000; ++state) {
         for (std::size_t d = 0; d < q.size(); ++d) q[d] = from[d] + state / 999.0 * (to[d] - from[d]);
-        // Brute force takes a thousand times as long: the engine, which is tested against it, at all others.
+        // Brute force is a thousand times slower: use it at one state, and the engine, which is tested against it, at
+        // all states.
         const Mode any{Mode::Kind::any};
         if (asked.check(q, any).collides || (state == 500 && brute.check(q, any).collides)) {
           ADD_FAILURE() << "called free, collides at state " << state;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// biocd --rules from outside: severities in every output, clashscore, shards, refusals.
+// Tests biocd --rules: severities in every output, clashscore, shards, rejected input.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -70,7 +70,7 @@ TEST(BiocdRules, SayTheSameInJsonAndCsv) {
     const Json json = Json::parse(run_biocd(question + " --json 2>/dev/null").out);
     std::vector<std::string> lines = split(run_biocd(question + " --csv 2>/dev/null").out, '\n');
     std::vector<std::string> columns = split(lines.front(), ',');
-    columns.resize(columns.size() - 2);  // bond_residual, closure_residual: of the conformation
+    columns.resize(columns.size() - 2);  // drops bond_residual and closure_residual, which belong to the conformation
     const Json& pairs = json["conformations"][0]["pairs"];
     ASSERT_GT(pairs.size(), 0U) << rules;
     ASSERT_EQ(lines.size(), pairs.size() + 2) << rules;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// biocd with several molecules, from outside: files, placements, pairs asked about, what is written and what refused.
+// Tests biocd with several molecules: files, placements, scopes of pairs, written files, rejected input.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -23,7 +23,7 @@ using test::Said;
 
 std::string file() { return test::ubiquitin().string(); }
 
-/// Two of them, the second free to go.
+/// Arguments for two copies of the file; the second is placed.
 std::string two() { return file() + " --with " + file() + " --place file:2=30,180 --free none"; }
 
 TEST(BiocdScene, SamplesPlacementsAndWritesThem) {
@@ -66,7 +66,7 @@ TEST(BiocdScene, SamplesPlacementsAndWritesThem) {
       const Eigen::Vector3d expected = rotation * (one.models[0][i] - centre) + centre + by;
       ASSERT_LT((samples.models[k][602 + i] - expected).cwiseAbs().maxCoeff(), 0.0005001);
     }
-    // Every pair joins the two.
+    // Every pair is between the two copies.
     for (const Json& pair : row["pairs"]) EXPECT_TRUE(pair["i"] < 602 && pair["j"] >= 602);
     colliding += row["collides"].get<bool>() ? 1 : 0;
   }
@@ -128,7 +128,7 @@ TEST(BiocdScene, SaysWhatItIsAbout) {
 }
 
 TEST(BiocdScene, ExemptsInterfacesOnlyWhenAsked) {
-  // A copy on top of the first: nearly every atom of it collides with the other.
+  // The second copy is at the position of the first: nearly all atoms collide with the other copy.
   const auto model = [&](const std::string& options) {
     return Json::parse(
         run_biocd("info " + file() + " --with " + file() + options + " --json 2>/dev/null").out)["model"];
@@ -136,10 +136,10 @@ TEST(BiocdScene, ExemptsInterfacesOnlyWhenAsked) {
   const Json none = model(""), inside = model(" --exempt-reference"),
              all = model(" --exempt-reference --exempt-interfaces");
   EXPECT_EQ(none["exempted_pairs"], 0);
-  EXPECT_EQ(inside["exempted_pairs"], 2);  // one in each copy
+  EXPECT_EQ(inside["exempted_pairs"], 2);  // one pair in each copy
   EXPECT_GT(all["exempted_pairs"].get<int>(), 600);
   EXPECT_EQ(all["exempted_pairs"], all["reference_collisions"]);
-  // Of one file, what is placed counts too; what is not is exempt.
+  // Placing one file, or both as one part, does not change the exempt pairs: contacts between files still count.
   const std::string pair = "info " + file() + " --with " + file() + " --exempt-reference --json 2>/dev/null --place ";
   EXPECT_EQ(Json::parse(run_biocd(pair + "file:2").out)["model"]["exempted_pairs"], 2);
   EXPECT_EQ(Json::parse(run_biocd(pair + "file:1+file:2").out)["model"]["exempted_pairs"], 2);

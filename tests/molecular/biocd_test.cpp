@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// biocd from outside: exit status, JSON contract, determinism, messages.
+// Tests the command line of biocd: exit status, JSON contract, determinism, messages.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ using Json = nlohmann::json;
 
 using Outcome = test::Said;
 
-/// Standard output and exit status; standard error goes along with `2>&1` in the arguments.
+/// Returns standard output and exit status; add `2>&1` to the arguments to include standard error.
 Outcome biocd(const std::string& arguments) { return test::run_biocd(arguments); }
 
 std::string file() { return test::ubiquitin().string(); }
@@ -178,7 +178,7 @@ TEST(Biocd, WritesConformationsThatCheckTheSame) {
   const Json a = Json::parse(sampled.out), b = Json::parse(checked.out);
   ASSERT_EQ(a["conformations"].size(), 20U);
   ASSERT_EQ(b["conformations"].size(), 20U);
-  // The file has three decimals, so pairs near their threshold may change sides; the bulk may not.
+  // The file has three decimals, so pairs near their threshold may differ; most pairs may not.
   for (std::size_t k = 0; k < 20; ++k) {
     const auto found = static_cast<double>(a["conformations"][k]["pairs"].size());
     EXPECT_NEAR(found, static_cast<double>(b["conformations"][k]["pairs"].size()), 1.0 + 0.1 * found);
@@ -207,7 +207,7 @@ TEST(Biocd, InformsAboutOrRefusesEverySharedFile) {
   }
 }
 
-/// Eighteen pairs of carbons, each (1.632, 2.176, 0.000) apart: 2.720 A in decimals, which is 0.8 * (1.70 + 1.70).
+/// Eighteen pairs of carbons with difference (1.632, 2.176, 0.000): 2.720 A in decimals, equal to 0.8 * (1.70 + 1.70).
 std::string ties(bool cif) {
   std::string text;
   if (cif)

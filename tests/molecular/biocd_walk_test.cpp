@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// biocd walk from outside: every conformation it writes is free, what it refuses, and its JSON.
+// Tests biocd walk: every written conformation is free; rejected input; JSON output.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -20,7 +20,7 @@ std::string file() { return test::ubiquitin().string(); }
 TEST(BiocdWalk, WritesFreeConformationsThatDiffer) {
   const test::TemporaryFile models("");
   const std::string path = models.path().string();
-  // Its own rules let the file's conformation be free, so that what is written can be checked by the same.
+  // The file's conformation is free under these rules, so check can verify the written file under the same rules.
   const std::string rules = " --rho 0.7 --hydrogens drop";
   const auto walked = run_biocd("walk " + file() + rules + " --steps 4000 --every 400 --seed 2 --json --out " + path);
   ASSERT_EQ(walked.status, 0);
@@ -36,7 +36,7 @@ TEST(BiocdWalk, WritesFreeConformationsThatDiffer) {
   const auto checked = run_biocd("check " + path + rules + " --json --mode closest");
   const Json verdicts = Json::parse(checked.out).at("conformations");
   ASSERT_EQ(verdicts.size(), 10U);
-  // Three decimals round by up to 0.0009 angstrom a pair.
+  // Rounding to three decimals changes a distance by up to 0.0009 angstrom.
   for (const Json& verdict : verdicts)
     EXPECT_GT(verdict["closest"]["distance"].get<double>(), verdict["closest"]["threshold"].get<double>() - 0.001);
   EXPECT_NE(verdicts[0]["closest"], verdicts[9]["closest"]);

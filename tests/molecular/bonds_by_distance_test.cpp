@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bonds between residues that only a distance tells of: where valences and angles allow them, said by name; all else
-// that close is a collision.
+// Tests bonds between residues found by distance alone: accepted and noted if valences and angles allow them. Any other
+// close pair is a collision.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,8 +25,8 @@ struct Placed {
   double x, y, z;
 };
 
-/// Atom records of one residue, of a chain where it is an amino acid; the element is the name's first letter, ZN
-/// excepted.
+/// Returns the atom records of one residue: HETATM for ligands and ZN, otherwise ATOM. The element is the first letter
+/// of the name, except for ZN.
 std::string residue(const char* name, char chain, const std::vector<Placed>& atoms, const Vec3& move = Vec3::Zero()) {
   const bool is_ligand = std::string(name) == "LIG" || std::string(name) == "KNI" || std::string(name) == "ZN";
   std::string text;
@@ -42,8 +42,8 @@ std::string residue(const char* name, char chain, const std::vector<Placed>& ato
   return text;
 }
 
-/// Phe53 of chain B and KNI-272 of 1HPX; the inhibitor is moved so that O2 is 1.703 A from CD1 and all else 2.6 A
-/// apart.
+/// Phe53 of chain B and KNI-272 of 1HPX. The inhibitor is moved: O2 is 1.703 A from CD1, all other distances are at
+/// least 2.6 A.
 const std::vector<Placed> phenylalanine{
     {"N", 3.564, -4.083, 3.657},   {"CA", 2.370, -3.252, 3.390},  {"C", 1.161, -4.145, 3.375},
     {"O", 1.188, -5.220, 2.788},   {"CB", 2.435, -2.498, 2.007},  {"CG", 3.313, -1.277, 2.078},
@@ -75,7 +75,7 @@ Structure read(const std::string& text, BondSearch bonds = BondSearch::geometry)
   return read_structure(file.path(), options);
 }
 
-/// "A:SER1:OG - B:LIG1:C1", of different residues, by label.
+/// Returns the bonds between residues by labels, such as "A:SER1:OG - B:LIG1:C1".
 std::vector<std::string> bonds_between(const Structure& s) {
   std::vector<std::string> found;
   for (const Bond& bond : s.bonds)
@@ -90,7 +90,7 @@ std::string notes_of(const Structure& s) {
   return text;
 }
 
-/// The colliding pairs by name, of the first model.
+/// Returns the colliding pairs of the first model by labels.
 std::vector<std::string> collisions(Structure s, const char* rules = "auto") {
   const auto molecule = std::make_shared<const Molecule>(std::move(s));
   CheckOptions options;
@@ -116,7 +116,7 @@ TEST(BondsByDistance, ALigandInARingIsACollisionAndNoBond) {
   for (const char* rules : {"auto", "severe", "biocd", "molprobity", "posebusters"}) {
     const auto found = collisions(one, rules);
     EXPECT_TRUE(has(found, "B:PHE1:CD1 - L:KNI1:O2")) << rules;
-    // The same pose in two files.
+    // The same coordinates in two files.
     std::vector<Structure> two;
     two.push_back(read(ring));
     two.push_back(read(ligand));
@@ -130,10 +130,11 @@ TEST(BondsByDistance, ALigandInARingIsACollisionAndNoBond) {
       1);
 }
 
-/// Serine (side chain) whose oxygen bears the acyl group of a ligand; acyl: C1 with its O and its CH3.
+/// Side chain of a serine whose oxygen bears an acyl group of a ligand. acyl(): C1 with its O and its CH3; length: O-C1
+/// distance, angstrom.
 const std::vector<Placed> serine{{"CA", -2.043, 1.935, 0.0}, {"CB", -0.541, 1.322, 0.4}, {"OG", 0.0, 0.0, 0.0}};
 std::vector<Placed> acyl(double length, double x = 1.0) {
-  // O-C=O 124 and O-C-C 111 degrees, in a plane.
+  // Planar, with O-C=O 124 and O-C-C 111 degrees.
   return {{"C1", x * length, 0.0, 0.0},
           {"O1", x * length + 1.22 * 0.559, 1.22 * 0.829, 0.0},
           {"C2", x * length + 1.51 * 0.358, -1.51 * 0.934, 0.0}};
@@ -169,13 +170,13 @@ TEST(BondsByDistance, AreRefusedWithoutRoomOrWithTheWrongLengthOrAngles) {
     EXPECT_FALSE(collisions(s).empty()) << text;
   };
   const std::string bearer = residue("SER", 'A', serine);
-  refused(bearer + residue("LIG", 'B', acyl(1.66)));  // 0.24 more than the radii
+  refused(bearer + residue("LIG", 'B', acyl(1.66)));  // 0.24 A longer than the sum of the radii
   refused(bearer + residue("LIG", 'B', acyl(0.95)));
-  // The hydroxyl has its hydrogen.
+  // The hydroxyl already has its hydrogen.
   auto with_hydrogen = serine;
   with_hydrogen.push_back({"HG", 0.3, -0.6, -0.7});
   refused(residue("SER", 'A', with_hydrogen) + residue("LIG", 'B', acyl(1.35)));
-  // Acyl carbon that has three bonds, and an angle of 180 degrees at the oxygen.
+  // First an acyl carbon that already has three bonds, then an angle of 180 degrees at the oxygen.
   auto full = acyl(1.35);
   full.push_back({"C3", 1.35 + 0.3, 0.2, 1.45});
   full[1] = {"C4", 1.35 + 1.45 * 0.559, 1.45 * 0.829, 0.3};
@@ -183,11 +184,12 @@ TEST(BondsByDistance, AreRefusedWithoutRoomOrWithTheWrongLengthOrAngles) {
   refused(bearer + residue("LIG", 'B', full));
   refused(residue("SER", 'A', {{"CA", -2.0, 1.4, 0.0}, {"CB", -1.43, 0.0, 0.0}, {"OG", 0.0, 0.0, 0.0}}) +
           residue("LIG", 'B', acyl(1.35)));
-  // Carbon of an amino acid has no room, whatever the angles.
+  // A carbon of an amino acid has no free valence, at any angles.
   refused(residue("ALA", 'A', {{"CA", -0.541, 1.322, 0.4}, {"CB", 0.0, 0.0, 0.0}}) + residue("LIG", 'B', acyl(1.5)));
 }
 
-/// CB and SG of two cysteines, 2.05 A apart, 104 degrees at either sulphur where `bent`.
+/// Returns CB and SG of two cysteines, with SG 2.05 A apart. bent: the angle at both sulphurs is 104 degrees, otherwise
+/// one is 180.
 std::string cysteines(bool bent) {
   const std::vector<Placed> second = bent ? std::vector<Placed>{{"CB", 2.488, 0.0, 1.756}, {"SG", 2.05, 0.0, 0.0}}
                                           : std::vector<Placed>{{"CB", 3.86, 0.0, 0.0}, {"SG", 2.05, 0.0, 0.0}};
@@ -203,7 +205,7 @@ TEST(BondsByDistance, DisulphidesWithoutARecord) {
   EXPECT_NE(notes_of(s).find("A:CYS1:SG - B:CYS1:SG, 2.050 angstrom"), std::string::npos) << notes_of(s);
   EXPECT_TRUE(bonds_between(read(cysteines(false))).empty());
   EXPECT_TRUE(bonds_between(read(cysteines(true), BondSearch::recorded)).empty());
-  // A third sulphur beside them has no partner left.
+  // A third sulphur nearby finds no free partner.
   const std::string third = residue("CYS", 'C', {{"CB", -0.438, -1.756, 0.3}, {"SG", -2.0, -0.9, 0.2}});
   EXPECT_EQ(bonds_between(read(cysteines(true) + third)).size(), 1U);
 }
@@ -222,13 +224,13 @@ TEST(BondsByDistance, MetalsBindDonorsAndNothingElse) {
 }
 
 TEST(BondsByDistance, AFoldedLigandCollidesWithItself) {
-  // A benzene ring whose side chain folds over it, until O1 is 1.70 A above C4.
+  // The side chain of a benzene ring folds back over it: O1 is 1.70 A above C4.
   std::vector<Placed> atoms{{"C1", 1.39, 0.0, 0.0},  {"C2", 0.695, 1.204, 0.0},   {"C3", -0.695, 1.204, 0.0},
                             {"C4", -1.39, 0.0, 0.0}, {"C5", -0.695, -1.204, 0.0}, {"C6", 0.695, -1.204, 0.0},
                             {"C7", 2.2, 0.0, 1.27},  {"C8", 1.2, 0.0, 2.5},       {"C9", -0.28, 0.0, 2.55},
                             {"O1", -1.4, 0.0, 1.7}};
   const Structure s = read(residue("LIG", 'A', atoms));
-  EXPECT_EQ(s.bonds.size(), 10U);  // six of the ring, four of the chain
+  EXPECT_EQ(s.bonds.size(), 10U);  // six in the ring, four in the chain
   EXPECT_TRUE(has(collisions(s), "A:LIG1:C4 - A:LIG1:O1"));
 }
 

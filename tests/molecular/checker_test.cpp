@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Engines against brute force on real and built proteins; published contact counts; thresholds and exclusions.
+// Compares engines with brute force on real and built proteins; tests published contact counts, thresholds and
+// exclusions.
 #include "hinge/molecular/checker.hpp"
 
 #include <gtest/gtest.h>
@@ -31,7 +32,7 @@ namespace checker_test {
 
 constexpr std::uint64_t seed = 1;
 
-/// `count` conformations from full-range and as many from near-native sampling, four modes each.
+/// Tests `count` conformations over the full range and `count` near the reference, in four modes each.
 void expect_equal_engines(const std::shared_ptr<const Molecule>& molecule, const std::string& spec, int count) {
   const auto selection = molecule->select(select_torsions(*molecule, spec, true));
   CheckOptions rules;
@@ -52,7 +53,7 @@ void expect_equal_engines(const std::shared_ptr<const Molecule>& molecule, const
         ASSERT_EQ(a.closest, b.closest) << text << " sample " << k;
         if (mode.kind == Mode::Kind::any) colliding[s] += a.collides ? 1 : 0;
       }
-      // Coordinates as from elsewhere: every admitted pair.
+      // The same coordinates, given as positions: every admitted pair counts.
       if (k % 50 != 0) continue;
       const auto positions = lazy.positions();
       const Verdict a = lazy.check_coordinates(positions, Mode::parse("all"));
@@ -134,8 +135,8 @@ TEST(NativeContacts, AgreeWithIndependentCounts) {
                                        std::pair("paper/1be0.cif", 0U), std::pair("paper/1mbo.pdb", 0U),
                                        std::pair("paper/2d0f.pdb", 1U), std::pair("paper/1mbn.pdb", 20U)})
     EXPECT_EQ(native_contacts(folder / file, false, rules), expected) << file;
-  // 4HHB: with template bonds 10. Bonds by distance alone give 257, because 127 covalent bonds of this old refinement
-  // are longer than radii + 0.4 angstrom (docs/explanation/native_contacts.md).
+  // 4HHB has 10 contacts with template bonds. Bonds by distance alone would give 257, because 127 covalent bonds of
+  // this old refinement are longer than radii + 0.4 angstrom (docs/explanation/native_contacts.md).
   EXPECT_EQ(native_contacts(folder / "4hhb.pdb.gz", false, rules), 10U);
 }
 
@@ -151,7 +152,7 @@ TEST(NativeContacts, WithHydrogensNeedTheHydrogenBondRule) {
   EXPECT_EQ(native_contacts(folder / "1l2y.pdb", true, rules), 10U);
 }
 
-/// How many conformations of a file, or of a trajectory, are free under these rules.
+/// Returns how many conformations of a file or trajectory are free.
 std::size_t free_conformations(const std::string& arguments, std::size_t expected_count) {
   const auto said = test::run_biocd("check " + arguments + " --mode any --threads 2 2>/dev/null");
   std::istringstream lines(said.out);
@@ -172,11 +173,11 @@ TEST(NativeContacts, LeaveDepositedStructuresWithHydrogensFreeByDefault) {
   EXPECT_EQ(free_conformations(at + "adk_closed.pdb " + at + "adk_dims.dcd", 98), 96U);
   EXPECT_EQ(free_conformations(at + "1l2y.pdb", 38), 38U);
   EXPECT_EQ(free_conformations(at + "paper/nmr_neopetrosiamide.pdb", 24), 24U);
-  // 2AXD's models differ in one atom.
+  // The models of 2AXD differ in one atom, so each is read alone.
   for (const char* model : {"1", "2", "12"})
     EXPECT_EQ(free_conformations(at + "paper/2axd.pdb.gz --model " + model, 1), 1U);
   EXPECT_EQ(free_conformations(at + "1ejg.pdb", 1), 1U);
-  // Rings of Phe47 and Phe51 overlap by 0.94 angstrom in each of these frames.
+  // The rings of Phe47 and Phe51 overlap by 0.94 angstrom in each frame.
   EXPECT_EQ(free_conformations(at + "paper/1vii_3frames.pdb", 3), 0U);
 }
 
@@ -191,7 +192,7 @@ TEST(Thresholds, AreSevereByDefaultWhereHydrogensAre) {
   EXPECT_EQ(t.rules->name, "severe");
   EXPECT_NEAR(t.matrix.threshold(PrimitiveId{0}, PrimitiveId{2}), 2 * 1.70 - 0.9, 1e-8);
   EXPECT_NEAR(t.matrix.threshold(PrimitiveId{1}, PrimitiveId{2}), 1.22 + 1.70 - 0.9, 1e-8);
-  options.rho = 0.8;  // asks for BioCD's criterion
+  options.rho = 0.8;  // rho selects BioCD's criterion
   t = make_thresholds(read_structure(file.path()), options);
   EXPECT_EQ(t.rules->name, "biocd");
   EXPECT_NEAR(t.matrix.threshold(PrimitiveId{0}, PrimitiveId{2}), 0.8 * 3.40, 1e-8);
@@ -207,7 +208,7 @@ TEST(NativeContacts, OfEveryRadiiSetStayFewOnCrambin) {
     EXPECT_EQ(native_contacts(file, false, rules), expected) << set;
   }
   rules.thresholds.radii = "amber";
-  rules.min_bonds = 4;  // with pairs four bonds apart, O(i)...C(i+1) above all
+  rules.min_bonds = 4;  // includes pairs four bonds apart, mostly O(i)...C(i+1)
   EXPECT_EQ(native_contacts(file, false, rules), 9U);
 }
 
@@ -286,7 +287,7 @@ TEST(Checker, ExemptsPairsOfTheReferenceOnRequest) {
   EXPECT_TRUE(lenient.constant_contacts().empty());
 }
 
-/// Differences, in thousandths, of carbons exactly 0.8 * (1.70 + 1.70) = 2.720 A apart, in no order of their own.
+/// Returns difference vectors of length exactly 0.8 * (1.70 + 1.70) = 2.720 A, in thousandths, in arbitrary order.
 std::vector<std::array<int, 3>> ties() {
   constexpr int length = 2720;
   std::vector<std::array<int, 3>> all;
@@ -300,8 +301,8 @@ std::vector<std::array<int, 3>> ties() {
   return all;
 }
 
-/// A PDB file of one pair of carbons for each difference, each pair far from the others; the second of them nearer by
-/// `nearer` thousandths along y.
+/// Returns a PDB file with one pair of carbons per difference, far from the other pairs. The second carbon is shifted
+/// by `nearer` thousandths along -y.
 std::string carbons(const std::vector<std::array<int, 3>>& differences, int nearer) {
   std::string text;
   const auto add = [&](std::size_t number, const std::array<int, 3>& at) {
@@ -312,7 +313,7 @@ std::string carbons(const std::vector<std::array<int, 3>>& differences, int near
     text += line.data();
   };
   for (std::size_t k = 0; k < differences.size(); ++k) {
-    // Off the doubles that are decimals, and at changing distances from the origin.
+    // Coordinates that are no exact doubles, at varying distances from the origin.
     const auto n = static_cast<int>(k);
     std::array<int, 3> at{10007 * (n % 9) + 3 * n, 10009 * (n / 9 % 9) - n, 10037 * (n / 81) + 7 * n};
     add(2 * k, at);
@@ -349,7 +350,7 @@ TEST(DecimalTies, OfAFileAreFreeInEveryModeAndEngine) {
     const Verdict all = checker.check_coordinates(written, Mode::parse("all"));
     EXPECT_FALSE(all.collides);
     EXPECT_TRUE(all.pairs.empty());
-    // 2.72 + 0.03 is 2.75, and no pair but these is nearer than that.
+    // Lists the pairs closer than 2.72 + 0.03 = 2.75: only these.
     const Verdict near = checker.check_coordinates(written, Mode::parse("within:0.03"));
     EXPECT_FALSE(near.collides);
     ASSERT_EQ(near.pairs.size(), differences.size());
@@ -370,27 +371,27 @@ TEST(DecimalTies, OfAFileAreFreeInEveryModeAndEngine) {
   }
 }
 
-/// With a margin the sum is what is written: 2.69 + 0.03.
+/// With a margin, ties are decided by the decimal sum: 2.38 + 0.34 = 2.72.
 TEST(DecimalTies, AtAMarginAreNotListed) {
   const test::TemporaryFile file(carbons(ties(), 0));
   const auto molecule = std::make_shared<const Molecule>(read_structure(file.path()));
   const auto& written = molecule->structure().models.front();
   CheckOptions rules;
-  rules.thresholds.rho = 0.7;  // 2.38
+  rules.thresholds.rho = 0.7;  // M = 2.38
   Checker checker(molecule, molecule->select({}), rules);
   EXPECT_TRUE(checker.check_coordinates(written, Mode::parse("within:0.34")).pairs.empty());
   EXPECT_EQ(checker.check_coordinates(written, Mode::parse("within:0.340001")).pairs.size(), written.size() / 2);
 }
 
-/// What a conformation is told in one mode it is told in all, also where a pair's numbers round to the same double.
+/// All modes give a conformation the same verdict, even if distance and threshold round to the same double.
 TEST(Verdicts, AgreeBetweenModesAtTies) {
   const auto differences = ties();
   const test::TemporaryFile file(carbons(differences, 0));
   const auto molecule = std::make_shared<const Molecule>(read_structure(file.path()));
-  const CheckOptions options;  // (a temporary makes g++ 12 warn about its members)
+  const CheckOptions options;  // a temporary makes g++ 12 warn about its members
   Checker checker(molecule, molecule->select({}), options);
   auto moved = molecule->structure().models.front();
-  for (Vec3& x : moved) x += Vec3(0.0001, 0.0001, 0.0001);  // off the grid: the doubles decide
+  for (Vec3& x : moved) x += Vec3(0.0001, 0.0001, 0.0001);  // not on thousandths: doubles decide
   std::size_t told_apart = 0;
   for (std::size_t k = 0; k < moved.size(); k += 2) {
     std::vector<Vec3> pair = moved;

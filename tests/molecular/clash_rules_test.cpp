@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The named rules: their numbers, their bounds to the last decimal, and that every engine's verdict is theirs.
+// Tests the named rules: their constants, their bounds to the last decimal, and equal verdicts of every engine.
 #include "hinge/molecular/clash_rules.hpp"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ CheckOptions by(const char* rules) {
   return options;
 }
 
-/// "ATOM" record of residue 1 of a chain, at (x, y, 0).
+/// Returns the ATOM record of an atom of residue 1 of a chain, at (x, y, 0).
 std::string atom(int serial, const char* name, const char* residue, char chain, double x, double y,
                  const char* element) {
   std::array<char, 100> line{};
@@ -47,7 +47,7 @@ std::shared_ptr<const Molecule> molecule_of(const std::string& text) {
   return std::make_shared<const Molecule>(read_structure(file.path()));
 }
 
-/// Two methyl groups, chains A and B, this far apart.
+/// Two methyl carbons in chains A and B, `apart` angstrom apart.
 std::shared_ptr<const Molecule> two_carbons(double apart) {
   return molecule_of(atom(1, " CB", "ALA", 'A', 0, 0, "C") + atom(2, " CB", "ALA", 'B', apart, 0, "C"));
 }
@@ -57,7 +57,7 @@ struct Answer {
   Severity severity;
 };
 
-/// Of the first and the last atom.
+/// Returns the verdict and severity of the pair of the first and the last atom.
 Answer ends(const std::shared_ptr<const Molecule>& molecule, const char* rules) {
   Checker checker(molecule, molecule->select({}), by(rules));
   const Verdict verdict = checker.check_coordinates(molecule->structure().models.front(), Mode::parse("within:10"));
@@ -99,7 +99,7 @@ TEST(ClashRules, NameTheRadiiTheyUse) {
 }
 
 TEST(ClashRules, DecideTiesInDecimalsAsTheProgramsDo) {
-  // MolProbity and ChimeraX include their cutoff, PoseBusters does not.
+  // MolProbity and ChimeraX include their cutoff; PoseBusters does not.
   EXPECT_TRUE(ends(two_carbons(3.000), "molprobity").collides);  // 2 * 1.70 - 0.4
   EXPECT_FALSE(ends(two_carbons(3.001), "molprobity").collides);
   EXPECT_TRUE(ends(two_carbons(2.500), "severe").collides);  // 2 * 1.70 - 0.9
@@ -136,14 +136,15 @@ TEST(ClashRules, SaySeverityAndClass) {
   EXPECT_EQ(clashscore(0, 0), 0.0);
 }
 
-/// A serine whose hydroxyl points at an oxygen of another chain; the last two atoms in the file are H and O.
+/// A serine whose hydroxyl points at an oxygen of another chain. HG is the first atom, that oxygen the last; `apart` is
+/// their distance (angstrom).
 std::shared_ptr<const Molecule> hydroxyl_and(const char* residue, const char* oxygen, double apart) {
   return molecule_of(atom(1, " HG", "SER", 'A', 0, 0, "H") + atom(2, " OG", "SER", 'A', -0.96, 0, "O") +
                      atom(3, " CB", "SER", 'A', -1.5, 1.3, "C") + atom(4, oxygen, residue, 'B', apart, 0, "O"));
 }
 
 TEST(ClashRules, AllowHydrogenBonds) {
-  // 1.05 + 1.40 = 2.45; Probe lets hydrogen and acceptor overlap by 0.6, and counts what goes beyond.
+  // 1.05 + 1.40 = 2.45. Probe allows hydrogen and acceptor to overlap by 0.6, and counts only the overlap beyond.
   EXPECT_EQ(ends(hydroxyl_and("ALA", " O", 1.851), "molprobity").severity.kind, "hydrogen_bond");
   EXPECT_EQ(ends(hydroxyl_and("ALA", " O", 1.850), "molprobity").severity.kind, "hydrogen_bond");
   EXPECT_EQ(ends(hydroxyl_and("ALA", " O", 1.849), "molprobity").severity.kind, "small_overlap");
@@ -151,7 +152,7 @@ TEST(ClashRules, AllowHydrogenBonds) {
   EXPECT_EQ(ends(hydroxyl_and("ALA", " O", 1.450), "molprobity").severity.kind, "clash");
   EXPECT_NEAR(ends(hydroxyl_and("ALA", " O", 1.450), "molprobity").severity.overlap, 0.4, 1e-12);
   EXPECT_EQ(ends(hydroxyl_and("ALA", " O", 2.451), "molprobity").severity.kind, "close_contact");
-  // PoseBusters looks at no hydrogen.
+  // PoseBusters ignores hydrogens.
   const Answer ignored = ends(hydroxyl_and("ALA", " O", 0.500), "posebusters");
   EXPECT_FALSE(ignored.collides);
   EXPECT_EQ(ignored.severity.kind, "ignored");
@@ -171,7 +172,7 @@ std::uint32_t find(const Structure& s, const std::string& wanted) {
 }
 
 TEST(AtomClasses, AreTheSameWhereAMetalIsBound) {
-  // Glutamate's carboxylate and a carbonyl on one sodium.
+  // The carboxylate of a glutamate and a carbonyl bind the same sodium.
   const std::string text = atom(1, " CA", "ALA", 'A', -0.76, 1.32, "C") + atom(2, " C", "ALA", 'A', 0, 0, "C") +
                            atom(3, " O", "ALA", 'A', 1.23, 0, "O") + atom(4, " CG", "GLU", 'B', 7.0, 3.5, "C") +
                            atom(5, " CD", "GLU", 'B', 6.0, 2.4, "C") + atom(6, " OE1", "GLU", 'B', 4.8, 2.1, "O") +
@@ -217,7 +218,7 @@ TEST(HydrogenBondRoles, AreKnownWithoutHydrogens) {
   expect("A:TYR59:OH", true, true);
   expect("A:ASP21:OD1", false, true);
   expect("A:MET1:SD", false, true);
-  expect("A:HIS68:ND1", true, false);  // one of the two, as in ChimeraX
+  expect("A:HIS68:ND1", true, false);  // ND1 donates and NE2 accepts, as in ChimeraX
   expect("A:HIS68:NE2", false, true);
   expect("A:GLY76:OXT", false, true);
 }
@@ -237,7 +238,7 @@ TEST(ClashRules, ChimeraxRadiiAndAllowanceWithoutHydrogens) {
   EXPECT_DOUBLE_EQ(contact("A:ILE3:CA", "A:PHE4:CG"), 1.88 + 1.61);
   EXPECT_DOUBLE_EQ(contact("A:ILE3:CA", "A:ASP21:CG"), 3.76);
   EXPECT_DOUBLE_EQ(contact("A:ILE3:N", "A:ILE13:O"), 2.66);    // 1.64 + 1.42 - 0.4
-  EXPECT_DOUBLE_EQ(contact("A:PRO19:N", "A:ILE13:O"), 3.06);   // has no hydrogen to give
+  EXPECT_DOUBLE_EQ(contact("A:PRO19:N", "A:ILE13:O"), 3.06);   // proline: no hydrogen to donate
   EXPECT_DOUBLE_EQ(contact("A:THR7:OG1", "A:ILE13:O"), 2.48);  // 1.46 + 1.42 - 0.4
   EXPECT_DOUBLE_EQ(contact("A:ILE3:O", "A:ILE13:O"), 2.84);
   EXPECT_DOUBLE_EQ(contact("A:MET1:SD", "A:ILE13:CA"), 3.65);
@@ -256,7 +257,7 @@ TEST(ClashRules, BiocdLowersThresholdsOfHeavyDonorsWhenAsked) {
   EXPECT_DOUBLE_EQ(threshold("A:ILE3:CA", "A:ILE13:O"), 0.8 * (1.70 + 1.52));
 }
 
-/// Bonds between any two atoms, 9 for more than 4.
+/// Returns the number of bonds between any two atoms; 9 if there are more than 4.
 std::vector<std::vector<int>> bonds_between(const Structure& s) {
   const std::size_t n = s.atoms.size();
   std::vector<std::vector<int>> bonds(n, std::vector<int>(n, 9));
@@ -271,7 +272,7 @@ std::vector<std::vector<int>> bonds_between(const Structure& s) {
 
 using Pairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 
-/// Pairs that the definition calls clashes: every pair looked at, no engine, no list of exclusions.
+/// Returns the clashes by definition: tests every pair, without an engine or a list of exclusions.
 Pairs by_definition(const Structure& s, const std::vector<std::vector<int>>& bonds, const Thresholds& t,
                     const std::vector<Vec3>& x) {
   const std::string rules(t.rules->name);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Heavy-atom bonds of the monomers of Debian's refmac-dictionary, read by a few lines that know nothing of CIF.
+// Reads the heavy-atom bonds of monomers in Debian's refmac-dictionary with a minimal reader, independent of the CIF
+// parser.
 #pragma once
 
 #include <cctype>
@@ -13,12 +14,13 @@ namespace hinge::test {
 
 inline const std::filesystem::path dictionary = "/usr/share/refmac/monomers";
 
+/// Returns the bonds between heavy atoms of a monomer, as pairs of atom names; empty if it is not in the dictionary.
 inline std::set<std::set<std::string>> dictionary_bonds(const std::string& name) {
   std::set<std::string> hydrogens;
   std::set<std::set<std::string>> bonds;
   std::ifstream in(dictionary / std::string(1, static_cast<char>(std::tolower(static_cast<unsigned char>(name[0])))) /
                    (name + ".cif"));
-  const auto word = [](std::istream& words) {  // "C5'" keeps its prime and loses its quotes; "H5' " its blank too
+  const auto word = [](std::istream& words) {  // removes quotes and trailing blanks: "C5'" and "H5' " keep the prime
     std::string text;
     words >> std::ws;
     if (words.peek() == '"') {
@@ -36,7 +38,7 @@ inline std::set<std::set<std::string>> dictionary_bonds(const std::string& name)
     if (line.starts_with("_")) category = line.substr(0, line.find('.'));
     if (line.empty() || line[0] == '_' || line[0] == '#' || line.starts_with("loop_")) continue;
     std::istringstream words(line);
-    word(words);  // the component
+    word(words);  // skips the component's name
     const std::string a = word(words), b = word(words);
     if (category == "_chem_comp_atom" && b == "H") hydrogens.insert(a);
     if (category == "_chem_comp_bond" && !hydrogens.contains(a) && !hydrogens.contains(b)) bonds.insert({a, b});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// engine/simd and engine/lazy against brute force on any molecule: verdicts, pairs, distances, in every mode.
+// Compares engine/simd and engine/lazy with brute force on any molecule: verdicts, pairs and distances, in every mode.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,8 +18,8 @@
 
 namespace hinge::test {
 
-/// `count` conformations over the full range and as many about the reference; ten times as many when HINGE_TEST_ALL is
-/// set.
+/// Tests `count` conformations over the full range and `count` near the reference; 10 * count if HINGE_TEST_ALL is set.
+/// spec: the free torsions.
 inline void expect_engines_agree(const std::shared_ptr<const molecular::Molecule>& molecule, const std::string& spec,
                                  int count) {
   using molecular::Checker;
@@ -28,7 +28,7 @@ inline void expect_engines_agree(const std::shared_ptr<const molecular::Molecule
   if (std::getenv("HINGE_TEST_ALL") != nullptr) count *= 10;
   const auto selection = molecule->select(molecular::select_torsions(*molecule, spec, false));
   molecular::CheckOptions rules;
-  rules.exempt_reference = true;  // near the reference there is something to tell apart
+  rules.exempt_reference = true;  // reference collisions would decide near the reference
   Checker wide(molecule, selection, rules);
   rules.engine = "lazy";
   Checker lazy(molecule, selection, rules);

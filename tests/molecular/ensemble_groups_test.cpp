@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rigid groups of ensembles whose groups are known: made by turning, with noise, and adenylate kinase's.
+// Tests the rigid groups of ensembles with known groups: made by known turns, with noise, and of adenylate kinase.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,8 +26,8 @@ namespace ensemble_groups_test {
 
 constexpr double degree = std::numbers::pi / 180.0;
 
-/// Conformations of a molecule, some torsions turned by known angles, every coordinate off by Gaussian noise and the
-/// whole of it moved rigidly.
+/// Makes conformations of a molecule: known turns of some torsions, Gaussian noise on every coordinate, and a random
+/// rigid motion of the whole.
 struct Ensemble {
   const Molecule& molecule;
   std::vector<std::size_t> turning;
@@ -67,7 +67,7 @@ Molecule two_domains() {
 
 std::vector<std::size_t> named(const Molecule& m, const std::string& words) { return select_torsions(m, words, false); }
 
-/// What the model makes of the molecule when exactly these torsions turn: the partition that has to come back.
+/// Returns the rigid groups of the model if exactly these torsions turn: the expected partition of the atoms.
 std::vector<std::vector<std::uint32_t>> parts(const Molecule& m, const std::vector<std::size_t>& turning) {
   const TorsionBodies bodies(m, turning);
   std::vector<std::vector<std::uint32_t>> parts(bodies.size());
@@ -99,7 +99,7 @@ TEST(EnsembleGroups, AreTheDomainsThatTwoTorsionsMove) {
 }
 
 TEST(EnsembleGroups, WrapAround) {
-  // About the reference plus half a turn: angles on either side of the cut are near each other.
+  // Turns close to pi: angles on both sides of the cut at pi are close to each other.
   const Molecule m = two_domains();
   const std::vector<std::size_t> hinge = named(m, "A:12:psi");
   std::mt19937_64 random(5);
@@ -116,7 +116,7 @@ TEST(EnsembleGroups, WrapAround) {
 }
 
 TEST(EnsembleGroups, ComeBackTogetherBehindTorsionsThatCompensate) {
-  // A piece of the chain moves as a loop does, both its ends closed: what is before and behind it is one group.
+  // A piece of the chain moves as a closed loop, so the atoms before and after it form one group.
   const Molecule m = two_domains();
   const std::vector<std::size_t> loop = named(m, "A:10-14:phi,A:10-14:psi"), all = named(m, "all");
   MoleculeOptions held;
@@ -138,7 +138,7 @@ TEST(EnsembleGroups, ComeBackTogetherBehindTorsionsThatCompensate) {
   ASSERT_EQ(core.segments.size(), 2U);
   std::vector<std::uint32_t> seen;
   for (const std::uint32_t i : core.atoms()) seen.push_back(m.structure().atoms[i].residue);
-  // Of the first and the last residue of the loop a part moves.
+  // Some atoms of the first and the last residue of the loop move, and some do not.
   for (std::uint32_t r = 0; r < 26; ++r)
     EXPECT_TRUE(r == 9 || r == 13 || std::binary_search(seen.begin(), seen.end(), r) == (r < 9 || r > 13)) << r;
   for (std::size_t g = 1; g < found.groups.size(); ++g) EXPECT_EQ(found.groups[g].segments.size(), 1U) << g;
@@ -147,7 +147,7 @@ TEST(EnsembleGroups, ComeBackTogetherBehindTorsionsThatCompensate) {
     EXPECT_LE(m.torsions()[k].residue, 13U);
   }
 
-  // The model that keeps them together: closed conformations leave the core as it is.
+  // In the model with held placements, closed conformations do not change the shape of the core.
   held.held = held_placements(m, found);
   const Molecule kept(m.structure(), held);
   ASSERT_EQ(kept.model().tree().closures().size(), 2U);
@@ -195,8 +195,8 @@ TEST(EnsembleGroups, OfAdenylateKinaseAreItsDomains) {
   EnsembleSpread spread(m, named(m, "backbone"));
   for (std::size_t k = 0; k < trajectory.size(); ++k) spread.add(trajectory.kept(trajectory.frame(k)));
   const EnsembleGroups found = find_ensemble_groups(spread, 2.0);
-  // A group for each domain, LID 122-159, NMP 30-59 and core (C. Mueller et al., Structure 4:147, 1996), and none of
-  // two.
+  // One group per domain (LID 122-159, NMP 30-59, core; C. Mueller et al., Structure 4:147, 1996), and no group with
+  // atoms of two domains.
   int lid = 0, nmp = 0, core = 0;
   for (const EnsembleGroup& group : found.groups) {
     int in_lid = 0, in_nmp = 0, in_core = 0;

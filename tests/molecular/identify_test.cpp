@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What residues and atoms are taken for, and the bonds that follow.
+// Tests the identification of residues and atoms, and the bonds that follow from it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,7 +36,8 @@ std::string atom(const std::string& name, const std::string& residue, int number
   return line.data();
 }
 
-/// Residues of an ideal protein as PDB records, some of them renamed to HETATM residues and moved.
+/// Returns a residue of an ideal protein as PDB records, shifted by `shift` (angstrom). If `name` is not empty, they
+/// are HETATM records with that residue name.
 std::string records(const Structure& s, std::uint32_t residue, const std::string& name, const Vec3& shift = {0, 0, 0}) {
   std::string text;
   for (std::uint32_t i = s.residues[residue].first_atom; i < s.residues[residue].last_atom; ++i)
@@ -115,7 +116,7 @@ TEST(Elements, OfCharmmIonsComeFromTheirNames) {
 }
 
 TEST(Bonds, JoinAMetalToItsDonorsOnly) {
-  // Calcium beside a bidentate carboxylate: 2.4 from the oxygens, 2.75 from the carbon.
+  // Calcium bound by a bidentate carboxylate: 2.4 A from both oxygens, 2.75 A from the carbon.
   const std::string ligand = atom(" C", "ACT", 2, {20, 0, 0}, "C", "HETATM") +
                              atom(" O", "ACT", 2, {20.59, 1.10, 0}, "O", "HETATM") +
                              atom(" OXT", "ACT", 2, {20.59, -1.10, 0}, "O", "HETATM");
@@ -180,18 +181,18 @@ TEST(ResidueTable, HasTheBondsOfTheMonomerDictionary) {
     const auto add = [&](std::string_view a, std::string_view b) { own.insert({std::string(a), std::string(b)}); };
     for_each_bond("N-CA CA-C C-O", add);
     for_each_bond(known.side_chain, add);
-    own.erase({"CG1", "CD"});  // CHARMM's name of isoleucine's CD1
+    own.erase({"CG1", "CD"});  // CD is CHARMM's name of CD1 of isoleucine
     EXPECT_EQ(own, expected) << known.name;
   }
 }
 
 TEST(IdealProtein, HasNoCloseContactsWhateverTheSideChain) {
-  const auto radius = [](const std::string& element) {  // Bondi
+  const auto radius = [](const std::string& element) {  // Bondi radii, angstrom
     return element == "C" ? 1.70 : element == "N" ? 1.55 : element == "O" ? 1.52 : 1.80;
   };
   for (const char element : std::string_view("HEC"))
     for (const char letter : std::string_view("ARNDCQEGHILKMFPSTWYV")) {
-      if (element == 'H' && letter == 'P') continue;  // proline breaks helices
+      if (element == 'H' && letter == 'P') continue;  // no proline in helices
       const Structure s = build_ideal_protein(std::string(12, letter), std::string(12, element));
       const BondExclusions exclusions(s, 4);
       const auto& x = s.models.front();

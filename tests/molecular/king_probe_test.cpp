@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Overlapping atoms of real proteins, nucleic acids, glycans and ligands beside those of king-probe (Debian's Probe,
-// which shares no code): radius by radius and pair by pair, where it is installed; and clashes beside those it has for
-// MolProbity.
+// Compares overlaps in real proteins, nucleic acids, glycans and ligands with king-probe (Debian's Probe, which shares
+// no code), radius by radius and pair by pair, and clashes with its results for MolProbity. Skipped if it is not
+// installed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,14 +39,15 @@ namespace king_probe_test {
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
-constexpr int bonds_left_out = 3;      // Probe's -3: what up to three bonds join is no contact
-constexpr double probe_radius = 0.25;  // angstrom, Probe's default: pairs up to twice as far apart are contacts
-constexpr double dots_per_area = 32;   // on each atom's sphere, per square angstrom
+constexpr int bonds_left_out = 3;      // Probe's -3: atoms joined by up to three bonds make no contact
+constexpr double probe_radius = 0.25;  // angstrom, Probe's default: contacts have gaps up to twice this
+constexpr double dots_per_area = 32;   // dots per square angstrom on the sphere of an atom
 constexpr double default_dots_per_area = 16;
 constexpr double many_dots_per_area = 64;
-constexpr double bad_overlap = 0.4;  // angstrom, Probe's -DIVLow: what MolProbity counts
+constexpr double bad_overlap = 0.4;  // angstrom, Probe's -DIVLow: overlap of a MolProbity clash
 
-/// Angstrom: half of the last digit of a gap as Probe prints it, and its floats: five roundings of numbers below 4.
+/// Error of a gap in Probe's output (angstrom): half of the last printed digit, and five float roundings of numbers
+/// below 4.
 constexpr double printed = 0.0005 + 5 * 0x1p-23;
 
 std::string trimmed(const std::string& text, std::size_t at, std::size_t size) {
@@ -55,7 +56,7 @@ std::string trimmed(const std::string& text, std::size_t at, std::size_t size) {
   return first == std::string::npos ? "" : field.substr(first, field.find_last_not_of(' ') - first + 1);
 }
 
-/// Of a line of Probe's -unformated output, which colons separate.
+/// Returns the fields of a line of Probe's -unformated output, which uses colons.
 std::vector<std::string> fields_of(const std::string& line) {
   std::vector<std::string> fields;
   std::istringstream parts(line);
@@ -63,22 +64,22 @@ std::vector<std::string> fields_of(const std::string& line) {
   return fields;
 }
 
-/// What Probe says of a pair in contact, from either side.
+/// Probe's result for a pair in contact, from both sides.
 struct ProbeContact {
-  double gap = 0.0;            ///< distance less both radii, angstrom
+  double gap = 0.0;            ///< distance minus both radii, angstrom
   bool dots_inside = false;    ///< a dot of one atom is inside the other
-  bool hydrogen_bond = false;  ///< one of them is excused as a hydrogen bond
+  bool hydrogen_bond = false;  ///< a dot counts as a hydrogen bond
 };
 
-/// The same at MolProbity's settings.
+/// Probe's result for a pair at MolProbity's settings.
 struct ProbeClash {
-  double gap = 0.0;            ///< distance less both radii, angstrom
-  bool bad = false;            ///< a dot of one atom is deep inside the other
+  double gap = 0.0;            ///< distance minus both radii, angstrom
+  bool bad = false;            ///< a dot of one atom is deeper than bad_overlap inside the other
   bool bad_if_denser = false;  ///< the same with many more dots
   bool hydrogen_bond = false;
 };
 
-/// One conformer of a real structure as both programs are handed it.
+/// One conformer of a real structure, as given to both programs.
 class Subject {
  public:
   Subject(const std::string& file, bool hetero) : pdb_(""), dump_("") {
@@ -88,7 +89,7 @@ class Subject {
     const Structure whole = read_structure(test::shared_molecules() / file, options);
     {
       std::ofstream out(pdb_.path());
-      write_pdb_head(out, whole);  // bonds that distances do not tell
+      write_pdb_head(out, whole);  // records of bonds that distances cannot find
       write_pdb_model(out, whole, whole.models.front(), 1);
       write_pdb_tail(out, whole);
     }
@@ -107,7 +108,7 @@ class Subject {
   std::size_t size() const { return structure().atoms.size(); }
   const Vec3& position(std::uint32_t i) const { return structure().models.front()[i]; }
   Checker& checker() { return *checker_; }
-  /// Of our own set, angstrom.
+  /// Returns the radius of our radii set, angstrom.
   double radius(std::uint32_t i) const {
     const auto type = checker_->thresholds().matrix.type(id<PrimitiveId>(i));
     return checker_->thresholds().between(type, type) / 2;
@@ -115,7 +116,7 @@ class Subject {
   double probe_radius_of(std::uint32_t i) const { return radii_.at(i); }
   const std::map<Pair, ProbeContact>& contacts() const { return contacts_; }
   const std::map<Pair, ProbeClash>& clashes() const { return clashes_; }
-  /// By --rules molprobity.
+  /// Returns a checker with --rules molprobity.
   Checker molprobity() const {
     CheckOptions rules;
     rules.thresholds.rules = "molprobity";
@@ -123,7 +124,7 @@ class Subject {
   }
 
  private:
-  /// As Probe prints an atom: chain, number, insertion code, residue, atom.
+  /// Returns an atom's name in Probe's order: chain, number, insertion code, residue, atom.
   std::string name(std::uint32_t i) const {
     const Atom& atom = structure().atoms[i];
     const Residue& residue = structure().residues[atom.residue];
@@ -140,7 +141,7 @@ class Subject {
     return found->second;
   }
   void ask_probe();
-  /// Calls use(pair, kind, gap) for each line.
+  /// Runs Probe and calls use(pair, kind, gap) for each line of its output; gap: angstrom.
   template <class Use>
   void read_contacts(const std::string& arguments, const Use& use);
 
@@ -160,7 +161,7 @@ void Subject::read_contacts(const std::string& arguments, const Use& use) {
   for (std::string line; std::getline(said, line);) {
     const std::vector<std::string> fields = fields_of(line);
     ASSERT_GT(fields.size(), 6U) << line;
-    // " A   1 ASN  CA "
+    // fields 3 and 4 look like " A   1 ASN  CA "
     const std::uint32_t i = atom(fields[3], 0, 2, 7, 11), j = atom(fields[4], 0, 2, 7, 11);
     use(Pair(std::minmax(i, j)), fields[2], std::stod(fields[6]));
   }
@@ -170,7 +171,7 @@ void Subject::ask_probe() {
   std::ostringstream all;
   all << "-3 -het -nolimit -nofacehbond -density" << dots_per_area << " -dumpatoms " << dump_.path().string()
       << " -self all " << pdb_.path().string();
-  // Simd contact, close contact, small overlap, bad overlap, hydrogen bond.
+  // Kinds: wc wide contact, cc close contact, so small overlap, bo bad overlap, hb hydrogen bond.
   read_contacts(all.str(), [&](const Pair& pair, const std::string& kind, double gap) {
     ProbeContact& contact = contacts_[pair];
     contact.gap = gap;
@@ -187,7 +188,8 @@ void Subject::ask_probe() {
       clash.hydrogen_bond = clash.hydrogen_bond || kind == "hb";
     });
   }
-  // " A ASN  46 HD22 B  13.813   2.856  14.433  1.05 ...", without insertion codes: atoms are told by their places.
+  // A line looks like " A ASN  46 HD22 B  13.813   2.856  14.433  1.05 ...". It has no insertion code, so atoms are
+  // identified by their coordinates.
   std::map<std::array<long, 3>, std::uint32_t> places;
   for (std::uint32_t i = 0; i < size(); ++i)
     places.emplace(std::array{std::lround(1000 * position(i)[0]), std::lround(1000 * position(i)[1]),
@@ -200,15 +202,15 @@ void Subject::ask_probe() {
   }
 }
 
-/// Probe's dots, recounted: how many of them a pair should have on the sphere of one of its atoms. A dot is put where
-/// the small probe that touches the sphere there touches the other atom too, no atom is deeper over it than the other,
-/// and no atom that is too few bonds away covers it.
+/// Estimates the number of Probe's dots that a pair should have on the sphere of one of its atoms. A dot counts if the
+/// probe sphere that touches there also touches the other atom, no third atom is deeper at the dot, and no atom too few
+/// bonds away covers it.
 class Dots {
  public:
-  /// per_area: dots per square angstrom; left_out: what so many bonds join.
+  /// per_area: dots per square angstrom. left_out: pairs with fewer bonds between them make no contact.
   Dots(const Subject& subject, double per_area, MinBonds left_out)
       : subject_(subject), per_area_(per_area), left_out_(left_out) {
-    // A Fibonacci lattice: equal areas, and not Probe's dots.
+    // Fibonacci lattice: directions with equal areas, independent of Probe's dots.
     const double golden = std::numbers::pi * (1.0 + std::sqrt(5.0));
     for (std::size_t k = 0; k < count; ++k) {
       const double z = 1.0 - (2.0 * static_cast<double>(k) + 1.0) / count, r = std::sqrt(1.0 - z * z);
@@ -217,7 +219,8 @@ class Dots {
     }
   }
 
-  /// Of those at least so deep inside the other atom (angstrom), on either of the two: the larger number.
+  /// Returns the expected number of dots at least `deep` angstrom inside the other atom: the larger number of both
+  /// spheres.
   double expected(const Pair& pair, double deep) const {
     return std::max(expected(pair.first, pair.second, deep), expected(pair.second, pair.first, deep));
   }
@@ -239,7 +242,7 @@ class Dots {
   };
 
   double gap(const Vec3& x, std::uint32_t i) const { return (x - subject_.position(i)).norm() - subject_.radius(i); }
-  /// Atoms that the small probe can touch, but for the two.
+  /// Returns the other atoms that the probe sphere can touch.
   std::vector<Neighbour> around(std::uint32_t on, std::uint32_t with) const {
     std::vector<Neighbour> found;
     for (std::uint32_t i = 0; i < subject_.size(); ++i)
@@ -266,9 +269,9 @@ class Dots {
   std::vector<Vec3> directions_;
 };
 
-constexpr double any_depth = -1.0;  // angstrom: dots outside of the other atom as well
+constexpr double any_depth = -1.0;  // angstrom: includes dots outside the other atom
 
-/// The parts of the comparison; each says what differs.
+/// Compares one structure; each function reports the differences.
 class Comparison {
  public:
   Comparison(const std::string& file, bool hetero)
@@ -283,7 +286,7 @@ class Comparison {
   }
 
   void overlaps() {
-    std::map<Pair, double> ours;  // distance less both radii
+    std::map<Pair, double> ours;  // distance minus both radii
     const Mode mode{Mode::Kind::within, 2 * probe_radius};
     const Verdict verdict = subject_.checker().check_coordinates(subject_.structure().models.front(), mode);
     for (const Contact& pair : verdict.pairs) {
@@ -309,7 +312,7 @@ class Comparison {
       if (subject_.contacts().contains(pair)) continue;
       ++hidden;
       const double dots = dots_.expected(pair, any_depth);
-      // Less than the area of this many dots may lie between them.
+      // Probe's dots can miss an area of less than this many dots.
       EXPECT_LT(dots, 2.0) << "without a dot: " << name(pair.first) << ' ' << name(pair.second) << ' ' << gap;
       deepest = std::min(deepest, gap);
       most_dots = std::max(most_dots, dots);
@@ -322,7 +325,7 @@ class Comparison {
         subject_.contacts().size() - metals, metals, overlapping, hidden, -deepest, most_dots);
   }
 
-  /// Ours is about donors and acceptors themselves where there are no hydrogens.
+  /// Without hydrogens our rule is about donor and acceptor atoms, so there is nothing to compare.
   void hydrogen_bonds() {
     if (!has_hydrogens(subject_.structure())) return;
     ThresholdOptions options{"probe", 1.0, true};
@@ -335,7 +338,7 @@ class Comparison {
       const bool ours = lowered.between(s, t) < plain.between(s, t);
       if (contact.gap >= 0.0) continue;
       bonds += ours ? 1 : 0;
-      // Where all that is inside is hidden, Probe has nothing to excuse.
+      // If all dots inside are hidden, Probe has no dot to count as a hydrogen bond.
       if (ours && !contact.dots_inside)
         ++shallow;
       else
@@ -345,12 +348,12 @@ class Comparison {
     std::printf("%zu overlaps with a threshold lowered for hydrogen bonds, %zu without a dot inside\n", bonds, shallow);
   }
 
-  /// How many clashes both have, and what explains those that one has alone.
+  /// Clashes of both programs, and the reasons for clashes that only one program has.
   struct Clashes {
     std::size_t both = 0;
-    std::size_t between_dots = 0;    ///< ours: Probe has it as well with many more dots
-    std::size_t hidden = 0;          ///< ours: other atoms cover where the pair is so deep
-    std::size_t hydrogen_bonds = 0;  ///< of both: with dots of a hydrogen bond beside, which MolProbity takes as one
+    std::size_t between_dots = 0;    ///< only ours: Probe finds it with many more dots
+    std::size_t hidden = 0;          ///< only ours: other atoms cover the deepest dots
+    std::size_t hydrogen_bonds = 0;  ///< both: it also has dots of a hydrogen bond, which MolProbity takes as one
 
     friend bool operator==(const Clashes&, const Clashes&) = default;
     friend std::ostream& operator<<(std::ostream& out, const Clashes& c) {
@@ -384,7 +387,7 @@ class Comparison {
         continue;
       }
       ++(probes != subject_.clashes().end() && probes->second.bad_if_denser ? counted.between_dots : counted.hidden);
-      // Less than the area of this many dots may lie between them.
+      // Probe's dots can miss an area of less than this many dots.
       EXPECT_LT(dots.expected(pair, bad_overlap + allowance), 2.0)
           << name(pair.first) << ' ' << name(pair.second) << ' ' << overlap;
     }
@@ -397,7 +400,7 @@ class Comparison {
 
  private:
   std::string name(std::uint32_t i) const { return label(subject_.structure(), i); }
-  /// Coordination bonds are bonds for us, not for Probe.
+  /// Returns true if only coordination bonds exclude the pair: they are bonds for us, but not for Probe.
   bool joined_by_metals(const Pair& pair) const {
     Structure without = subject_.structure();
     std::erase_if(without.bonds, [](const Bond& bond) { return bond.order == BondOrder::coordination; });
@@ -406,11 +409,12 @@ class Comparison {
 
   Subject subject_;
   Dots dots_;
-  /// Of Probe's gaps, angstrom. Far from the origin its coordinates are floats below 128, off by 2^-18 each.
+  /// Error of Probe's gaps, angstrom. Ligand files lie far from the origin: float coordinates below 128 are off by
+  /// 2^-18 each.
   double precision_;
 };
 
-/// A hydrogen of SER or LYS beside an oxygen of another chain, `apart` angstrom from it.
+/// Returns a PDB file: a polar hydrogen of SER or LYS, and an oxygen of another chain at distance `apart` (angstrom).
 std::string polar_pair(const char* donor, const char* hydrogen, const char* bearer, const char* acceptor,
                        const char* oxygen, double apart) {
   std::string text;
@@ -449,14 +453,14 @@ TEST(BesideKingProbe, HydrogenBondsThatAreTooShortAreClashes) {
     EXPECT_EQ(ours, clash) << text;
     EXPECT_EQ(probes, clash) << text << said.out;
   };
-  // 1.05 + 1.40 - 0.6 - 0.4 = 1.45; opposite charges: 1.25.
+  // Thresholds: 1.05 + 1.40 - 0.6 - 0.4 = 1.45; 1.25 between opposite charges.
   expect(polar_pair("SER", " HG", " OG", "ALA", " O", 1.46), false);
   expect(polar_pair("SER", " HG", " OG", "ALA", " O", 1.44), true);
   expect(polar_pair("LYS", " HZ1", " NZ", "ASP", " OD1", 1.46), false);
   expect(polar_pair("LYS", " HZ1", " NZ", "ASP", " OD1", 1.24), true);
 }
 
-/// An atom of a monomer of refmac-dictionary, where it stands there.
+/// An atom of a monomer of refmac-dictionary, at its position there (angstrom).
 struct MonomerAtom {
   std::string name, element;
   Vec3 position;
@@ -490,8 +494,8 @@ std::vector<MonomerAtom> monomer_atoms(const std::filesystem::path& file) {
   return atoms;
 }
 
-/// Bases, nucleotides, modified ones, sugars and ligands: radii and roles in hydrogen bonds, atom by atom, and gaps of
-/// a stack of two of them.
+/// Compares radii and hydrogen-bond roles of each atom of bases, nucleotides, modified nucleotides, sugars and ligands,
+/// and the gaps between two stacked monomers.
 TEST(BesideKingProbe, NucleotidesSugarsAndLigandsAreWhatProbeSees) {
   if (test::run_tool("king-probe", "-version 2>/dev/null").status != 0) GTEST_SKIP() << "king-probe is not installed";
   const std::filesystem::path dictionary = "/usr/share/refmac/monomers";
@@ -505,7 +509,7 @@ TEST(BesideKingProbe, NucleotidesSugarsAndLigandsAreWhatProbeSees) {
     for (const MonomerAtom& atom : monomer_atoms(dictionary / lower / (std::string(name) + ".cif"))) {
       std::array<char, 100> line{};
       const bool wide = atom.name.size() == 4 || atom.element.size() == 2;
-      // Neighbours in the alphabet are 3.4 A apart and so overlap; every second pair is far from the others.
+      // Chains form pairs: the two monomers of a pair are 3.4 A apart and overlap; the pairs are far apart.
       const int k = chain - 'A';
       std::snprintf(line.data(), line.size(),
                     "HETATM%5zu %-4s %3s %c   1    %8.3f%8.3f%8.3f  1.00  0.00          %2s\n", ++written,
@@ -564,7 +568,7 @@ TEST(BesideKingProbe, NucleotidesSugarsAndLigandsAreWhatProbeSees) {
     };
     const std::uint32_t i = find(fields[3]), j = find(fields[4]);
     const double d = (s.models.front()[i] - s.models.front()[j]).norm();
-    // Probe's coordinates are floats below 128, off by 2^-18 each.
+    // Probe's float coordinates below 128 are off by 2^-18 each.
     EXPECT_NEAR(d - radius(i) - radius(j), std::stod(fields[6]), printed + 0x1p-16)
         << label(s, i) << ' ' << label(s, j);
     ++contacts;
@@ -573,8 +577,8 @@ TEST(BesideKingProbe, NucleotidesSugarsAndLigandsAreWhatProbeSees) {
   std::printf("%zu atoms, %zu contacts with the same gap\n", seen, contacts);
 }
 
-/// What Probe calls an overlap of 0.9 A or more, hydrogen bonds allowed for, is found by default: in structures as they
-/// are and in conformations that clash.
+/// The default rules find every overlap that Probe measures as 0.9 A or more beyond its hydrogen-bond allowance, in
+/// deposited structures and in clashing conformations.
 TEST(BesideKingProbe, SevereOverlapsAreAllFound) {
   if (test::run_tool("king-probe", "-version 2>/dev/null").status != 0) GTEST_SKIP() << "king-probe is not installed";
   if (!std::filesystem::exists(test::shared_molecules())) GTEST_SKIP() << "shared data not found";
@@ -594,7 +598,7 @@ TEST(BesideKingProbe, SevereOverlapsAreAllFound) {
           trimmed(std::to_string(s.residues[s.atoms[i].residue].sequence_number), 0, 5) + '/' + s.atoms[i].name, i);
     for (std::uint64_t k = 0; k < 4; ++k) {
       std::vector<Vec3> x = s.models.front();
-      if (k > 0) {  // turns of any size collide everywhere, small ones here and there
+      if (k > 0) {  // k = 1: full turns, which collide everywhere; k > 1: small turns, with few collisions
         const std::optional<double> sigma = k == 1 ? std::nullopt : std::optional(k == 2 ? 0.3 : 0.05);
         checker.check(sample_configuration({7, sigma}, k, checker.dof_count()), Mode::parse("any"));
         x = checker.positions();
@@ -625,7 +629,7 @@ TEST(BesideKingProbe, SevereOverlapsAreAllFound) {
         const std::size_t pair =
             t.matrix.type(id<PrimitiveId>(i)) * t.type_names.size() + t.matrix.type(id<PrimitiveId>(j));
         if (-std::stod(fields[6]) - t.allowance[pair] < severe + printed) continue;
-        // Probe perceives bonds from distances, and so misses disulphides that a sample tears open.
+        // Probe finds bonds by distance, so it misses disulphides that a sample breaks.
         if (!checker.exclusions().admits(id<PrimitiveId>(i), id<PrimitiveId>(j))) continue;
         probes.emplace(i, j);
         EXPECT_TRUE(found.contains({i, j})) << file << ' ' << k << ' ' << line;
@@ -637,7 +641,7 @@ TEST(BesideKingProbe, SevereOverlapsAreAllFound) {
   std::printf("%zu pairs that overlap by 0.9 A or more in Probe are found, %zu in all\n", severe_of_probe, ours);
 }
 
-/// A file and its clashes by version 2.21.
+/// A file and its expected clashes with Probe version 2.21.
 struct Case {
   const char* file;
   Comparison::Clashes clashes;
@@ -665,8 +669,8 @@ constexpr std::array<Case, 6> proteins{{{"1l2y.pdb", {0, 0, 0, 0}},
                                         {"5pti.pdb", {8, 1, 0, 0}},
                                         {"paper/1vii_3frames.pdb", {90, 5, 3, 0}},
                                         {"paper/2axd.pdb.gz", {8, 3, 1, 0}}}};
-/// DNA, RNA with modified bases, DNA with a protein and metals, ligands, glycans: as deposited, without hydrogens but
-/// for polar ones.
+/// DNA, RNA with modified bases, DNA with a protein and metals, ligands, glycans: as deposited, with polar hydrogens at
+/// most.
 constexpr std::array<Case, 6> others{{{"1bna.pdb", {1, 0, 0, 0}, true},
                                       {"1ehz.pdb.gz", {6, 0, 0, 0}, true},
                                       {"1d66.pdb", {22, 0, 1, 0}, true},

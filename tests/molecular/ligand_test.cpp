@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ligands, sugars, modified residues and metals: where their bonds come from, which of them turn, engines against brute
-// force.
+// Tests ligands, sugars, modified residues and metals: the sources of their bonds, their rotatable bonds, and engines
+// against brute force.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -54,7 +54,7 @@ std::string hetatm(const std::vector<LigandAtom>& atoms, const char* residue, in
   return text;
 }
 
-/// A zigzag of atoms C1, C2 ... with these bond lengths (angstrom).
+/// Returns a zigzag of carbons C1, C2 ... with these bond lengths (angstrom).
 std::vector<LigandAtom> zigzag(const std::vector<double>& lengths) {
   static constexpr std::array<const char*, 8> names{"C1", "C2", "C3", "C4", "C5", "C6", "C7", "C8"};
   std::vector<LigandAtom> atoms{{names[0], "C", Vec3(0, 0, 0)}};
@@ -65,7 +65,7 @@ std::vector<LigandAtom> zigzag(const std::vector<double>& lengths) {
   return atoms;
 }
 
-/// A component in wwPDB's layout.
+/// Returns a component in the format of wwPDB.
 std::string component(const std::string& name, const std::string& bonds) {
   return "data_" + name + "\nloop_\n_chem_comp_bond.comp_id\n_chem_comp_bond.atom_id_1\n_chem_comp_bond.atom_id_2\n" +
          "_chem_comp_bond.value_order\n_chem_comp_bond.pdbx_aromatic_flag\n" + bonds + "#\n";
@@ -115,7 +115,7 @@ bool has_note(const Structure& s, const std::string& words) {
 TEST(RotatableBonds, AreSingleAndNotTerminal) {
   const std::string text = hetatm(zigzag({1.53, 1.53, 1.53, 1.53, 1.53}), "UNL");
   EXPECT_EQ(names(Molecule(read(text))), (std::vector<std::string>{"C2-C3", "C3-C4", "C4-C5"}));
-  // Orders that a component states count, not lengths.
+  // If a component gives bond orders, they decide instead of lengths.
   const auto with = [&](const char* order) {
     return Molecule(read(text, component("UNL", std::string("UNL C1 C2 SING N\nUNL C2 C3 SING N\nUNL C3 C4 ") + order +
                                                     "\nUNL C4 C5 SING N\nUNL C5 C6 SING N\n")));
@@ -132,7 +132,7 @@ TEST(RotatableBonds, OfUnknownOrderAreToldByTheirLengths) {
 }
 
 TEST(RotatableBonds, AreNoAmides) {
-  // N-methylpropanamide and an ethyl group on its nitrogen: CA-C turns, C-N does not, whatever the component says.
+  // An amide with an ethyl group on its nitrogen: C2-C3 rotates, C3-N does not, even if the component calls it single.
   std::vector<LigandAtom> atoms = zigzag({1.53, 1.53, 1.33, 1.45, 1.53});
   atoms[3].name = "N", atoms[3].element = "N";
   atoms.push_back({"O", "O", atoms[2].x + Vec3(0.0, -1.23, 0.0)});
@@ -163,7 +163,7 @@ TEST(RotatableBonds, LieInNoRing) {
 }
 
 TEST(RotatableBonds, OfARingOfResiduesKeepEveryBondButTheClosures) {
-  // Eight carbons in a ring, four to a residue: no ring of either.
+  // Eight carbons in a ring, four per residue: neither residue contains a ring.
   std::vector<LigandAtom> atoms;
   static constexpr std::array<const char*, 4> names{"C1", "C2", "C3", "C4"};
   for (std::size_t k = 0; k < 8; ++k) {
@@ -232,7 +232,7 @@ TEST(Components, OfBadFilesAreRefusedSayingWhy) {
   EXPECT_THROW(ComponentLibrary("/nonexistent"), LoadError);
 }
 
-/// A dictionary of one monomer.
+/// A dictionary with one monomer; removed by the destructor.
 class Dictionary {
  public:
   Dictionary(const std::string& name, const std::string& text)
@@ -257,7 +257,7 @@ TEST(Components, OfADictionaryAreFoundByName) {
   EXPECT_EQ(source_of(s, "LGD"), dictionary.path().string());
   EXPECT_TRUE(has_note(s, "bonds by " + dictionary.path().string() + ": LGD x1"));
   EXPECT_TRUE(Molecule(s).torsions().empty());
-  // A given component comes first, and no other name is looked for.
+  // A given component has priority. Only the exact name is looked up.
   EXPECT_EQ(names(Molecule(read(hetatm(atoms, "LGD"),
                                 component("LGD", "LGD C1 C2 SING N\nLGD C2 C3 SING N\nLGD C3 C4 SING N\n"),
                                 dictionary.path()))),
@@ -281,7 +281,7 @@ TEST(Components, LeaveAtomsTheyDoNotKnowToRadii) {
 }
 
 TEST(Components, NameTheBearersOfHydrogens) {
-  // The hydrogen of C1 has been put nearer to C2.
+  // The hydrogen of C1 is closer to C2.
   auto atoms = zigzag({1.53, 1.53});
   atoms.push_back({"H1", "H", atoms[1].x + Vec3(-0.35, -0.5, 0.2)});
   const auto bearer = [](const Structure& s) {
@@ -296,7 +296,7 @@ TEST(Components, NameTheBearersOfHydrogens) {
 }
 
 TEST(Hydrogens, OfAminoAcidsAreBondedByTheirNames) {
-  // HG of serine, put nearer to CB than to OG, as a bad model has it.
+  // HG of serine is closer to CB than to OG, as in a bad model.
   const Structure ideal = build_ideal_protein("S", "C");
   std::map<std::string, Vec3> at;
   std::vector<LigandAtom> atoms;
@@ -315,7 +315,7 @@ TEST(Hydrogens, OfAminoAcidsAreBondedByTheirNames) {
     ASSERT_EQ(neighbours.back().size(), 1U) << name;
     EXPECT_EQ(s.atoms[neighbours.back().front()].name, bearer) << name;
   }
-  // A name that cannot be: the nearest atom.
+  // A hydrogen whose name does not fit is bonded to the nearest atom.
   atoms.push_back({"HA", "H", at.at("OG") - 0.6 * along});
   const Structure s = read(hetatm(atoms, "SER", 1, 1, "ATOM  "));
   EXPECT_EQ(s.atoms[bonded_neighbours(s).back().front()].name, "OG");
@@ -324,7 +324,7 @@ TEST(Hydrogens, OfAminoAcidsAreBondedByTheirNames) {
 TEST(ModifiedResidues, KeepTheirOxygensFromTheBackbone) {
   const auto file = test::shared_molecules() / "1a4w.cif";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
-  // O1 and O2 of sulphotyrosine's sulphate are the names of GROMOS' terminal oxygens.
+  // O1 and O2 in the sulphate of sulphotyrosine are also GROMOS' names of terminal oxygens.
   const Structure s = read_structure(file);
   for (const Bond& bond : s.bonds)
     if (s.residues[s.atoms[bond.first].residue].name == "TYS") {
@@ -338,13 +338,14 @@ TEST(Conect, JoinsTheAtomsOfALigandAndDoublesDoubleBonds) {
   const Structure s = read(atoms + chain);
   EXPECT_EQ(source_of(s, "LGD"), "CONECT records");
   EXPECT_EQ(names(Molecule(s)), std::vector<std::string>{"C3-C4"});
-  // Records that leave an atom alone say too little; numbers that no atom has, or that are none, say nothing.
+  // Records are ignored if they leave an atom without a bond. Atom numbers that do not exist or are no numbers are
+  // skipped.
   EXPECT_EQ(source_of(read(atoms + "CONECT   11   12\nCONECT   12   13\n"), "LGD"), "covalent radii");
   EXPECT_EQ(read(atoms + "CONECT   11   99\nCONECT  x1   12\nCONECT\n").bonds.size(), 4U);
 }
 
 TEST(Metals, AreBondedToWhatTheFileSaysAndClashWithNone) {
-  // Mg-O 2.55, beyond covalent radii, in a LINK record; carbon beside it.
+  // Mg-O 2.55 A, longer than the covalent radii, in a LINK record; a carbon is close to the metal.
   std::string text = hetatm({{"C", "C", Vec3(0, 0, 0)}, {"O", "O", Vec3(1.22, 0, 0)}}, "ACE", 1, 1, "ATOM  ");
   text += hetatm({{"MG", "MG", Vec3(3.77, 0, 0)}}, "MG", 3, 2);
   const auto clashes = [](const Structure& s) {
@@ -370,24 +371,25 @@ TEST(AlternativeLocations, ThatAreLeftOutAreCounted) {
 
 TEST(Ligands, OfRealStructuresTurnAsCountedByHand) {
   if (!std::filesystem::exists(test::shared_molecules())) GTEST_SKIP() << "shared data not found";
-  // KNI-272: five rings, four amides and eleven ends do not turn; fourteen bonds do.
+  // KNI-272: five rings, four amides and eleven terminal bonds do not rotate; fourteen bonds do.
   const Molecule protease = shared("1hpx.pdb");
   EXPECT_EQ(bonds_that_turn(protease), (Counts{{"bonds of KNI", 14}}));
   EXPECT_EQ(source_of(protease.structure(), "KNI"), "CONECT records");
-  // Thrombin: dansyl-arginine-ethylpiperidine and thiazole are four residues, chained by LINK records; sulphotyrosine
-  // turns about two bonds beyond chi2.
+  // Thrombin: dansyl-arginine-ethylpiperidine and thiazole are four residues joined by LINK records. Sulphotyrosine has
+  // two rotatable bonds after chi2.
   EXPECT_EQ(
       bonds_that_turn(shared("1a4w.pdb")),
       (Counts{
           {"bonds of 2EP", 1}, {"bonds of ANS", 1}, {"bonds of DAR", 7}, {"bonds of KTH", 2}, {"bonds of TYS", 2}}));
-  // Src: phosphotyrosine; AMP-PNP's chain of phosphates has five bonds, the sugar three more.
+  // Src: phosphotyrosine, and AMP-PNP with five rotatable bonds in its phosphate chain and three in its sugar.
   EXPECT_EQ(bonds_that_turn(shared("2src.pdb")), (Counts{{"bonds of ANP", 8}, {"bonds of PTR", 2}}));
 }
 
 TEST(Ligands, OfAnMmcifFileBringTheirOwnComponents) {
   const auto file = test::shared_molecules() / "1igy.cif.gz";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
-  // Each sugar turns about C5-C6, N-acetyl also about C2-N2; two bonds join it to the next sugar, or asparagine.
+  // Each sugar has the rotatable bond C5-C6, and N-acetyl C2-N2. Two more bonds join it to the next sugar or to
+  // asparagine.
   const Molecule m = shared("1igy.cif.gz");
   EXPECT_EQ(source_of(m.structure(), "NAG"), file.string());
   EXPECT_EQ(bonds_that_turn(m).at("bonds of NAG"), 6U * 4U);
@@ -408,7 +410,7 @@ TEST(Ligands, AreTheSameFromEverySource) {
   const Molecule by_dictionary = shared("1hpx.pdb", test::dictionary);
   EXPECT_EQ(source_of(by_dictionary.structure(), "KNI"), test::dictionary.string());
   EXPECT_EQ(names(by_dictionary), names(by_conect));
-  // The haems of 4HHB have bonds of 2.3 angstrom, which radii miss; eight bonds turn in each.
+  // The haems of 4HHB have bonds of 2.3 angstrom, longer than the covalent radii allow; each has eight rotatable bonds.
   EXPECT_EQ(bonds_that_turn(shared("4hhb.cif.gz", test::dictionary)), (Counts{{"bonds of HEM", 32}}));
 }
 
@@ -436,7 +438,7 @@ TEST(Ligands, InARibosomeGiveEqualAnswersOnWideAndLazy) {
   const auto file = test::shared_molecules() / "6zu5.cif.gz";
   if (std::getenv("HINGE_TEST_ALL") == nullptr || !std::filesystem::exists(file))
     GTEST_SKIP() << "shared data and HINGE_TEST_ALL only";
-  // 3910 nucleotides in 3 chains with 21 breaks, 10 308 amino acids in 71.
+  // 3910 nucleotides in 3 chains with 21 breaks, 10 308 amino acids in 71 chains.
   const auto m = std::make_shared<const Molecule>(shared("6zu5.cif.gz"));
   const auto classes = residues_by_class(m->structure());
   EXPECT_EQ(classes.at("RNA").residues, 3910U);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is written and said is the same bytes in a program whose locale has decimal commas and groups digits.
+// Tests that files and messages have the same bytes if the locale of the program uses decimal commas and groups digits.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -27,7 +27,7 @@
 namespace hinge::molecular {
 namespace locale_test {
 
-/// A locale with decimal commas, compiled into a folder that goes with the object.
+/// A locale with decimal commas, compiled into a folder that the destructor removes.
 class GermanLocale {
  public:
   GermanLocale() : folder_(std::filesystem::temp_directory_path() / ("hinge-locale-" + std::to_string(getpid()))) {
@@ -44,7 +44,7 @@ class GermanLocale {
     std::filesystem::remove_all(folder_);
   }
 
-  /// For C and C++; false: this machine cannot make it.
+  /// Sets the locale for C and C++. Returns false if this machine does not have it.
   bool use() const {
     if (!is_there_ || std::setlocale(LC_ALL, name) == nullptr) return false;
     std::locale::global(std::locale(name));
@@ -67,9 +67,9 @@ std::string refusal(const auto& act) {
   return "";
 }
 
-/// Everything that this library writes as text: files, scripts, notes, names of types, messages.
+/// Returns all text that the library writes: files, scripts, notes, type names, messages.
 std::string all_texts() {
-  // More than 1000 atoms, so that there are digits to group; a cystine whose bond is too long; a ligand.
+  // More than 1000 atoms, so that digits can be grouped; a cystine with too long a bond; a ligand.
   std::ostringstream text;
   Structure s = build_ideal_protein(std::string(80, 'W') + "CAC", std::string(83, 'C'));
   {

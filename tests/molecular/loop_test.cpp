@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Closed conformations of molecules: loops with both ends held, disulphides, cyclic backbones, hydrogen bonds.
+// Tests closed conformations of molecules: loops with both ends held, disulphides, cyclic backbones, hydrogen bonds.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@
 namespace hinge::molecular {
 namespace loop_test {
 
-constexpr double promised = 1e-6;  // angstrom
+constexpr double promised = 1e-6;  // angstrom: largest residual of a closed conformation
 
 std::shared_ptr<const Molecule> with_loop(const Structure& s, const std::string& words) {
   MoleculeOptions options;
@@ -37,8 +37,8 @@ std::shared_ptr<const Molecule> with_loop(const Structure& s, const std::string&
   return std::make_shared<const Molecule>(s, options);
 }
 
-/// Worst change of a bond's length, of the distance across an angle, and of the one across an omega (angstrom), for
-/// coordinates that something else than the solver has placed.
+/// Returns the largest change of a bond length, of the distance across a bond angle, or of the distance across an omega
+/// (angstrom). x: coordinates that the solver did not compute.
 double worst_strain(const Molecule& m, const std::vector<Vec3>& x) {
   const Structure& s = m.structure();
   const auto& y = s.models.front();
@@ -72,7 +72,7 @@ bool moves(const Molecule& m, std::uint32_t atom) {
   return false;
 }
 
-/// Samples of one loop: closed by the checker's own kinematics, everything else as it was, bit for bit.
+/// Tests samples of one loop: closed under the checker's own kinematics; all other atoms keep their exact coordinates.
 void expect_closed(const Structure& s, const std::string& loop, std::uint64_t count) {
   const auto m = with_loop(s, loop);
   const auto torsions = select_loop_torsions(*m, "none", false);
@@ -97,7 +97,7 @@ void expect_closed(const Structure& s, const std::string& loop, std::uint64_t co
       }
   }
   EXPECT_EQ(found, count) << loop;
-  if (torsions.size() > 8) {  // shorter ones have little room
+  if (torsions.size() > 8) {  // shorter loops can hardly move
     EXPECT_GT(spread, 1.0) << loop;
   }
 }
@@ -178,7 +178,7 @@ TEST(Loops, SpreadOverTheTorsionsThatTheirEndsLeave) {
   const auto m = with_loop(s, "A:34-41");
   const DofSelection selection = m->select(select_loop_torsions(*m, "none", false));
   ClosedSampler sampler(*m, selection, {1, {}}, 100);
-  // Each turn visits all but a few of twelve sectors of 30 degrees.
+  // Each torsion visits at least nine of twelve sectors of 30 degrees.
   std::vector<std::set<int>> sectors(selection.size());
   for (std::uint64_t k = 0; k < 300; ++k) {
     const ClosedSample sample = sampler.sample(k);
@@ -206,8 +206,8 @@ TEST(Loops, OfSixTurnsJumpBetweenIsolatedConformations) {
     });
     if (!known) found.push_back(q);
   }
-  EXPECT_GE(found.size(), 2U);   // the reference and at least one more
-  EXPECT_LE(found.size(), 16U);  // the degree of the polynomial (Coutsias et al. 2004)
+  EXPECT_GE(found.size(), 2U);   // the reference and at least one more solution
+  EXPECT_LE(found.size(), 16U);  // degree of the polynomial (Coutsias et al. 2004)
 }
 
 TEST(Loops, RefuseWhatCannotBeOne) {
@@ -215,19 +215,19 @@ TEST(Loops, RefuseWhatCannotBeOne) {
   for (const char* words : {"", "A", "A:40", "A:40-39", "A:40-52:chi", "B:1-5", "A:70-80", "A:1-8", "A:70-76",
                             "A:10-15,A:15-20", "A:10-15,", "A:10-15;A:20-25"})
     if (std::string(words) == "A:40") {
-      const auto m = with_loop(s, words);  // a stretch of one residue, whose two turns move nothing
+      const auto m = with_loop(s, words);  // one residue: its two torsions move nothing
       EXPECT_THROW(select_loop_torsions(*m, "none", false), ModelError);
     } else {
       EXPECT_THROW(find_loops(s, words), ModelError) << words;
     }
-  const auto m = with_loop(s, "A:36-38");  // two prolines: four turns
+  const auto m = with_loop(s, "A:36-38");  // two prolines leave four torsions
   EXPECT_THROW(select_loop_torsions(*m, "none", false), ModelError);
   const auto fine = with_loop(s, "A:40-45");
   EXPECT_THROW(select_loop_torsions(*fine, "A:50", false), ModelError);
   EXPECT_THROW(select_loop_torsions(*fine, "A:41:phi", false), ModelError);
   EXPECT_EQ(select_loop_torsions(*fine, "A:41:chi", false).size(),
-            select_loop_torsions(*fine, "none", false).size() + 3);  // glutamine
-  Structure broken = s;                                              // a gap in the middle
+            select_loop_torsions(*fine, "none", false).size() + 3);  // three chi of glutamine
+  Structure broken = s;                                              // with a gap in the middle
   std::erase_if(broken.bonds, [&](const Bond& bond) {
     return bond.origin == BondOrigin::peptide &&
            broken.residues[broken.atoms[bond.second].residue].sequence_number == 43;
@@ -237,7 +237,7 @@ TEST(Loops, RefuseWhatCannotBeOne) {
   EXPECT_NO_THROW(find_loops(broken, "A:44-49"));
 }
 
-/// Samples with every cycle closed keep bonds and angles; those of open cycles do not.
+/// Tests that samples keep bond lengths and angles if all cycles are closed, and change them if cycles are open.
 void expect_kept(const Structure& s, const MoleculeOptions& options, const Sampling& sampling, std::uint64_t count) {
   auto m = std::make_shared<const Molecule>(s, options);
   ASSERT_FALSE(m->model().tree().closures().empty());
@@ -287,7 +287,7 @@ TEST(Closures, LeaveADisulphideThatALoopHolds) {
   const auto file = test::shared_molecules() / "5pti.pdb";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
   const Structure s = read_structure(file);
-  const auto m = with_loop(s, "A:12-19");  // with Cys 14, bonded to Cys 38
+  const auto m = with_loop(s, "A:12-19");  // contains Cys 14, bonded to Cys 38
   EXPECT_EQ(m->model().tree().closures().size(), 4U);
   const DofSelection selection = m->select(select_loop_torsions(*m, "A:14:chi1", false));
   Checker checker(m, selection, {});
@@ -327,7 +327,7 @@ TEST(HydrogenBonds, AreTheSheetAndTheHelixOfUbiquitin) {
   for (const auto& known : {std::pair(3, 15), std::pair(15, 3), std::pair(5, 13), std::pair(13, 5), std::pair(27, 23),
                             std::pair(30, 26), std::pair(44, 68), std::pair(68, 44), std::pair(67, 4)})
     EXPECT_TRUE(pairs.contains(known)) << known.first << " " << known.second;
-  for (const auto& pair : pairs) EXPECT_NE(pair.first, 37);  // proline
+  for (const auto& pair : pairs) EXPECT_NE(pair.first, 37);  // proline has no N-H
 }
 
 TEST(HydrogenBonds, AreKeptOnRequestAndHoldAHelix) {

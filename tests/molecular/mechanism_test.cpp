@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Torsions, selections, closures, basic groups and ideal proteins.
+// Tests torsions, selections, closures, basic groups and ideal proteins.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -139,7 +139,7 @@ TEST(BasicGroups, PutExclusionsOnlyWhereThePaperSays) {
   const Molecule m = ubiquitin();
   const auto labels = basic_groups(m.structure());
   const BondExclusions exclusions(m.structure(), 4);
-  // 2r is the pseudo-backbone of residue r and 2r + 1 its pseudo-side-chain.
+  // Label 2r is the pseudo-backbone of residue r, 2r + 1 its pseudo-side-chain.
   for (std::size_t i = 0; i < labels.size(); ++i)
     for (const PrimitiveId j : exclusions.excluded(id<PrimitiveId>(i))) {
       const std::uint32_t a = std::min(labels[i], labels[index(j)]), b = std::max(labels[i], labels[index(j)]);

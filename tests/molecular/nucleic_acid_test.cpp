@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// DNA and RNA: bonds, torsions and their angles, names old and new, modified nucleotides, engines against brute force.
+// Tests DNA and RNA: bonds, torsions and their angles, old and new names, modified nucleotides, engines against brute
+// force.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -50,7 +51,7 @@ std::shared_ptr<const Molecule> molecule(const std::filesystem::path& file, bool
 
 Counts kinds(const Molecule& m) { return torsions_by_kind(m.structure(), m.torsions()); }
 
-/// Changes atom names (columns 13-16) of PDB lines.
+/// Returns PDB text with other atom names (columns 13-16).
 template <class Rename>
 std::string renamed(const std::string& text, const Rename& rename) {
   std::istringstream lines(text);
@@ -67,7 +68,8 @@ std::string renamed(const std::string& text, const Rename& rename) {
 }
 
 TEST(NucleicAcid, HasTheTorsionsOfItsChain) {
-  // Twelve nucleotides a strand. The first has no phosphate, so no alpha and beta; the last no epsilon and zeta.
+  // Twelve nucleotides per strand. The first has no phosphate, hence no alpha and beta; the last has no epsilon and
+  // zeta.
   const auto m = molecule(dodecamer());
   EXPECT_EQ(kinds(*m), (Counts{{"alpha", 2 * 11},
                                {"beta", 2 * 11},
@@ -83,7 +85,8 @@ TEST(NucleicAcid, HasTheTorsionsOfItsChain) {
   EXPECT_EQ(classes.at("DNA").residues, 24U);
 }
 
-/// Angle between the projections of a - b and d - c along c - b, signed by IUPAC: no formula of the library.
+/// Returns the angle between the projections of a - b and d - c along c - b, with IUPAC sign. Independent of the
+/// library's formula.
 double projected_dihedral(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 axis = (c - b) / std::sqrt((c - b).dot(c - b));
   const Vec3 u = (a - b) - (a - b).dot(axis) * axis, w = (d - c) - (d - c).dot(axis) * axis;
@@ -91,7 +94,7 @@ double projected_dihedral(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
   return u.cross(w).dot(axis) < 0 ? -angle : angle;
 }
 
-/// The four atoms of a torsion as IUPAC-IUB 1983 names them; +1 and -1 are the residues behind and before.
+/// The four atoms of a torsion by IUPAC-IUB 1983; +1 and -1 are the next and the previous residue.
 struct Definition {
   const char* name;
   std::array<std::pair<int, const char*>, 4> atoms;
@@ -114,7 +117,7 @@ TEST(NucleicAcid, TurnsEachDihedralByItsJointValueAndNoOther) {
   const auto angle_of = [&](const Torsion& t, const std::vector<Vec3>& x) -> std::optional<double> {
     for (const Definition& definition : definitions) {
       if (t.name != definition.name) continue;
-      // A purine has N1 as well, but not beside the sugar.
+      // Purines also have N1, but it is not bonded to the sugar.
       const bool purine = atoms.contains({t.residue, "N9"});
       if (t.name == "chi" && purine != (std::string_view(definition.atoms[2].second) == "N9")) continue;
       std::array<Vec3, 4> at;
@@ -149,7 +152,7 @@ TEST(NucleicAcid, KeepsSugarsBasesAndBondsWhateverItsTorsions) {
   const auto& y = s.models.front();
   const auto rigid_part = [](std::string_view name) {
     if (name == "C1'" || name == "C2'" || name == "C3'" || name == "C4'" || name == "O4'") return 1;
-    return name.find_first_of("P'") == std::string_view::npos ? 2 : 0;  // base, or what turns
+    return name.find_first_of("P'") == std::string_view::npos ? 2 : 0;  // base, or an atom that moves
   };
   for (const Bond& bond : s.bonds)
     EXPECT_NEAR((x[bond.first] - x[bond.second]).norm(), (y[bond.first] - y[bond.second]).norm(), 1e-10);
@@ -186,12 +189,12 @@ TEST(NucleicAcid, HasNoBondAcrossABreak) {
   const auto m = molecule(broken.path());
   const auto& notes = m->structure().notes;
   EXPECT_EQ(std::count(notes.begin(), notes.end(), "chain A: break between DG4 and DA6, no bond across"), 1);
-  // Gone: all six of nucleotide 5, epsilon and zeta of 4. alpha of 6 stays, about its own phosphate.
+  // Missing: all six torsions of nucleotide 5, and epsilon and zeta of 4. alpha of 6 remains, about its own phosphate.
   EXPECT_EQ(m->torsions().size(), 136U - 6U - 2U);
 }
 
 TEST(NucleicAcid, TurnsHydroxylsWhereTheirHydrogensAreExplicit) {
-  // Nucleotide 3 made RNA: O2' in the place of a hydrogen of C2', its own hydrogen on top. HO5' ends the chain.
+  // Nucleotide 3 becomes RNA: O2' replaces a hydrogen of C2' and has its own hydrogen. HO5' ends the chain.
   const Structure s = read_structure(dodecamer());
   std::map<std::string, Vec3> at;
   for (std::uint32_t i = 0; i < s.atoms.size(); ++i)
@@ -256,8 +259,8 @@ TEST(NucleicAcid, WithModifiedNucleotidesIsOneChain) {
   const auto file = test::shared_molecules() / "1ehz.pdb.gz";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
   const auto m = molecule(file, true);
-  // 76 nucleotides of one chain whose first has a phosphate of its own; both 2'-O-methyl groups turn, and five bonds of
-  // wybutosine's tail: its ester and carbamate are as short as double bonds in these coordinates.
+  // One chain of 76 nucleotides; the first has a phosphate. Both 2'-O-methyl groups rotate, and five bonds in the tail
+  // of wybutosine: its ester and carbamate bonds are as short as double bonds in these coordinates.
   EXPECT_EQ(kinds(*m), (Counts{{"alpha", 76},
                                {"beta", 76},
                                {"gamma", 76},
@@ -282,11 +285,12 @@ TEST(NucleicAcid, WithProteinAndMetalsIsCountedByHand) {
   const auto file = test::shared_molecules() / "1d66.pdb";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
   const auto m = molecule(file, true);
-  // Two strands of 19 without 5' phosphates; two proteins of 57, three of their residues proline beside the first.
+  // Two strands of 19 nucleotides without 5' phosphates; two proteins of 57 residues, with three prolines besides the
+  // first residue.
   const std::size_t nucleic = 2 * (18 + 18 + 19 + 18 + 18 + 19), chi = 127, phi = 53, psi = 57;
   EXPECT_EQ(select_torsions(*m, "all", false).size(), nucleic + 2 * (chi + phi + psi));
-  // Two cadmium ions with four sulphurs each, two of them shared: four bonds hold the ions, four and two more close
-  // cycles, in each protein.
+  // Each protein has two cadmium ions with four sulphurs each, two of them shared. Of these eight bonds two attach the
+  // ions, and six close cycles.
   EXPECT_EQ(m->model().tree().closures().size(), 2U * 6U);
   test::expect_engines_agree(m, "all", 6);
 }
@@ -303,13 +307,13 @@ TEST(NucleotideTable, HasTheBondsOfTheMonomerDictionary) {
   for (const char* name : {"A", "C", "G", "I", "U", "DA", "DC", "DG", "DI", "DT", "DU", "PSU"}) {
     auto expected = test::dictionary_bonds(name);
     ASSERT_FALSE(expected.empty()) << name;
-    if (name[0] == 'D') expected.insert({"C2'", "O2'"});  // one backbone for DNA and RNA
+    if (name[0] == 'D') expected.insert({"C2'", "O2'"});  // the table has one backbone for DNA and RNA
     expected.insert({"P", "OP3"});
     EXPECT_EQ(own(name), expected) << name;
   }
   for (const char* name : {"1MA", "A2M", "6MZ", "MA6", "5MC", "OMC", "4AC", "1MG", "2MG", "7MG", "G7M", "M2G", "OMG",
                            "5MU", "H2U", "OMU", "UR3", "5BU"}) {
-    // Some of these monomers have old names.
+    // Some of these monomers have old atom names.
     const auto bonds = test::dictionary_bonds(name);
     ASSERT_FALSE(bonds.empty()) << name;
     for (const auto& wanted : own(name)) {

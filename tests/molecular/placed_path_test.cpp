@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Placed parts where many configurations are asked at once: batches of neighbours, and certified paths.
+// Tests placed parts in queries of many configurations: batches and certified paths.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -23,7 +23,7 @@
 namespace hinge::molecular {
 namespace placed_path_test {
 
-/// A chain and a shorter one that is placed, some of their torsions free; pairs between the two count.
+/// A chain and a shorter, placed chain, with some free torsions. Only pairs between the chains count.
 struct Scene {
   Molecule molecule = make();
   DofSelection selection = molecule.select_placed(select_torsions(molecule, "A:2-3,B:chi", false));

@@ -21,7 +21,7 @@ namespace read_structure_test {
 using test::gzipped;
 using test::TemporaryFile;
 
-/// ATOM records of one alanine and what follows; columns as in PDB format 3.3.
+/// Returns an ATOM record with columns as in PDB format 3.3.
 std::string atom(int serial, const std::string& name, const std::string& residue, int number, double x, double y,
                  double z, char altloc = ' ', double occupancy = 1.0, const std::string& element = "C",
                  const std::string& record = "ATOM  ") {
@@ -37,7 +37,7 @@ std::string alanine() {
          atom(5, "CB", "ALA", 1, 1.99, -0.77, -1.2);
 }
 
-/// The message of the LoadError reading gives, empty when there is none.
+/// Returns the message of the LoadError without the path, or an empty text if reading succeeds.
 std::string refusal(const std::string& text, const ReadOptions& options = {}, const std::string& extension = ".pdb") {
   const TemporaryFile file(text, extension);
   try {
@@ -104,11 +104,11 @@ TEST(ReadStructure, RefusesWholeNumbersThatNoIntHolds) {
   EXPECT_EQ(refusal(text("-99999999"), {}, ".cif"), "");
   EXPECT_EQ(refusal(text("9999999999946"), {}, ".cif"),
             ": _atom_site.auth_seq_id is 9999999999946, expected a number that starts with at most 9 digits");
-  // Whatever stands behind the digits.
+  // With any text after the digits.
   for (const char* behind : {"A", "_x.9", ".5"})
     EXPECT_NE(refusal(text("9999999999" + std::string(behind)), {}, ".cif").find("at most 9 digits"), std::string::npos)
         << behind;
-  // However the number is written, and in whatever loop.
+  // In every notation of the number, and in other loops.
   for (const std::string& cif : {text("'9999999999'"), text("' +9999999999'"), text("9999999999", "_other.id\n")})
     EXPECT_NE(refusal(cif, {}, ".cif").find("at most 9 digits"), std::string::npos) << cif;
   std::string upper = text("9999999999");
@@ -117,7 +117,7 @@ TEST(ReadStructure, RefusesWholeNumbersThatNoIntHolds) {
   EXPECT_NE(refusal(upper, {}, ".cif").find("at most 9 digits"), std::string::npos);
 }
 
-// What is not read of a file may be wrong, or stand for 10^9 names.
+// Categories that are not read may be wrong, even declare 10^9 names.
 TEST(ReadStructure, LooksAtNoOtherCategories) {
   const std::string atoms =
       "data_x\nloop_\n_atom_site.id\n_atom_site.type_symbol\n_atom_site.label_atom_id\n_atom_site.label_alt_id\n"
@@ -144,7 +144,7 @@ TEST(ReadStructure, ReadsAnAtomWithoutAName) {
 }
 
 TEST(ReadStructure, TakesNoAtomsFromBehindTheEndOfALine) {
-  // (The parser stops cutting a line at the first byte that is no ASCII, and would go on with a record there.)
+  // The parser stops splitting a line at the first non-ASCII byte, and would read a record after it.
   std::string text = alanine();
   text.insert(text.find('\n'), std::string(60, ' ') + "\x93" + atom(9, "CG", "ALA", 1, 9, 9, 9));
   const TemporaryFile file(text + "END\n");
@@ -155,7 +155,7 @@ TEST(ReadStructure, TakesNoAtomsFromBehindTheEndOfALine) {
 }
 
 TEST(ReadStructure, ReadsABondRecordThatEndsInTheMiddleOfANumber) {
-  // (The parser looks beyond the end of "n" for the rest of "nan"; with address sanitizer this is an error.)
+  // The parser reads beyond "n" to look for "nan"; address sanitizer reports this.
   std::string link = "LINK         CA  ALA A   1                 CB  ALA A   1     1555   1555   n";
   for (const char* name : {"LINK  ", "link  ", "SSBOND"})
     EXPECT_EQ(refusal(link.replace(0, 6, name) + "\n" + alanine()), "");
@@ -183,7 +183,7 @@ TEST(ReadStructure, ReadsAllMembersOfAGzippedFileOrRefusesIt) {
     const std::size_t at = said.find("byte ") + 5;
     EXPECT_NEAR(std::stod(said.substr(std::min(at, said.size()))), static_cast<double>(byte), 12.0) << said;
   };
-  // Any bit of the second member's first two bytes.
+  // Flips each bit of the first two bytes of the second member.
   for (std::size_t bit = 0; bit < 16; ++bit) {
     std::string flipped = first + second;
     flipped[first.size() + bit / 8] = static_cast<char>(flipped[first.size() + bit / 8] ^ (1 << bit % 8));
@@ -199,7 +199,8 @@ TEST(ReadStructure, ReadsAllMembersOfAGzippedFileOrRefusesIt) {
 }
 
 TEST(ReadStructure, RefusesAFileThatUnpacksWithoutEndNearlyAtOnce) {
-  // 16 KiB of file for each 16 MiB of blanks behind the atoms: 256 MiB in all, refused before a third of it.
+  // 16 KiB of compressed data for each 16 MiB of blanks after the atoms, 256 MiB in all. Rejected before a third is
+  // unpacked.
   const std::string bomb = gzipped(alanine() + std::string(std::size_t{16} << 20, ' '), 16);
   ASSERT_LT(bomb.size(), std::size_t{1} << 20);
   const std::string said = refusal(bomb, {}, ".pdb.gz"), words = "unpack to more than ";
@@ -228,7 +229,7 @@ TEST(ReadStructure, TakesTheAtomsThatAllModelsHave) {
   EXPECT_EQ(s.bonds.size(), 3U);
   EXPECT_TRUE(
       has_note(s, "models differ: 1 atoms that not every model has are left out (first: A:ALA1:CB of model 1)"));
-  // Another order is no other molecule; another ion is.
+  // Another order of the atoms is the same molecule; another ion is not.
   const std::string zinc = atom(6, "ZN", "ZN", 3, 20, 9, 9, ' ', 1, "ZN", "HETATM"),
                     renumbered = atom(6, "ZN", "ZN", 4, 20, 9, 9, ' ', 1, "ZN", "HETATM");
   const TemporaryFile ions("MODEL        1\n" + alanine() + zinc + "ENDMDL\nMODEL        2\n" + alanine() + renumbered +
@@ -278,7 +279,8 @@ TEST(ReadStructure, NumbersModelsAsTheirRecordsDo) {
   };
   const std::string model = alanine() + "ENDMDL\n";
   EXPECT_EQ(numbers("MODEL        0\n" + model + "MODEL        1\n" + model), (std::vector<int>{0, 1}));
-  EXPECT_EQ(numbers("MODEL 7\n" + model + "MODEL   \n" + model), (std::vector<int>{7, 2}));  // blank: its position
+  EXPECT_EQ(numbers("MODEL 7\n" + model + "MODEL   \n" + model),
+            (std::vector<int>{7, 2}));  // blank: position in the file
   EXPECT_EQ(numbers(model + model), (std::vector<int>{1, 2}));
   EXPECT_EQ(numbers("data_x\nloop_\n_atom_site.id\n_atom_site.type_symbol\n_atom_site.label_atom_id\n"
                     "_atom_site.label_alt_id\n_atom_site.label_comp_id\n_atom_site.label_asym_id\n"
@@ -290,7 +292,7 @@ TEST(ReadStructure, NumbersModelsAsTheirRecordsDo) {
   std::string many;
   for (int k = 0; k < 10001; ++k)
     many += "MODEL     " + std::to_string(k % 9999 + 1) + "\n" + atom(1, "CA", "ALA", 1, 0, 0, 0) + "ENDMDL\n";
-  EXPECT_EQ(numbers(many).size(), 10001U);  // the numbers start again
+  EXPECT_EQ(numbers(many).size(), 10001U);  // numbers may repeat
   EXPECT_NE(refusal("MODEL 1\n" + model + "MODEL 2\nENDMDL\n").find(":8: the MODEL has no ATOM or HETATM record"),
             std::string::npos);
 }
@@ -308,7 +310,7 @@ TEST(ReadStructure, TakesARecordedBondOfTwoSulphursForADisulphide) {
                           [](const Bond& bond) { return bond.origin == BondOrigin::disulphide; }));
 }
 
-/// CG of LEU `number` at A, B ... with these occupancies, x = 10 * number + 0, 1 ...
+/// Returns CG of LEU `number` with these altlocs and occupancies, at x = 10 * number + 0, 1 ...
 std::string alternatives(int number, const std::vector<std::pair<char, double>>& occupancies) {
   std::string text;
   for (std::size_t k = 0; k < occupancies.size(); ++k)
@@ -318,7 +320,7 @@ std::string alternatives(int number, const std::vector<std::pair<char, double>>&
 }
 
 TEST(ReadStructure, ReadsOneConformerOfTheHighestSummedOccupancy) {
-  // A 0.3 + 0.9 + 0.4, B 0.7 + 0.1 + 0.5; residue 5 has neither.
+  // Sums: A 0.3 + 0.9 + 0.4, B 0.7 + 0.1 + 0.5; residue 5 has neither.
   const TemporaryFile file(alanine() + alternatives(2, {{'A', 0.3}, {'B', 0.7}}) +
                            alternatives(3, {{'A', 0.9}, {'B', 0.1}}) + alternatives(4, {{'A', 0.4}, {'B', 0.5}}) +
                            alternatives(5, {{'D', 0.5}, {'C', 0.5}}));
@@ -345,7 +347,7 @@ TEST(ReadStructure, TakesTheFirstLetterOfEquallyOccupiedConformers) {
 }
 
 TEST(ReadStructure, ReadsTheResidueTypeOfTheConformerWhereTwoShareAPosition) {
-  // Serine is the more frequent at 3, but A is the conformer of the structure.
+  // Serine has the higher occupancy at 3, but the structure uses conformer A.
   const std::string text = alanine() + alternatives(2, {{'A', 0.9}, {'B', 0.1}}) +
                            atom(40, "CG", "PRO", 3, 30, 5, 5, 'A', 0.4) +
                            atom(41, "OG", "SER", 3, 31, 5, 5, 'B', 0.6, "O");
@@ -374,7 +376,7 @@ TEST(ReadStructure, LeavesOutWatersAndHeteroAtomsAndCountsThem) {
 
 TEST(ReadStructure, RepairsElementsThatContradictTheResidueAndSaysSo) {
   std::string text = alanine();
-  text.replace(text.find("CA  ALA") - 1, 4, "CA  ");  // left-shifted: calcium by its columns
+  text.replace(text.find("CA  ALA") - 1, 4, "CA  ");  // left-shifted: its columns mean calcium
   const std::size_t line = text.find("ATOM", 79);
   text.replace(line + 76, 2, "  ");
   const TemporaryFile file(text);

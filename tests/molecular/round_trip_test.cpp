@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Structures written as PDB and mmCIF and read again: the same atoms, bonds, torsions, thresholds and verdicts.
+// Tests that structures written as PDB and mmCIF are read back with the same atoms, bonds, torsions, thresholds and
+// verdicts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -93,12 +94,12 @@ void expect_same_answers(const Structure& a, const Structure& b) {
   const Verdict v = p.check_coordinates(a.models[0], Mode::parse("all")),
                 w = q.check_coordinates(b.models[0], Mode::parse("all"));
   ASSERT_EQ(v.pairs.size(), w.pairs.size());
-  EXPECT_EQ(v.pairs, w.pairs);  // with their thresholds
+  EXPECT_EQ(v.pairs, w.pairs);  // including thresholds
 }
 
 TEST(RoundTrip, EveryFileOfTheSharedData) {
   if (!std::filesystem::exists(test::shared_molecules())) GTEST_SKIP() << "no shared data on this machine";
-  const bool whole = std::getenv("HINGE_TEST_ALL") != nullptr;  // answers for 100 000 atoms take long
+  const bool whole = std::getenv("HINGE_TEST_ALL") != nullptr;  // verdicts for 100 000 atoms take long
   std::size_t files = 0;
   std::vector<std::string> not_as_pdb;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(test::shared_molecules())) {
@@ -109,7 +110,7 @@ TEST(RoundTrip, EveryFileOfTheSharedData) {
     try {
       s = read_structure(entry.path(), everything());
     } catch (const LoadError&) {
-      continue;  // such as a damaged one
+      continue;  // for example a damaged file
     }
     ++files;
     for (const TrajectoryFormat format : {TrajectoryFormat::pdb, TrajectoryFormat::cif}) {
@@ -129,10 +130,10 @@ TEST(RoundTrip, EveryFileOfTheSharedData) {
     }
   }
   EXPECT_GE(files, 43U);
-  EXPECT_EQ(not_as_pdb, std::vector<std::string>{"6zu5.cif.gz"});  // chains of three letters
+  EXPECT_EQ(not_as_pdb, std::vector<std::string>{"6zu5.cif.gz"});  // its chain names have three letters
 }
 
-/// A cystine, a ligand with a double bond that CONECT repeats, bonded to the protein, and a metal.
+/// Returns a cystine, a ligand with a double bond (a repeated CONECT) bonded to the protein, and a metal.
 std::string complex_text() {
   std::string text;
   const auto add = [&](const char* record, int serial, const char* name, const char* residue, char chain, int number,
@@ -143,7 +144,7 @@ std::string complex_text() {
     text += line;
   };
   for (int k = 0; k < 2; ++k) {
-    const double side = k == 0 ? 1 : -1;  // two chains, SG to SG 2.05 A
+    const double side = k == 0 ? 1 : -1;  // two chains; SG-SG is 2.05 A
     const int at = 6 * k;
     const char chain = k == 0 ? 'A' : 'B';
     add("ATOM", at + 1, "N", "CYS", chain, 1, side * 5.0, 1.4, 0, "N");
@@ -153,7 +154,7 @@ std::string complex_text() {
     add("ATOM", at + 5, "CB", "CYS", chain, 1, side * 2.55, 1.13, 0.1, "C");
     add("ATOM", at + 6, "SG", "CYS", chain, 1, side * 1.025, 0.15, 0, "S");
   }
-  add("HETATM", 13, "C1", "LIG", 'A', 9, 5.6, 2.7, 0.1, "C");  // on N of the first cysteine
+  add("HETATM", 13, "C1", "LIG", 'A', 9, 5.6, 2.7, 0.1, "C");  // bonded to N of the first cysteine
   add("HETATM", 14, "C2", "LIG", 'A', 9, 6.6, 3.6, 0.1, "C");
   add("HETATM", 15, "O3", "LIG", 'A', 9, 7.8, 3.3, 0.1, "O");
   add("HETATM", 16, "C4", "LIG", 'A', 9, 6.2, 5.0, 0.1, "C");
@@ -176,7 +177,7 @@ TEST(RoundTrip, KeepsBondsWhateverTheCoordinates) {
                          [](const Bond& bond) { return bond.order == BondOrder::multiple; });
   };
   ASSERT_EQ(double_bond(s), 1);
-  // Residues nearer to each other, then far apart: their distances tell nothing any more.
+  // With residues closer together, then far apart, distances do not determine the bonds.
   for (const double scale : {0.5, 3.0})
     for (const TrajectoryFormat format : {TrajectoryFormat::pdb, TrajectoryFormat::cif}) {
       std::vector<Vec3> x = s.models.front();
@@ -213,7 +214,8 @@ TEST(RoundTrip, KeepsABreakWhoseEndsComeClose) {
 }
 
 TEST(RoundTrip, KeepsMoleculesOfTwoFilesApart) {
-  // The ligand's oxygen as near to a carbon as a bond would be: a collision in two files, and so in one.
+  // The ligand's oxygen is at bond distance from a carbon of the protein: a collision in two files, so also in one
+  // file.
   Structure protein = build_ideal_protein("AAA", "CCC"), ligand = again(complex_text(), TrajectoryFormat::pdb);
   const Vec3 by = protein.models[0][4] + Vec3(1.5, 0, 0) - ligand.models[0][14];
   for (Vec3& x : ligand.models[0]) x += by;
@@ -235,7 +237,7 @@ TEST(RoundTrip, FilesThatSomebodyEditedAreReadLikeOthers) {
   text.erase(conect, text.find('\n', conect) + 1 - conect);
   text.erase(text.find("CONECT"), text.find("END\n") - text.find("CONECT"));
   const Structure other = again(text, TrajectoryFormat::pdb);
-  EXPECT_EQ(other.bonds.size(), s.bonds.size());  // these coordinates tell them, too
+  EXPECT_EQ(other.bonds.size(), s.bonds.size());  // distances find the same bonds here
   EXPECT_TRUE(std::none_of(other.bond_sources.begin(), other.bond_sources.end(),
                            [](const BondSource& source) { return source.source == "records of Hinge"; }));
 }
@@ -260,7 +262,7 @@ TEST(RoundTrip, NamesTheFormatThatHoldsWhatDoesNotFit) {
 }
 
 TEST(RoundTrip, KeepsResiduesOfTheSameNameAndNumberApart) {
-  // Everything but the coordinates is there twice, as where a box of water was doubled.
+  // All names and numbers occur twice, as in a duplicated box of water.
   const Structure once = again(complex_text(), TrajectoryFormat::pdb);
   Structure s = join_structures({once, once});
   s.chains.resize(1);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The grammar of selections: random expressions against a naive evaluator, what binds to what, what is refused, notes.
+// Tests the grammar of selections: random expressions against a naive evaluator, operator binding, rejected input,
+// notes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +29,7 @@ namespace selection_test {
 
 using Set = std::set<std::size_t>;
 
-/// Chains A (1 ... 12), AB (60, 60A, -3, -2, -1) and one without a name (1 ... 4).
+/// Returns a protein with chains A (1 ... 12), AB (60, 60A, -3, -2, -1) and an unnamed chain (1 ... 4).
 Structure three_chains() {
   Structure s = build_ideal_protein("AKRMFPWSTCVLGHEDKNQRY", "HHHHHCCEEEECCHHCCCCCC");
   s.chains.assign({{"A", 0, 12}, {"AB", 12, 17}, {"", 17, 21}});
@@ -50,7 +51,7 @@ Set select(const std::string& words, bool omega = false) {
   return {chosen.begin(), chosen.end()};
 }
 
-/// Torsions "RESIDUE NAME" by position of the residue, "0 psi".
+/// Returns the selected torsions as "INDEX NAME", with the index of the residue, such as "0 psi".
 std::set<std::string> named(const std::string& words) {
   std::set<std::string> names;
   for (const std::size_t k : select(words))
@@ -64,7 +65,7 @@ std::string refusal_of(const std::string& words) {
 
 // --- random expressions ---
 
-/// An expression, the torsions it stands for (omega included), and which omegas a word names.
+/// An expression, its torsions (including omega), and the omegas that it selects by name.
 struct Example {
   std::string text;
   Set selected, omegas;
@@ -79,7 +80,7 @@ class Generator {
   Example alternatives(int depth) {
     Example one = conjunction(depth);
     for (std::size_t more = below(3); more > 0; --more) {
-      // A torsion's name alone would belong to a list in front of it; `or` keeps them apart.
+      // After a comma, a bare torsion name would belong to a preceding list; `or` or parentheses separate it.
       const Example other = conjunction(depth);
       one.text += below(2) == 0 ? " or " + other.text : " , (" + other.text + ")";
       add(one.selected, other.selected);
@@ -171,7 +172,7 @@ class Generator {
     const auto inside = [&](const Torsion& t) { return in.first <= t.residue && t.residue <= in.last; };
     Example one{in.text, where(inside), {}};
     if (below(3) == 0) return one;
-    // A list of torsions that belongs to the residues; those that select nothing there are refused, so left out.
+    // A list of torsions of these residues. Names that select nothing there are rejected, so they are left out.
     one.selected.clear();
     for (std::size_t more = 1 + below(3); more > 0; --more) {
       const Name by = name();
@@ -213,7 +214,7 @@ TEST(SelectionGrammar, GivesWhatANaiveEvaluatorGives) {
   EXPECT_GT(some, 5000U);
 }
 
-// --- what binds to what ---
+// --- operator binding ---
 
 TEST(SelectionGrammar, BindsListsOfTorsionsToTheirResidues) {
   EXPECT_EQ(named("A:4-5:phi,psi"), (std::set<std::string>{"3 phi", "3 psi", "4 phi", "4 psi"}));
@@ -224,7 +225,7 @@ TEST(SelectionGrammar, BindsListsOfTorsionsToTheirResidues) {
   EXPECT_EQ(select("A:4:N-CA,CA-C"), select("A:4:phi,psi"));
   EXPECT_EQ(select("A:4-5:phi,psi and A:5"), select("A:5:phi,psi"));
   EXPECT_EQ(select("not A:4-5:phi,psi"), select("not (A:4-5 and (phi,psi))"));
-  // Words about all residues do not belong to a list, and a list in parentheses is closed.
+  // Words that apply to all residues do not belong to a list. A list in parentheses is closed.
   EXPECT_EQ(select("A:4:phi,A"), select("A"));
   EXPECT_EQ(select("A:4:phi,every:2"), select("every:2 or A:4:phi"));
   EXPECT_EQ(select("(A:4:phi),psi"), select("psi or A:4:phi"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several molecules in one query: parts, joined files, placements, and which pairs count.
+// Tests several molecules in one query: parts, joined files, placements, and scopes of pairs.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -42,7 +42,7 @@ Structure moved(Structure structure, const Vec3& by) {
   return structure;
 }
 
-/// A ring of six carbons with a tail of two, and an ion: hetero groups as a docking program writes them.
+/// A ring of six carbons with a tail of two, and an ion: hetero groups in the format of docking programs.
 Structure ligand() {
   std::string text;
   char line[96];
@@ -64,7 +64,7 @@ Structure ligand() {
   return read_structure(file.path(), options);
 }
 
-/// Two proteins, the second beside the first, and the ligand.
+/// Two neighbouring proteins and the ligand.
 Structure scene() {
   return join_structures({protein("AKFDE"), moved(protein("GWSR"), {4, 9, 3}), moved(ligand(), {-5, 4, 6})});
 }
@@ -193,7 +193,7 @@ Eigen::Matrix3d own_rotation(const std::array<double, 6>& q) {
       .toRotationMatrix();
 }
 
-/// Values of each placed part's DOF.
+/// Returns the values of PlacedPart::dofs of each placed part in q: angstrom, then rad.
 std::vector<std::array<double, 6>> placements(const Molecule& molecule, const DofSelection& selection,
                                               const std::vector<double>& q) {
   std::vector<std::array<double, 6>> all;
@@ -254,7 +254,7 @@ TEST(PlacedPart, NamesEveryDegreeOfFreedom) {
   EXPECT_EQ(names, (std::vector<std::string>{"move L:LIG x", "move L:LIG y", "move L:LIG z", "turn L:LIG x",
                                              "turn L:LIG y", "turn L:LIG z"}));
   for (const DofId dof : molecule.placed_parts()[0].dofs) EXPECT_EQ(molecule.torsion_of(dof), Molecule::no_torsion);
-  // Torsions are found among the DOF as before.
+  // The map from DOF to torsions stays correct.
   for (std::size_t k = 0; k < molecule.torsions().size(); ++k) EXPECT_EQ(molecule.torsion_of(molecule.dof(k)), k);
 }
 
@@ -300,7 +300,7 @@ TEST(PlacedPart, LeavesPairsInsideARigidOneAlone) {
 
 // --- one query ---
 
-/// The same answers from the three engines, in every mode.
+/// Tests that the three engines give the same answers in every mode.
 void expect_equal_engines(const std::shared_ptr<const Molecule>& molecule, const std::vector<std::size_t>& torsions,
                           const std::vector<PlacementRange>& ranges, CheckOptions rules, const Sampling& sampling,
                           std::uint64_t count) {
@@ -366,7 +366,7 @@ TEST(SeveralMolecules, GetTheSameAnswersFromEveryEngine) {
   }
 }
 
-/// All that is tested for pairs of rigid parts, from own matrices, distances and a walk over the bonds.
+/// Compares with an independent evaluation of pairs of rigid parts: own matrices, distances and bond graph.
 TEST(SeveralMolecules, AgreeWithOwnMatricesAndDistances) {
   const Structure s =
       join_structures({protein("AKFDEGW"), moved(protein("GWSR"), {4, 9, 3}), moved(ligand(), {-5, 4, 6})});
@@ -398,7 +398,7 @@ TEST(SeveralMolecules, AgreeWithOwnMatricesAndDistances) {
     double least = 1e9;
     for (std::size_t i = 0; i < x.size(); ++i)
       for (std::size_t j = i + 1; j < x.size(); ++j) {
-        if (part_of[i] == part_of[j]) continue;  // what no bond joins is in scope, what one part holds is constant
+        if (part_of[i] == part_of[j]) continue;  // constant; no bond joins different parts
         const double gap = (x[i] - x[j]).norm() - thresholds.threshold(id<PrimitiveId>(i), id<PrimitiveId>(j));
         doubtful = doubtful || std::abs(gap) < 1e-9;
         least = std::min(least, gap);
@@ -420,7 +420,7 @@ TEST(SeveralMolecules, AgreeWithOwnMatricesAndDistances) {
 // --- which pairs count ---
 
 TEST(PairScope, HoldsWhatItsPartsSay) {
-  // By hand: a chain of two residues A1 A2, one residue B1, the ligand's two residues L1 L2.
+  // Expected by hand: a chain with residues A1 and A2, a residue B1, and two ligand residues L1 and L2.
   const Structure s = join_structures({protein("GG"), moved(protein("G"), {20, 0, 0}), moved(ligand(), {0, 20, 0})});
   const auto atom = [&](const char* words) {
     return id<PrimitiveId>(s.residues[find_part(s, words).residues[0]].first_atom);
@@ -455,7 +455,7 @@ TEST(PairScope, MakesALawfulFilter) {
     EXPECT_EQ(laws::check_pair_filter(BondExclusions(s, 4, {}, asked), s.atoms.size()), laws::Violations{});
 }
 
-/// Scoped queries are the whole one, less what is not asked about.
+/// Tests that a scoped query gives the answers of the whole query without the pairs outside its scope.
 TEST(PairScope, LeavesOutNothingElse) {
   const Structure s = scene();
   const auto molecule =
@@ -510,8 +510,8 @@ TEST(SamplePlacement, StaysWithinItsRange) {
     }
 }
 
-/// Uniform in the ball: r^3; by the invariant measure: t - sin t, the axis anywhere. Kolmogorov's distance of 4000
-/// samples is above 0.0257 once in a hundred seeds, and this one is fixed.
+/// r^3 is uniform for a uniform ball; t - sin t and the axis are uniform for the invariant measure. The Kolmogorov
+/// distance of 4000 samples exceeds 0.0257 for one seed in a hundred; this seed is fixed.
 TEST(SamplePlacement, IsUniform) {
   constexpr std::size_t count = 4000;
   for (const double turn : {0.5, pi / 2, 2.0, pi}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where tests find structures: the committed 1UBQ, the shared data when it is there, temporary files.
+// Provides structures for tests: the committed 1UBQ, the shared data if present, and temporary files.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ inline std::filesystem::path ubiquitin() { return std::filesystem::path(HINGE_SO
 
 inline std::filesystem::path shared_molecules() { return std::filesystem::path(HINGE_SHARED_DATA) / "molecules"; }
 
-/// A file with this text, removed with the object.
+/// A temporary file with this text; the destructor removes it.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& text, const std::string& extension = ".pdb") {
@@ -38,7 +38,7 @@ class TemporaryFile {
   std::filesystem::path path_;
 };
 
-/// `text` gzipped `times` times over, one member behind the other, as gzip allows.
+/// Returns `text` gzipped, repeated `times` times as members of one gzip file.
 inline std::string gzipped(const std::string& text, std::size_t times = 1) {
   const TemporaryFile file("", ".gz");
   const gzFile out = gzopen(file.path().c_str(), "wb9");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Trajectories for tests and benchmarks, written by code that the readers share nothing with: a text of bytes each.
+// Writes trajectories for tests and benchmarks as strings of bytes. Shares no code with the readers.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace hinge::test {
 
 using Frame = std::vector<Vec3>;
 
-/// Numbers one after another, most significant byte first or last.
+/// Appends numbers to `bytes`, in big-endian or little-endian order.
 class ByteWriter {
  public:
   explicit ByteWriter(bool big) : big_(big) {}
@@ -35,16 +35,18 @@ class ByteWriter {
   bool big_;
 };
 
+/// The variants of DCD files. marker: bytes of a record length; fourth: a fourth coordinate per atom.
 struct DcdStyle {
   bool big = false;
   bool charmm = true;
   bool cell = false;
   bool fourth = false;
   std::size_t marker = 4;
-  std::vector<std::size_t> moving{};  ///< atoms of later frames, where others are fixed
-  std::int64_t claimed = -1;          ///< frames; -1: as many as there are
+  std::vector<std::size_t> moving{};  ///< atoms in frames after the first; the others are fixed; empty: all move
+  std::int64_t claimed = -1;          ///< number of frames in the header; -1: the real number
 };
 
+/// Returns a DCD file of these frames (angstrom); at least one frame.
 inline std::string dcd_file(const std::vector<Frame>& frames, const DcdStyle& style = {}) {
   ByteWriter out(style.big);
   const auto record = [&](std::size_t size, const auto& write) {
@@ -63,7 +65,7 @@ inline std::string dcd_file(const std::vector<Frame>& frames, const DcdStyle& st
       out.i4(style.cell ? 1 : 0);
       out.i4(style.fourth ? 1 : 0);
     } else {
-      out.f8(0.002);  // its second half is no flag
+      out.f8(0.002);  // 8 bytes in X-PLOR files: the second half must not be read as a flag
       out.i4(0);
     }
     for (int k = 0; k < 7; ++k) out.i4(0);
@@ -100,6 +102,8 @@ inline std::string dcd_file(const std::vector<Frame>& frames, const DcdStyle& st
   return out.bytes;
 }
 
+/// Returns a NumPy file of these frames. type: "<f4", ">f8" and so on; order: fortran_order; shape: replaces the real
+/// shape unless empty.
 inline std::string npy_file(const std::vector<Frame>& frames, const std::string& type = "<f4", int version = 1,
                             const std::string& order = "False", const std::string& shape = "") {
   const std::size_t atoms = frames.empty() ? 5 : frames[0].size();
@@ -125,7 +129,8 @@ inline std::string npy_file(const std::vector<Frame>& frames, const std::string&
   return bytes + length.bytes + head + out.bytes;
 }
 
-/// XTC, packed with runs of small differences like GROMACS does. Angstrom in, `precision` steps per nanometre.
+/// Writes XTC files, compressed with runs of small differences as GROMACS does. Input in angstrom; `precision` steps
+/// per nanometre.
 class XtcPacker {
  public:
   explicit XtcPacker(double precision = 1000.0, std::int64_t magic = 1995) : precision_(precision), magic_(magic) {}
@@ -178,10 +183,10 @@ class XtcPacker {
 
  private:
   using Triple = std::array<std::int64_t, 3>;
-  /// Least significant byte first.
+  /// A large integer, least significant byte first.
   using Big = std::vector<unsigned>;
 
-  /// Side of a small range whose number is n: what GROMACS' tables hold for those that the packer uses.
+  /// Returns the side of small range n: the values of GROMACS' tables that the packer uses.
   static std::int64_t side(int n) {
     static const std::vector<std::int64_t> sides = {8,   10,  12,  16,  20,  25,  32,  40,  50,   64,   80,   101, 128,
                                                     161, 203, 256, 322, 406, 512, 645, 812, 1024, 1290, 1625, 2048};
@@ -205,7 +210,7 @@ class XtcPacker {
     return big.empty() ? 0
                        : static_cast<int>(8 * (big.size() - 1) + static_cast<std::size_t>(std::bit_width(big.back())));
   }
-  /// Three numbers below their sizes as one, in so many bits.
+  /// Writes three numbers, each below its size, as one number of `count` bits.
   void put_three(const Triple& t, const Triple& sizes, int count) {
     Big big;
     multiply_add(big, 1, static_cast<std::uint64_t>(t[0]));
@@ -215,7 +220,8 @@ class XtcPacker {
     for (std::size_t k = 0; count > 0; ++k, count -= 8) put(big[k], std::min(count, 8));
   }
 
-  /// Greedy: runs of up to eight atoms as long as each is near the one before; the range shrinks and grows on the way.
+  /// Packs the atoms and returns the first small range. Greedy: a run has up to eight atoms, each close to the one
+  /// before. The range shrinks after long runs and grows without runs.
   int pack(const std::vector<Triple>& grid, const Triple& low, const Triple& high) {
     Triple sizes{};
     bool together = true;
@@ -237,7 +243,7 @@ class XtcPacker {
       return true;
     };
     while (i < grid.size()) {
-      // The second atom goes first when a run follows.
+      // If a run follows, the format stores the second atom before the first.
       std::vector<Triple> run;
       Triple large = grid[i];
       if (i + 1 < grid.size() && near(grid[i], grid[i + 1], small)) {

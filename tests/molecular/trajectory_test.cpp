@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Trajectories: every variant of the formats, against files whose content is known, real ones, and damaged ones.
+// Tests trajectories: every variant of the formats, with files of known content, real files and damaged files.
 #include "hinge/molecular/trajectory.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ using test::npy_file;
 using test::TemporaryFile;
 using test::XtcPacker;
 
-/// Nothing but atoms: carbons of one residue.
+/// Returns a structure of `count` carbons in one residue.
 Structure atoms(std::size_t count) {
   Structure s;
   s.atoms.assign(count, Atom{"C", "C", 0, '\0', 0, 0});
@@ -41,12 +41,13 @@ Structure atoms(std::size_t count) {
   return s;
 }
 
-/// A chain of atoms about 1.5 angstrom apart, all doubles; floats when `single`.
+/// Returns x rounded to floats, as the readers widen them.
 Vec3 through_floats(Vec3 x) {
   for (Eigen::Index k = 0; k < 3; ++k) x[k] = detail::widened(static_cast<float>(x[k]));
   return x;
 }
 
+/// Returns frames of random atom chains with steps of about 1.5 angstrom, as doubles; rounded to floats if `single`.
 std::vector<Frame> chains(std::size_t frames, std::size_t count, bool single) {
   std::mt19937 random(7);
   const auto uniform = [&] { return static_cast<double>(random()) / 0x1p32; };
@@ -62,7 +63,7 @@ std::vector<Frame> chains(std::size_t frames, std::size_t count, bool single) {
   return all;
 }
 
-/// What a trajectory says why it refuses, from opening to its last frame; empty: it does not.
+/// Returns the message of the first LoadError, from opening to the last frame; empty if there is none.
 std::string refusal(const std::string& bytes, std::size_t count) {
   const TemporaryFile file(bytes, ".traj");
   const Structure molecule = atoms(count);
@@ -86,7 +87,7 @@ void expect_frames(const std::string& bytes, const std::vector<Frame>& expected)
     const Trajectory trajectory(file.path(), molecule);
     ASSERT_EQ(trajectory.size(), expected.size());
     EXPECT_EQ(trajectory.atom_count(), expected[0].size());
-    // Backwards: frames are independent of each other.
+    // Reads backwards: frames are independent of each other.
     for (std::size_t k = expected.size(); k-- > 0;) EXPECT_TRUE(trajectory.frame(k) == expected[k]) << k;
   }
 }
@@ -133,7 +134,7 @@ TEST(Dcd, TrustsTheSizeNotTheHeader) {
 TEST(Dcd, SaysWhereItIsCutShortOrDamaged) {
   const std::string whole = dcd_file(chains(3, 10, true));
   const std::size_t frame = 3 * (8 + 40);
-  // Whole frames before are there.
+  // The complete frames before the cut can be read.
   const TemporaryFile file(whole.substr(0, whole.size() - 50), ".dcd");
   const Structure molecule = atoms(10);
   const Trajectory trajectory(file.path(), molecule);
@@ -170,7 +171,7 @@ TEST(Npy, RefusesWhatItCannotRead) {
   EXPECT_NE(refusal(npy_file(frames, "<f4", 1, "False", "(2, 3, 5)"), 5).find("shape (2, 3, 5)"), std::string::npos);
   EXPECT_NE(refusal(npy_file(frames, "<f4", 1, "False", "(30,)"), 5).find("shape (30,)"), std::string::npos);
   EXPECT_NE(refusal(npy_file(frames, "<f4", 9), 5).find("version 9"), std::string::npos);
-  EXPECT_EQ(refusal(npy_file({}, "<f4"), 5), "");  // 0 frames are none too few
+  EXPECT_EQ(refusal(npy_file({}, "<f4"), 5), "");  // 0 frames are allowed
   EXPECT_NE(refusal(npy_file(frames) + "more", 5).find("124 bytes of data"), std::string::npos);
   EXPECT_NE(refusal(npy_file(frames, "<f4", 1, "False", "(1, 5, 3)"), 5).find("120 bytes of data"), std::string::npos);
   const std::string whole = npy_file(frames);
@@ -180,7 +181,7 @@ TEST(Npy, RefusesWhatItCannotRead) {
   for (std::size_t size = 1; size < 128; ++size) EXPECT_NE(refusal(whole.substr(0, size), 5), "") << size;
 }
 
-/// The decimals that are nearest, as doubles.
+/// Returns the frames rounded to the grid of `precision` steps per nanometre, as doubles.
 std::vector<Frame> on_grid(std::vector<Frame> frames, double precision) {
   for (Frame& frame : frames)
     for (Vec3& x : frame)
@@ -197,7 +198,7 @@ TEST(Xtc, ReadsWhatIsPacked) {
       expect_frames(XtcPacker(precision).file(frames), on_grid(frames, precision));
       expect_frames(XtcPacker(precision, 2023).file(frames), on_grid(frames, precision));
     }
-  // All in one place, and farther apart than three numbers pack into one.
+  // First all atoms at one position, then atoms too far apart to pack three numbers into one.
   const Frame still(20, Vec3(1, 2, 3));
   expect_frames(XtcPacker().file({still}), {still});
   Frame wide = chains(1, 40, false)[0];
@@ -261,7 +262,7 @@ TEST(Trajectory, RefusesOtherFiles) {
 }
 
 TEST(Trajectory, FindsTheMoleculesAtomsInFramesOfItsFile) {
-  // Ubiquitin among waters, in front of it and between its atoms.
+  // Waters before ubiquitin and between its atoms.
   std::ifstream ubiquitin(test::ubiquitin());
   std::vector<std::string> records;
   std::string text;
@@ -279,7 +280,8 @@ TEST(Trajectory, FindsTheMoleculesAtomsInFramesOfItsFile) {
   ASSERT_EQ(s.atoms.size(), 602U);
   ASSERT_EQ(s.atom_records, records.size());
   ASSERT_GT(s.atom_records, 680U);
-  // In the file's order, waters among them: atom i of a frame is at (i, 0, 0), and the file says who it is.
+  // Atoms in the order of the file, including waters. Atom i of the frame is at (i, 0, 0), so its position identifies
+  // it.
   Frame frame;
   for (std::size_t i = 0; i < s.atom_records; ++i) frame.emplace_back(static_cast<double>(i), 0, 0);
   const TemporaryFile file(npy_file({frame}), ".npy");
@@ -302,7 +304,7 @@ TEST(Trajectory, FindsTheMoleculesAtomsInFramesOfItsFile) {
   EXPECT_NE(Trajectory(small.path(), s).notes()[0].find("like nanometres"), std::string::npos);
 }
 
-/// A PDB file of these frames; `change` may spoil the text of a frame.
+/// Returns a PDB file of these frames. change(k, text) may alter the text of frame k.
 template <class Change>
 std::string pdb_of(const Structure& s, const std::vector<Frame>& frames, const Change& change) {
   std::string all;
@@ -320,14 +322,14 @@ TEST(PdbModels, AreThoseOfTheWholeFile) {
   for (std::size_t k = 0; k < frames.size(); ++k)
     for (Vec3& x : frames[k]) x[0] += static_cast<double>(k) / 8.0;
   const auto same = [](std::size_t, const std::string& text) { return text; };
-  // A model whose waters come and go, and one with another occupancy, are read the long way.
+  // Models with additional waters or another occupancy are read by the slow parser.
   const auto changed = [](std::size_t k, std::string text) {
     const std::size_t end = text.find("ENDMDL");
     if (k == 1) text.insert(end, "HETATM 9999  O   HOH A 999      10.000  10.000  10.000  1.00  0.00           O  \n");
     if (k == 2) text.replace(text.find("  1.00  0.00"), 12, "  0.50  0.00");
     return text;
   };
-  // The parser knows atoms in small letters.
+  // The parser accepts record names in lower case.
   const auto small = [](std::size_t, std::string text) { return text.replace(text.find("ATOM      2"), 4, "atom"); };
   for (const std::string& text : {pdb_of(s, frames, same), pdb_of(s, frames, changed), pdb_of(s, frames, small)}) {
     const TemporaryFile file(text);
@@ -351,7 +353,7 @@ TEST(PdbModels, KnowsTheBondsThatAreListedBehindThem) {
       "HETATM    1  C1  LIG A   1       0.000   0.000   0.000  1.00  0.00           C\n"
       "HETATM    2  C2  LIG A   1       1.340   0.000   0.000  1.00  0.00           C\n";
   std::string models;
-  // Enough of them that bonds stand in another piece of the file than the first model does.
+  // Enough models to put the bonds into another block of the file than the first model.
   for (int k = 1; k <= 900; ++k) models += "MODEL     " + std::to_string(1000 + k) + "\n" + atoms + "ENDMDL\n";
   const auto read = [&](const std::string& text, bool first_model) {
     ReadOptions options;
@@ -393,7 +395,7 @@ TEST(PdbModels, RefusesAnotherMoleculeAndBlankCoordinates) {
     if (k == 2) text.replace(text.find('\n') + 1 + 38, 8, "        ");
     return text;
   });
-  // Two models of 605 lines each (MODEL, TER, ENDMDL), MODEL, and the record itself.
+  // Two models of 605 lines each (with MODEL, TER, ENDMDL), one MODEL line, and the record itself.
   EXPECT_NE(blank.find(":1212: atom 1 N: coordinate y is blank"), std::string::npos) << blank;
   const auto renamed = said([](std::size_t k, std::string text) {
     if (k == 1) text.replace(text.find(" CA  MET"), 8, " CX  MET");
@@ -417,7 +419,8 @@ TEST(Trajectory, ReadsTheSameModelsFromEveryFormat) {
     EXPECT_TRUE(xtc.frame(k) == s.models[k]) << "its grid has the PDB file's three decimals";
     const Frame frame = dcd.frame(k);
     for (std::size_t i = 0; i < frame.size(); ++i)
-      EXPECT_LE((frame[i] - s.models[k][i]).cwiseAbs().maxCoeff(), 4e-6);  // two floats next to each other below 32
+      EXPECT_LE((frame[i] - s.models[k][i]).cwiseAbs().maxCoeff(),
+                4e-6);  // 2 ulps of floats below 32
   }
 }
 
