@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "checking/find_inside.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/policy/collector.hpp"
+#include "hinge/query/link_pair_hits.hpp"
 #include "hinge/robotics/environment.hpp"
 #include "hinge/robotics/robot_checker.hpp"
 
@@ -49,6 +51,75 @@ class ClosestOfPairs {
 
 static_assert(Collector<ClosestOfPairs>);
 
+/// Of one pair of links alone: any hit below a bound, or the first of all in the order of ClosestOfPairs.
+class HitsOfPair {
+ public:
+  static constexpr bool ranks = false;
+  HitsOfPair(std::span<const LinkId> links, std::span<const LinkId> other_links, const LinkPair& pair, double below,
+             bool any)
+      : links_(links), other_links_(other_links), pair_(pair), below_(below), any_(any) {}
+  void add(const Hit& hit) {
+    if (!wants(links_[index(hit.first)], other_links_[index(hit.second)])) return;
+    const auto key = [](const Hit& h) { return std::tuple(h.gap(), h.first, h.second); };
+    if (!best_ || key(hit) < key(*best_)) best_ = hit;
+  }
+  bool wants(LinkId a, LinkId b) const noexcept {
+    return (a == pair_.first && b == pair_.second) ||
+           (links_.data() == other_links_.data() && b == pair_.first && a == pair_.second);
+  }
+  double cutoff() const noexcept { return below_; }
+  bool done() const noexcept { return any_ && best_; }
+  const std::optional<Hit>& best() const noexcept { return best_; }
+
+ private:
+  std::span<const LinkId> links_, other_links_;
+  LinkPair pair_;
+  double below_;
+  bool any_;
+  std::optional<Hit> best_;
+};
+
+static_assert(RefusesLinks<HitsOfPair>);
+
+/// The hit with the smallest gap of every pair of links within the margin. query(collector) asks the engine. The simd
+/// engine passes over refused links: it is asked pair by pair, in intervals that are halved, because fine meshes have
+/// millions of pairs of triangles within a margin.
+template <class Query>
+std::map<LinkPair, Hit> closest_of_pairs(const std::string& engine, std::span<const LinkId> links,
+                                         std::span<const LinkId> other_links, double margin, const Query& query) {
+  if (engine != "simd") {
+    ClosestOfPairs all(links, other_links, margin);
+    query(all);
+    return all.best();
+  }
+  const bool self = links.data() == other_links.data();
+  LinkPairHits met = self ? LinkPairHits(links, margin) : LinkPairHits(links, other_links, margin);
+  query(met);
+  std::map<LinkPair, Hit> best;
+  for (const Hit& first : met.hits()) {
+    const LinkPair pair{links[index(first.first)], other_links[index(first.second)]};
+    const auto ask = [&](double below, bool any) {
+      HitsOfPair hits(links, other_links, pair, below, any);
+      query(hits);
+      return hits.best();
+    };
+    // The smallest gap is above `low`, or it is `high` or below.
+    constexpr double narrow = 0x1p-6;
+    constexpr int most_halvings = 60;
+    double low = 0.0, high = std::max(first.gap(), 0.0);
+    for (int k = 0; k < most_halvings && high - low > narrow * high; ++k) {
+      const double middle = low + (high - low) / 2;
+      if (const auto nearer = ask(middle, true))
+        high = std::max(nearer->gap(), 0.0);
+      else
+        low = middle;
+    }
+    // A hair more, so that pairs as close are all looked at, however they are rounded.
+    best.emplace(pair, ask(high > 0.0 ? high * (1.0 + 0x1p-30) : 0.0, false).value_or(first));
+  }
+  return best;
+}
+
 }  // namespace
 
 std::vector<ClosestLinks> RobotChecker::surfaces_nearby(LinkId link, double margin) {
@@ -56,10 +127,10 @@ std::vector<ClosestLinks> RobotChecker::surfaces_nearby(LinkId link, double marg
   return std::visit(
       [&](auto& hierarchy) {
         // Rounding differs in this frame: enlarge the margin to keep the pairs that were within it.
-        ClosestOfPairs collector(links, links, margin * (1.0 + 0x1p-20) + 0x1p-20);
-        hierarchy.self_query(collector);
+        const double wider = margin * (1.0 + 0x1p-20) + 0x1p-20;
         std::vector<ClosestLinks> all;
-        for (const auto& [pair, hit] : collector.best())
+        const auto ask = [&](auto& collector) { hierarchy.self_query(collector); };
+        for (const auto& [pair, hit] : closest_of_pairs(engine_, links, links, wider, ask))
           if (pair.first == link)
             all.push_back(answer(pair.first, pair.second, hit,
                                  measure(hierarchy, hierarchy, hit, margins_.sum(hit.first, hit.second))));
@@ -73,11 +144,10 @@ std::vector<ClosestLinks> RobotChecker::distances(double margin) {
   const std::span<const LinkId> links = robot_->model().links();
   return std::visit(
       [&](auto& hierarchy) {
-        ClosestOfPairs collector(links, links, margin);
-        hierarchy.self_query(collector);
+        const auto ask = [&](auto& collector) { hierarchy.self_query(collector); };
         std::map<LinkPair, ClosestLinks> found;
         std::set<LinkId> far;  // first links of the pairs far from the origin
-        for (const auto& [pair, hit] : collector.best()) {
+        for (const auto& [pair, hit] : closest_of_pairs(engine_, links, links, margin, ask)) {
           found[pair] = answer(pair.first, pair.second, hit,
                                measure(hierarchy, hierarchy, hit, margins_.sum(hit.first, hit.second)));
           if (is_far(found[pair])) far.insert(pair.first);
@@ -113,9 +183,8 @@ std::vector<ClosestBody> RobotChecker::distances(Environment& environment, doubl
     const std::size_t before = found.size();
     ask(pair, environment, [&](auto& mine, auto& theirs, const auto& filter, const QueryOptions& options) {
       const std::span<const LinkId> links = mine.model().model().links(), others = theirs.model().model().links();
-      ClosestOfPairs collector(links, others, margin);
-      mine.query(theirs, collector, filter, options);
-      for (const auto& [links_of_hit, hit] : collector.best()) {
+      const auto query = [&](auto& collector) { mine.query(theirs, collector, filter, options); };
+      for (const auto& [links_of_hit, hit] : closest_of_pairs(engine_, links, others, margin, query)) {
         const double more = detail::clearance_of(options.clearance, mine.model().group_of(hit.first));
         const Closeness n =
             measure(mine, theirs, hit, mine.matrix().sum(hit.first, theirs.matrix(), hit.second) + more);
