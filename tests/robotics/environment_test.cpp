@@ -317,7 +317,7 @@ TEST(Environment, RefusesClearancesEnginesAndMargins) {
   Environment lazy(0.0, "lazy");
   RobotChecker checker = checker_of(slider());
   EXPECT_EQ(hinge::test::refusal<Error>([&] { checker.collides(lazy); }),
-            "the environment was made for engine 'lazy', the robot uses 'wide'");
+            "the environment was made for engine 'lazy', the robot uses 'simd'");
   Environment environment;
   EXPECT_THROW(checker.within(environment, nan), ConfigurationError);
 }
