@@ -288,6 +288,17 @@ TEST(RoundTrip, KeepsResiduesOfTheSameNameAndNumberApart) {
   EXPECT_NE(cif.find(" CYS A ? 8 ? "), std::string::npos) << cif;
 }
 
+TEST(RoundTrip, WritesABlankChainNameAsEmptyText) {
+  Structure s = build_ideal_protein("AG", "CC");
+  s.chains[0].name.clear();
+  for (Vec3& x : s.models[0])
+    for (Eigen::Index k = 0; k < 3; ++k) x[k] = std::round(x[k] * 1000) / 1000;
+  for (const TrajectoryFormat format : {TrajectoryFormat::pdb, TrajectoryFormat::cif})
+    expect_same_molecule(s, again(written(s, format), format));
+  const std::string cif = written(s, TrajectoryFormat::cif);
+  EXPECT_NE(cif.find(" 1 '' 1\n"), std::string::npos) << cif;
+}
+
 TEST(RoundTrip, KeepsInsertionCodes) {
   Structure s = build_ideal_protein("AGSA", "CCCC");
   for (std::uint32_t r = 1; r < 4; ++r) {

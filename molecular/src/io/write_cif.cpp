@@ -26,6 +26,9 @@ std::string value(const std::string& text) {
   return text.find('"') == std::string::npos ? '"' + text + '"' : '\'' + text + '\'';
 }
 
+/// auth_asym_id. A blank name is an empty text: where it is said to be unknown, some readers take label_asym_id for it.
+std::string chain_value(const std::string& name) { return name.empty() ? "''" : value(name); }
+
 const std::string& chain_name_of(const Structure& s, const Residue& residue) { return s.chains[residue.chain].name; }
 
 bool is_hetero_record(const Residue& residue) {
@@ -75,7 +78,7 @@ std::string residue_values(const Structure& s, const std::vector<std::string>& l
   const Residue& residue = s.residues[r];
   return value(residue.name) + ' ' + value(labels[r]) + ' ' + sequence_id(s, r) + ' ' +
          std::to_string(residue.sequence_number) + ' ' + insertion_code(residue) + ' ' +
-         value(chain_name_of(s, residue));
+         chain_value(chain_name_of(s, residue));
 }
 
 std::string residue_tags(const std::string& category, const std::string& partner) {
@@ -180,7 +183,7 @@ void write_cif_model(std::ostream& out, const Structure& s, std::span<const Vec3
   std::string text;
   for (std::uint32_t r = 0; r < s.residues.size(); ++r) {
     const Residue& residue = s.residues[r];
-    const std::string chain = value(chain_name_of(s, residue)), name = value(residue.name);
+    const std::string chain = chain_value(chain_name_of(s, residue)), name = value(residue.name);
     const std::string behind_name =
         " . " + name + ' ' + value(labels[r]) + " ? " + sequence_id(s, r) + ' ' + insertion_code(residue) + ' ';
     const std::string behind =
