@@ -9,6 +9,7 @@
 
 namespace hinge::robotics {
 
+/// A ball, m.
 struct Ball {
   Vec3 centre = Vec3::Zero();
   double radius = 0.0;
@@ -18,6 +19,7 @@ struct Ball {
 /// least one.
 Ball enclosing_ball(std::span<const Vec3> points);
 
+/// A circle in a plane, m.
 struct Circle {
   double x = 0.0, y = 0.0;
   double radius = 0.0;

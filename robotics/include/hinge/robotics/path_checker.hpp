@@ -55,8 +55,8 @@ struct RobotPathAnswer {
 /// larger clearance applies between links and bodies. Bodies keep the poses that they have at construction, held bodies
 /// follow their link, and the robot keeps its base. If the base is not the identity, the bodies are moved into its
 /// frame, which rounds. Solids are those of RobotChecker: a component outside a solid at the start stays outside while
-/// no surfaces touch. If a body touches a link that never moves against it, every path collides. One per thread; copies
-/// share constant data.
+/// no surfaces touch. If a body collides with a link that never moves against it, every path collides. One per thread;
+/// copies share constant data.
 class PathChecker {
  public:
   /// Checks the robot against itself.

@@ -26,7 +26,8 @@ class Solids;
 class Robot {
  public:
   /// Tessellates the shapes and builds the model. Throws ModelError, naming the link or joint, for every fault listed
-  /// in check_description.hpp, a solid mesh that is not closed, and more than 10^6 triangles from tessellation.
+  /// in check_description.hpp, a solid mesh that is not closed, a chain of mimic joints with factors that are not
+  /// finite, and more than 10^6 triangles from tessellation.
   explicit Robot(RobotDescription description, const Tessellation& tessellation = {});
 
   /// Returns the robot's name.
@@ -35,8 +36,9 @@ class Robot {
   const RobotDescription& description() const noexcept { return description_; }
   /// Returns the tessellation that the robot was made with.
   const Tessellation& tessellation() const noexcept { return tessellation_; }
-  /// Returns the model. A parent link comes before its children, otherwise links keep the order of the description.
-  /// Triangles have the order of their links and are in link frames.
+  /// Returns the model. A parent link comes before its children; otherwise links keep the order of their joints in
+  /// the description, so a LinkId is not an index into description().links. Triangles have the order of their
+  /// links and are in link frames.
   const Model<Triangle>& model() const noexcept { return *model_; }
 
   // --- Links. LinkId as in model(); link 0 is the world and has no name. ---
@@ -85,8 +87,7 @@ class Robot {
   std::span<const Drive> drives() const noexcept { return drives_; }
 
   /// Returns the full configuration (one value per DOF of model()) for values of the independent joints, rad or m.
-  /// Limits are not checked. Throws ConfigurationError, naming the joint, if the length is wrong or a value is not
-  /// finite.
+  /// Limits are not checked. Throws ConfigurationError if the length is wrong or a value is not finite.
   std::vector<double> expand(std::span<const double> independent) const;
   /// The same, written into `full`, which must have one element per DOF.
   void expand(std::span<const double> independent, std::span<double> full) const;
