@@ -16,9 +16,9 @@
 #include <utility>
 #include <vector>
 
+#include "clash/hydrogen_bonds.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/checker.hpp"
-#include "hinge/molecular/hydrogen_bonds.hpp"
 #include "hinge/molecular/sampler.hpp"
 #include "hinge/molecular/selection.hpp"
 #include "hinge/molecular/severity.hpp"

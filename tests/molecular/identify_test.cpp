@@ -14,11 +14,11 @@
 #include <utility>
 #include <vector>
 
+#include "chemistry/residue_table.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/bonds.hpp"
 #include "hinge/molecular/ideal_protein.hpp"
-#include "hinge/molecular/residue_table.hpp"
 #include "hinge/molecular/torsions.hpp"
 #include "molecular/dictionary_bonds.hpp"
 #include "molecular/test_files.hpp"

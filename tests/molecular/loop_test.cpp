@@ -15,11 +15,11 @@
 #include <string>
 #include <vector>
 
+#include "clash/hydrogen_bonds.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/checker.hpp"
 #include "hinge/molecular/closed_sampler.hpp"
-#include "hinge/molecular/hydrogen_bonds.hpp"
 #include "hinge/molecular/ideal_protein.hpp"
 #include "hinge/molecular/loop.hpp"
 #include "hinge/molecular/molecule.hpp"

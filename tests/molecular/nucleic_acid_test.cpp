@@ -22,9 +22,9 @@
 #include <utility>
 #include <vector>
 
+#include "chemistry/nucleotide_table.hpp"
+#include "chemistry/residue_table.hpp"
 #include "hinge/core/error.hpp"
-#include "hinge/molecular/nucleotide_table.hpp"
-#include "hinge/molecular/residue_table.hpp"
 #include "hinge/molecular/summary.hpp"
 #include "molecular/dictionary_bonds.hpp"
 #include "molecular/engines_agree.hpp"

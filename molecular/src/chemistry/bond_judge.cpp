@@ -8,9 +8,9 @@
 #include <numbers>
 #include <string_view>
 
+#include "chemistry/nucleotide_table.hpp"
+#include "chemistry/residue_table.hpp"
 #include "hinge/molecular/bonds.hpp"
-#include "hinge/molecular/nucleotide_table.hpp"
-#include "hinge/molecular/residue_table.hpp"
 #include "mechanism/rotatable_bonds.hpp"
 
 namespace hinge::molecular {

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "chemistry/nucleotide_table.hpp"
 #include "hinge/molecular/bonds.hpp"
-#include "hinge/molecular/nucleotide_table.hpp"
 
 namespace hinge::molecular {
 

@@ -14,8 +14,8 @@
 #include "chemistry/bond_list.hpp"
 #include "chemistry/cell_grid.hpp"
 #include "chemistry/residue_bonds.hpp"
+#include "chemistry/residue_table.hpp"
 #include "hinge/core/number_text.hpp"
-#include "hinge/molecular/residue_table.hpp"
 
 namespace hinge::molecular {
 

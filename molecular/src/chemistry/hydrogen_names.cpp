@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "chemistry/nucleotide_table.hpp"
 #include "chemistry/residue_bonds.hpp"
-#include "hinge/molecular/nucleotide_table.hpp"
 
 namespace hinge::molecular {
 

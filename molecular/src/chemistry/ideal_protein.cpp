@@ -8,10 +8,10 @@
 #include <numbers>
 #include <string>
 
+#include "chemistry/residue_table.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/detail/core/sincos.hpp"
 #include "hinge/molecular/bonds.hpp"
-#include "hinge/molecular/residue_table.hpp"
 
 namespace hinge::molecular {
 

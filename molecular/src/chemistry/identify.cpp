@@ -5,8 +5,8 @@
 #include <string_view>
 #include <utility>
 
-#include "hinge/molecular/nucleotide_table.hpp"
-#include "hinge/molecular/residue_table.hpp"
+#include "chemistry/nucleotide_table.hpp"
+#include "chemistry/residue_table.hpp"
 #include "io/read_file.hpp"
 
 namespace hinge::molecular {

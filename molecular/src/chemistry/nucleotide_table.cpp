@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Nucleotides by the names of PDB format 3, of CHARMM and of AMBER.
-#include "hinge/molecular/nucleotide_table.hpp"
+#include "chemistry/nucleotide_table.hpp"
 
 #include <algorithm>
 #include <array>

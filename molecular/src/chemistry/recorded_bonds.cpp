@@ -12,10 +12,10 @@
 #include <utility>
 
 #include "chemistry/bond_list.hpp"
+#include "chemistry/nucleotide_table.hpp"
 #include "chemistry/residue_bonds.hpp"
+#include "chemistry/residue_table.hpp"
 #include "hinge/molecular/components.hpp"
-#include "hinge/molecular/nucleotide_table.hpp"
-#include "hinge/molecular/residue_table.hpp"
 
 namespace hinge::molecular {
 

@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "chemistry/bond_judge.hpp"
+#include "chemistry/nucleotide_table.hpp"
+#include "chemistry/residue_table.hpp"
 #include "hinge/molecular/bonds.hpp"
-#include "hinge/molecular/nucleotide_table.hpp"
-#include "hinge/molecular/residue_table.hpp"
 
 namespace hinge::molecular {
 

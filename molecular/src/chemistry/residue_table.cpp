@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // IUPAC-IUB 1970 names and side-chain torsions.
-#include "hinge/molecular/residue_table.hpp"
+#include "chemistry/residue_table.hpp"
 
 #include <algorithm>
 #include <array>

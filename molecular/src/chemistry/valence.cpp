@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "hinge/molecular/hydrogen_bonds.hpp"
+#include "clash/hydrogen_bonds.hpp"
 #include "hinge/molecular/radii.hpp"
 
 namespace hinge::molecular {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "hinge/molecular/hydrogen_bonds.hpp"
+#include "clash/hydrogen_bonds.hpp"
 #include "hinge/molecular/structure.hpp"
 
 namespace hinge::molecular {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds the backbone hydrogen bonds of Kabsch and Sander, Biopolymers 22:2577 (1983), as DSSP does.
-#include "hinge/molecular/hydrogen_bonds.hpp"
+#include "clash/hydrogen_bonds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "chemistry/cell_grid.hpp"
-#include "hinge/molecular/residue_table.hpp"
+#include "chemistry/residue_table.hpp"
 
 namespace hinge::molecular {
 

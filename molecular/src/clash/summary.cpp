@@ -2,8 +2,8 @@
 // Counts residues by class and torsions by kind.
 #include "hinge/molecular/summary.hpp"
 
-#include "hinge/molecular/nucleotide_table.hpp"
-#include "hinge/molecular/residue_table.hpp"
+#include "chemistry/nucleotide_table.hpp"
+#include "chemistry/residue_table.hpp"
 
 namespace hinge::molecular {
 

@@ -10,9 +10,9 @@
 #include <unordered_map>
 #include <utility>
 
+#include "chemistry/residue_table.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
-#include "hinge/molecular/residue_table.hpp"
 #include "io/conformer.hpp"
 #include "io/read_file.hpp"
 

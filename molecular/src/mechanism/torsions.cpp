@@ -10,10 +10,10 @@
 #include <string_view>
 #include <utility>
 
+#include "chemistry/nucleotide_table.hpp"
+#include "chemistry/residue_table.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/bonds.hpp"
-#include "hinge/molecular/nucleotide_table.hpp"
-#include "hinge/molecular/residue_table.hpp"
 #include "mechanism/rotatable_bonds.hpp"
 
 namespace hinge::molecular {

@@ -71,7 +71,7 @@ struct GridPoint {
   }
 
  private:
-  __extension__ using Simd = __int128;
+  __extension__ using Wide = __int128;
 
   /// Returns the nearest grid point. Coordinates out of range become the largest value, which no valid x equals.
   static GridPoint nearest(const Vec3& x) noexcept {
@@ -95,15 +95,15 @@ struct GridPoint {
   [[gnu::cold, gnu::noinline]] bool closer_in_decimals(const GridPoint& q, double m) const noexcept {
     constexpr double billion = 1e9, largest = 0x1p62;
     if (!(m > 0.0)) return false;
-    Simd squared = 0;
+    Wide squared = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Simd d = thousandths[k] - q.thousandths[k];
+      const Wide d = thousandths[k] - q.thousandths[k];
       squared += d * d;
     }
     const double scaled = m * billion, whole = std::nearbyint(scaled);
     // The product m * billion has an error of half an ulp.
     if (scaled < largest && std::abs(scaled - whole) <= 17 * exact::half_ulp * scaled) {
-      const Simd n = static_cast<std::int64_t>(whole), million = 1'000'000;
+      const Wide n = static_cast<std::int64_t>(whole), million = 1'000'000;
       return squared * million * million < n * n;
     }
     if (!is_finite(m)) return true;
