@@ -77,6 +77,14 @@ TEST(MatrixLaws, HoldForStockMatrices) {
   EXPECT_EQ(laws::check_distance_matrix(test::random_thresholds(20, random), 20), none);
 }
 
+/// Half of an odd number of the smallest denormals is rounded.
+TEST(MatrixLaws, HoldForDenormalThresholds) {
+  for (const double m : {1 * 0x1p-1074, 3 * 0x1p-1074, 5 * 0x1p-1074, 0x1p-1022 - 0x1p-1074}) {
+    EXPECT_EQ(laws::check_distance_matrix(TypedThresholds({0, 0}, 1, {m}), 2), none) << m;
+    EXPECT_EQ(laws::check_distance_matrix(UniformClearance{m}, 2), none) << m;
+  }
+}
+
 TEST(CollectorLaws, HoldForTheFourModes) {
   Random random(7);
   std::vector<Hit> hits;

@@ -26,8 +26,7 @@ struct Hit {
 
 /// cutoff(): the collector accepts only pairs with d - M up to this value (model length unit). It must never grow.
 /// done(): true when the collector needs no more pairs. `ranks` selects the pairs that the leaf kernel passes to add().
-/// false: only pairs accepted by closer_than(p, q, M + cutoff). true: every pair that the boxes do not rule out; the
-/// collector then compares d - M itself.
+/// false: pairs accepted by closer_than(p, q, M + cutoff). true: pairs with d - M <= cutoff().
 template <class C>
 concept Collector = requires(C& collector, const C& constant, const Hit& hit) {
   collector.add(hit);

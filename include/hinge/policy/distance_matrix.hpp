@@ -163,7 +163,7 @@ inline TypedThresholds::TypedThresholds(std::vector<std::uint16_t> types, std::s
       };
       if (!is_length(m) || m < 0.0) throw ModelError(entry() + ", expected a finite length >= 0");
       if (m != mirror) throw ModelError(entry() + " but its mirror is " + number_text(mirror));
-      reach[s] = std::max(reach[s], m / 2);
+      reach[s] = std::max({reach[s], m / 2, m - m / 2});  // half a denormal may be rounded down
     }
   for (std::size_t i = 0; i < types.size(); ++i)
     if (types[i] >= type_count)
