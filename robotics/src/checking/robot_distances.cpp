@@ -51,7 +51,8 @@ class ClosestOfPairs {
 
 static_assert(Collector<ClosestOfPairs>);
 
-/// Of one pair of links alone: any hit below a bound, or the first of all in the order of ClosestOfPairs.
+/// Collects hits of one pair of links with d - M below a bound: any one of them, or the first in the order of
+/// ClosestOfPairs.
 class HitsOfPair {
  public:
   static constexpr bool ranks = false;
@@ -81,9 +82,9 @@ class HitsOfPair {
 
 static_assert(RefusesLinks<HitsOfPair>);
 
-/// The hit with the smallest gap of every pair of links within the margin. query(collector) asks the engine. The simd
-/// engine passes over refused links: it is asked pair by pair, in intervals that are halved, because fine meshes have
-/// millions of pairs of triangles within a margin.
+/// Returns for every pair of links within the margin (m) the hit with the smallest gap. query(collector) runs the
+/// engine. Fine meshes have millions of pairs of triangles within a margin. The simd engine skips links that the
+/// collector does not want, so it is queried pair by pair, and the bound on the gap is bisected.
 template <class Query>
 std::map<LinkPair, Hit> closest_of_pairs(const std::string& engine, std::span<const LinkId> links,
                                          std::span<const LinkId> other_links, double margin, const Query& query) {
@@ -103,7 +104,7 @@ std::map<LinkPair, Hit> closest_of_pairs(const std::string& engine, std::span<co
       query(hits);
       return hits.best();
     };
-    // The smallest gap is above `low`, or it is `high` or below.
+    // Invariant: the smallest gap is at least `low` and at most `high`, or negative.
     constexpr double narrow = 0x1p-6;
     constexpr int most_halvings = 60;
     double low = 0.0, high = std::max(first.gap(), 0.0);
@@ -114,7 +115,7 @@ std::map<LinkPair, Hit> closest_of_pairs(const std::string& engine, std::span<co
       else
         low = middle;
     }
-    // A hair more, so that pairs as close are all looked at, however they are rounded.
+    // Enlarge the bound slightly, so that rounding excludes no pair of triangles with an equal gap.
     best.emplace(pair, ask(high > 0.0 ? high * (1.0 + 0x1p-30) : 0.0, false).value_or(first));
   }
   return best;
