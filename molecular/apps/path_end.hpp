@@ -11,6 +11,7 @@
 
 namespace biocd {
 
+/// One end of a path.
 struct PathEnd {
   std::string text;           ///< text of the option
   std::vector<double> turns;  ///< from the reference, one per selected DOF: rad, or angstrom (moves)

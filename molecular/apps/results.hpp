@@ -45,10 +45,11 @@ void print_json_head(const Json& head);
 const char* json_row_separator(bool is_first);
 /// Closes the list of rows and prints the summary.
 void print_json_end(const Json& summary);
-/// Returns the first line of a CSV shard: its index, its range, and a digest of the question. A complete CSV shard ends
-/// with csv_shard_end and the number of samples it lacks.
+/// Returns the first line of a CSV shard: its index, its range, and a digest of the question.
 std::string csv_shard_line(const Shard& shard, std::uint64_t total, const Json& head);
+/// Start of the last line of a complete CSV shard; the number of missing samples follows.
 inline constexpr const char* csv_shard_end = "# complete, samples missing:";
+/// Lines before and after the rows of JSON output.
 inline constexpr const char* json_rows_begin = "\"conformations\": [";
 inline constexpr const char* json_rows_end = "],";
 

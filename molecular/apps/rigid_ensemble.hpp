@@ -20,9 +20,10 @@ namespace biocd {
 hinge::molecular::EnsembleGroups find_rigid_groups(const Options& options, const hinge::molecular::Molecule& molecule,
                                                    std::span<const std::size_t> torsions);
 
-/// Report the groups, the free torsions, and the deviations of groups and rebuilt molecule, as a table or as JSON. Both
-/// read all conformations of --rigid-from again and throw LoadError as find_rigid_groups does.
+/// Returns a table of the groups, the free torsions, and the deviations of groups and rebuilt molecule. Reads all
+/// conformations of --rigid-from again and throws LoadError as find_rigid_groups does.
 std::string rigid_groups_text(const Options& options, const Job& job);
+/// Returns the same as JSON.
 Json rigid_groups_json(const Options& options, const Job& job);
 
 }  // namespace biocd

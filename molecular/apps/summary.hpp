@@ -50,9 +50,11 @@ class Summary {
   /// Adds the closure residuals and starts of a shard's summary, which its rows do not contain.
   void add_closures(const Json& summary);
 
-  /// Numbers of added and of colliding conformations, and the worst closure residual (angstrom).
+  /// Returns the number of conformations added.
   std::uint64_t checked() const { return checked_; }
+  /// Returns the number of these that collide.
   std::uint64_t colliding() const { return colliding_; }
+  /// Returns the largest closure residual of all conformations, angstrom.
   double worst_residual() const { return worst_residual_; }
   /// Returns the worst residual per closure, angstrom; empty until a conformation with closures is added.
   const std::vector<double>& worst_residuals() const { return worst_residuals_; }

@@ -12,6 +12,7 @@
 
 namespace hinge::test {
 
+/// Folder of refmac-dictionary, which may not exist.
 inline const std::filesystem::path dictionary = "/usr/share/refmac/monomers";
 
 /// Returns the bonds between heavy atoms of a monomer, as pairs of atom names; empty if it is not in the dictionary.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Tests reading of PDB and mmCIF files: atoms, models, conformers, repairs, rejected input.
 #include "hinge/molecular/read_structure.hpp"
 
 #include <gtest/gtest.h>

@@ -16,8 +16,10 @@
 
 namespace hinge::test {
 
+/// Returns the path of the committed 1UBQ.
 inline std::filesystem::path ubiquitin() { return std::filesystem::path(HINGE_SOURCE_DIR) / "molecular/data/1ubq.pdb"; }
 
+/// Returns the folder of shared structures, which may not exist.
 inline std::filesystem::path shared_molecules() { return std::filesystem::path(HINGE_SHARED_DATA) / "molecules"; }
 
 /// A temporary file with this text; the destructor removes it.
@@ -51,6 +53,7 @@ inline std::string gzipped(const std::string& text, std::size_t times = 1) {
   return all;
 }
 
+/// Returns options that drop hydrogens.
 inline molecular::ReadOptions heavy_atoms() {
   molecular::ReadOptions options;
   options.keep_hydrogens = false;

@@ -135,12 +135,14 @@ class XtcPacker {
  public:
   explicit XtcPacker(double precision = 1000.0, std::int64_t magic = 1995) : precision_(precision), magic_(magic) {}
 
+  /// Returns an XTC file of these frames.
   std::string file(const std::vector<Frame>& frames) {
     std::string bytes;
     for (const Frame& f : frames) bytes += frame(f);
     return bytes;
   }
 
+  /// Returns one frame of an XTC file; up to nine atoms are not compressed.
   std::string frame(const Frame& positions) {
     ByteWriter out(true);
     const auto atoms = static_cast<std::int64_t>(positions.size());

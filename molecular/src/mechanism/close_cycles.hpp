@@ -24,6 +24,7 @@ struct OpenCycles {
   std::span<const HeldPlacement> held;   ///< relative placements to hold
 };
 
+/// A closure and the bond or contact that it stands for.
 struct ClosedCycle {
   Closure closure;
   std::array<std::uint32_t, 2> atoms{};  ///< the two atoms that the closure joins
