@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// AtomTraits: what the named rules look at in an atom; atoms that agree in all of it share a type.
+// AtomTraits: the properties of an atom that the named rules use; atoms with equal traits share a type.
 #pragma once
 
 #include <string>
@@ -11,15 +11,16 @@
 
 namespace hinge::molecular {
 
+/// Properties of an atom under one of the named rules.
 struct AtomTraits {
-  std::string name;              ///< of the type, before what follows is added
+  std::string name;              ///< name of the type, without the suffixes of the properties below
   double radius = 0.0;           ///< angstrom
   double covalent_radius = 0.0;  ///< angstrom; posebusters only, for pairs with an ion
-  bool donor = false;            ///< of hydrogen bonds
-  bool acceptor = false;
-  int charge = 0;  ///< -1, 0, 1
-  bool ion = false;
-  bool ignored = false;  ///< no pair of it is a clash
+  bool donor = false;            ///< of a hydrogen bond
+  bool acceptor = false;         ///< of a hydrogen bond
+  int charge = 0;                ///< sign of the charge of the atom or its group: -1, 0, 1
+  bool ion = false;              ///< monatomic ion
+  bool ignored = false;          ///< no pair with it is a clash
 
   friend bool operator<(const AtomTraits& a, const AtomTraits& b) {
     const auto all = [](const AtomTraits& t) {
@@ -29,22 +30,23 @@ struct AtomTraits {
   }
 };
 
+/// Return one value per atom, by the rules of the program.
 std::vector<AtomTraits> molprobity_atoms(const Structure& structure);
 std::vector<AtomTraits> chimerax_atoms(const Structure& structure);
 std::vector<AtomTraits> posebusters_atoms(const Structure& structure);
 
-/// classify_atoms, with what Probe sees in residues by their names: aromatic bases and haems, and only atoms in
-/// residues that it does not know.
+/// classify_atoms with Probe's classes by residue name: aromatic bases and haems, and only elements in residues that it
+/// does not know.
 std::vector<AtomClass> probe_classes(const Structure& structure);
 
-/// In hydrogen bonds of a structure whose hydrogens are there.
+/// True if the class donates or accepts hydrogen bonds, in a structure with hydrogens.
 bool is_polar_hydrogen(AtomClass c);
 bool is_acceptor(AtomClass c);
 
-/// "C.aromatic"; of other atoms the element.
+/// Returns "C.aromatic"; for class `other` the element.
 std::string type_name(AtomClass c, const std::string& element);
 
-/// By the named rules.
+/// Returns the thresholds of rules other than biocd.
 Thresholds make_named_thresholds(const Structure& structure, const ClashRules& rules);
 
 }  // namespace hinge::molecular

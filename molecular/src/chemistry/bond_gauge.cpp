@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Distances of model 0 against those of other coordinates.
+// BondGauge: compares distances in model 0 with those in other coordinates.
 #include "hinge/molecular/bond_gauge.hpp"
 
 #include <algorithm>

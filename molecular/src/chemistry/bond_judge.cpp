@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bounds, and where they come from.
+// BondJudge: the bounds on lengths and angles, with their origin, and the tests.
 #include "chemistry/bond_judge.hpp"
 
 #include <algorithm>
@@ -17,31 +17,31 @@ namespace hinge::molecular {
 
 namespace {
 
-/// A bond's length less the sum of covalent radii (angstrom). Between residues C=N of a Schiff base is 0.19 shorter,
-/// S-N and P-O of sulphonamides and phosphates 0.14; the longest seen is 0.15 longer (1A4W, sulphonamide).
+/// Bond length minus the sum of covalent radii (angstrom). Between residues: C=N of a Schiff base -0.19, S-N and P-O of
+/// sulphonamides and phosphates -0.14; the longest known is +0.15 (1A4W, sulphonamide).
 constexpr double shortest_bond = -0.2, longest_bond = 0.2;
-/// Inside a residue triple bonds are 0.32 shorter.
+/// Inside a residue, triple bonds have -0.32.
 constexpr double shortest_inside = -0.35;
-/// The same for metals, whose bonds vary more: Fe-O of oxymyoglobin -0.33, Ca-O up to +0.4 (the bound of BondList).
+/// For metals, whose bonds vary more: Fe-O of oxymyoglobin -0.33, Ca-O up to +0.4 (the bound of BondList).
 constexpr double shortest_coordination = -0.45;
-/// Degrees, between bonds of one atom. Four-membered rings have 90; bonds between residues seen: 90 to 126.
+/// Degrees, between bonds of one atom. Four-membered rings have 90; known bonds between residues: 90 to 126.
 constexpr double narrowest_angle = 85.0, widest_angle = 140.0;
 constexpr double narrowest_sulphur = 80.0, widest_sulphur = 125.0;  // thioethers 100, disulphides 104
-constexpr double widest_in_ring = 150.0;                            // beside a small ring that shares the atom
-constexpr int clash_bonds = 4;                                      // atoms so many bonds apart clash
-/// At a metal's partner: carboxylates that bind with both oxygens have 90, thiolates between two metals 87.
+constexpr double widest_in_ring = 150.0;                            // at an atom of a small fused ring
+constexpr int clash_bonds = 4;                                      // atoms at least this many bonds apart clash
+/// Degrees, at a metal's donor: carboxylates that bind with both oxygens have 90, thiolates between two metals 87.
 constexpr double narrowest_donor = 70.0;
-/// Between two partners of a metal in different residues: 61 is the smallest seen (1EHZ).
+/// Degrees, between two donors of a metal in different residues; the smallest known is 61 (1EHZ).
 constexpr double narrowest_coordination = 55.0;
 constexpr std::size_t most_coordinated = 9;
-/// Three bonds in a plane have angles that add up to 360 degrees, those of a tetrahedron to 328.
+/// Degrees, sum of the three angles at an atom: 360 if planar, 328 if tetrahedral.
 constexpr double planar_sum = 340.0;
 
 bool is_any(std::string_view element, std::initializer_list<std::string_view> list) {
   return std::find(list.begin(), list.end(), element) != list.end();
 }
 
-/// Bonds that an element has at most, whatever it is bonded to. A hydrogen has one.
+/// Upper bound on the number of an element's bonds, with any partners.
 std::size_t most_bonds(std::string_view element) {
   if (element == "O") return 2;
   if (is_any(element, {"S", "P", "Se", "As", "Si", "Te"})) return 6;
@@ -103,11 +103,11 @@ int BondJudge::room_of_carbon(std::uint32_t i) const {
   const Residue& residue = s_.residues[s_.atoms[i].residue];
   const bool known_amino_acid =
       residue.kind == ResidueKind::amino_acid && find_residue_template(residue.name) != nullptr;
-  // The end of a chain without its second oxygen.
+  // C of a chain's end may lack its second oxygen in the file.
   if (known_amino_acid) return s_.atoms[i].name == "C" && bonds == 2 ? 1 : 0;
   if (residue.kind == ResidueKind::nucleotide && find_nucleotide_template(residue.name) != nullptr) return 0;
   const int multiple = multiple_bonds(i);
-  // Planar carbon has three bonds; with two multiple ones and no third bond in the file that is a hydrogen's.
+  // A planar carbon has three bonds. If two are multiple and the file has no third, the third is a hydrogen's.
   if (multiple >= 2) return 0;
   if (bonds == 3) {
     double sum = 0.0;
@@ -122,7 +122,7 @@ int BondJudge::room_of_nitrogen(std::uint32_t i) const {
   const Residue& residue = s_.residues[s_.atoms[i].residue];
   const std::string_view name = s_.atoms[i].name;
   const bool polymer = residue.kind == ResidueKind::amino_acid || residue.kind == ResidueKind::nucleotide;
-  // Peptides, the ring of Trp and NE of Arg have a hydrogen there; His may give its own away.
+  // The nitrogens of peptides, Trp and Arg NE bear a hydrogen. His can lose its hydrogen.
   if (polymer && bonds == 2 && name != "ND1" && name != "NE2") return 0;
   return std::max(0, 3 - bonds);
 }
@@ -167,7 +167,7 @@ bool BondJudge::has_angles(std::uint32_t i, std::uint32_t j) const {
       return false;
     sum += degrees;
   }
-  // The third bond of a planar atom lies in the plane of the other two.
+  // A planar atom's third bond lies in the plane of the other two.
   const bool planar = near(i).size() == 2 && ((element == "C" && (multiple_bonds(i) > 0 || s_.atoms[i].name == "C")) ||
                                               s_.residues[s_.atoms[i].residue].name.starts_with("HI"));
   return !planar || sum + angle(near(i)[0].atom, i, near(i)[1].atom) >= planar_sum;
@@ -209,7 +209,7 @@ std::string BondJudge::refusal(std::uint32_t i, std::uint32_t j) const {
 }
 
 bool BondJudge::has_ring_angles(std::uint32_t i, std::uint32_t j) const {
-  const bool linear = s_.atoms[i].element == "C" && near(i).size() == 2 && multiple_bonds(i) > 0;  // an alkyne
+  const bool linear = s_.atoms[i].element == "C" && near(i).size() == 2 && multiple_bonds(i) > 0;  // alkyne
   return std::all_of(near(i).begin(), near(i).end(), [&](const Neighbour& n) {
     if (n.atom == j) return true;
     const double degrees = angle(n.atom, i, j);
@@ -225,7 +225,7 @@ bool BondJudge::may_close_ring(std::uint32_t i, std::uint32_t j, int around) con
   for (const auto& [k, other] : {std::pair(i, j), std::pair(j, i)}) {
     if (near(k).size() > most_bonds(s_.atoms[k].element)) return false;
     if (around >= clash_bonds && !has_ring_angles(k, other)) return false;
-    // Aromatic carbon: a third bond lies in the plane of the other two, a fourth there is none.
+    // An aromatic carbon has at most three bonds, all in one plane.
     std::vector<std::uint32_t> planar;
     for (const Neighbour& n : near(k))
       if (n.atom != other && is_multiple(k, n)) planar.push_back(n.atom);

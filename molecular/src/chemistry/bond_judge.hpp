@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// BondJudge: may two close atoms be bonded, as far as their distance, their valences and their bond angles tell?
+// BondJudge: decides by distance, valence and bond angles if two close atoms can be bonded.
 #pragma once
 
 #include <cstdint>
@@ -11,31 +11,31 @@
 
 namespace hinge::molecular {
 
-/// Atoms are positions in Structure::atoms, coordinates those of the first model.
+/// Atoms are indices in Structure::atoms; coordinates are those of the first model. Keeps references to the structure.
 class BondJudge {
  public:
-  /// Of the whole structure, with the bonds it has.
+  /// Knows the whole structure and its bonds.
   explicit BondJudge(const Structure& structure);
-  /// Of atoms [first, last) alone; no bond is known yet.
+  /// Knows atoms [first, last) and no bond yet.
   BondJudge(const Structure& structure, std::uint32_t first, std::uint32_t last);
 
-  /// Makes a bond known. Bonds of metals count for their coordination alone.
+  /// Adds a bond. Bonds of metals count for coordination only.
   void join(std::uint32_t i, std::uint32_t j, BondOrder order = BondOrder::unknown);
+  /// Removes a covalent bond.
   void part(std::uint32_t i, std::uint32_t j);
 
-  /// Why two atoms of different residues that nothing but their distance joins are not bonded; empty where they may be.
-  /// Bonds made known do not hold i and j together yet. They may be when all of this holds: the distance is that of a
-  /// bond between their elements; each of them has room for one more bond, hydrogens that the file leaves out counted;
-  /// the angles with the bonds they have are those of bonds. A metal is bonded to N, O, S, Se and halogens, and to the
-  /// carbon of CO and CN.
+  /// Returns the reason why two close atoms of different residues are not bonded; empty if they can be. The bond i-j
+  /// must not have been added. Conditions: the distance is that of a bond between the two elements; each atom has room
+  /// for one more bond, with hydrogens that the file omits counted as bonds; the angles to existing bonds are bond
+  /// angles. A metal bonds to N, O, S, Se, halogens, and the carbon of CO and CN.
   std::string refusal(std::uint32_t i, std::uint32_t j) const;
 
-  /// Of the ring inside a residue that this bond (made known) closes: how many bonds join its atoms without it? 0:
-  /// none, it closes no ring.
+  /// Returns the number of bonds on the shortest path between i and j without the bond i-j (which was added); 0 if
+  /// there is no such path, that is, the bond closes no ring.
   int bonds_around(std::uint32_t i, std::uint32_t j) const;
-  /// May it close a ring of so many further bonds? Its length is that of a bond, neither atom has more bonds than its
-  /// element can, and where the two are four bonds apart without it, so that they would clash, the angles are those of
-  /// bonds.
+  /// True if the bond i-j can close a ring of `around` further bonds: its length is that of a bond, no atom has more
+  /// bonds than its element allows, and the third bond of an aromatic carbon is planar. If around >= 4, the atoms would
+  /// clash without the bond, so the angles must be bond angles too.
   bool may_close_ring(std::uint32_t i, std::uint32_t j, int around) const;
 
  private:
@@ -45,19 +45,19 @@ class BondJudge {
   };
   const std::vector<Neighbour>& near(std::uint32_t i) const { return near_[i - first_]; }
   double distance(std::uint32_t i, std::uint32_t j) const;
-  /// Of k - i - j, degrees.
+  /// Angle k - i - j, degrees.
   double angle(std::uint32_t k, std::uint32_t i, std::uint32_t j) const;
-  /// By its order, else by its length.
+  /// By the bond's order; by its length if the order is unknown.
   bool is_multiple(std::uint32_t i, const Neighbour& neighbour) const;
   int multiple_bonds(std::uint32_t i) const;
   bool has_terminal_oxygen(std::uint32_t i) const;
-  /// For how many more bonds?
+  /// Number of further bonds that the atom can have.
   int room(std::uint32_t i) const;
   int room_of_carbon(std::uint32_t i) const;
   int room_of_nitrogen(std::uint32_t i) const;
   int room_of_oxygen(std::uint32_t i) const;
   int room_of_sulphur(std::uint32_t i) const;
-  /// Are the angles at i between its bonds and one to j plausible?
+  /// True if the angles at i between its bonds and a bond to j are plausible.
   bool has_angles(std::uint32_t i, std::uint32_t j) const;
   bool has_ring_angles(std::uint32_t i, std::uint32_t j) const;
   std::string metal_refusal(std::uint32_t metal, std::uint32_t donor) const;
@@ -65,8 +65,8 @@ class BondJudge {
   const Structure& s_;
   const std::vector<Vec3>& x_;
   std::uint32_t first_;
-  std::vector<std::vector<Neighbour>> near_;             // covalent
-  std::vector<std::vector<std::uint32_t>> coordinated_;  // metals to donors, and back
+  std::vector<std::vector<Neighbour>> near_;             // covalent bonds, by atom
+  std::vector<std::vector<std::uint32_t>> coordinated_;  // bonds between metals and donors, by atom
 };
 
 }  // namespace hinge::molecular

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bonds as they are found; covalent radii; which elements are metals.
+// BondList, covalent radii, and the list of elements that are not metals.
 #include "chemistry/bond_list.hpp"
 
 #include <algorithm>
@@ -14,15 +14,15 @@ namespace hinge::molecular {
 
 namespace {
 
-/// Atoms closer than this are two copies of one, as in doubled files (the bound of Open Babel, angstrom).
+/// Closer atoms are two copies of one, as in doubled files (Open Babel's bound, angstrom).
 constexpr double coincident_max = 0.4;
 
-/// Pairs that the radii call bonded but are contacts over a ligand's oxygen: a metal ion and phosphorus, an alkali or
+/// Contacts across a ligand's oxygen that the radii would call bonds: a metal ion and phosphorus, and an alkali or
 /// alkaline earth ion and the carbon of a carboxylate.
 bool is_contact(std::string_view ion, std::string_view other) {
   static constexpr std::array<std::string_view, 16> ions{"Li", "Na", "K",  "Rb", "Cs", "Mg", "Ca", "Sr",
                                                          "Ba", "Mn", "Fe", "Co", "Ni", "Cu", "Zn", "Cd"};
-  constexpr std::ptrdiff_t alkaline = 9;  // the first of them
+  constexpr std::ptrdiff_t alkaline = 9;  // number of alkali and alkaline earth ions in the list
   const auto last = other == "C" ? ions.begin() + alkaline : ions.end();
   return (other == "C" || other == "P") && std::find(ions.begin(), last, ion) != last;
 }
@@ -75,7 +75,7 @@ double covalent_radius(const std::string& element) noexcept {
   }};
   for (const auto& [symbol, radius] : table)
     if (symbol == element) return radius;
-  return 1.5;  // the middle of the heavier metals, of which no structure here has many
+  return 1.5;  // a typical radius of heavier metals, which are rare here
 }
 
 }  // namespace hinge::molecular

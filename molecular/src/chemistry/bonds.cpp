@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bond perception, one source after the other.
+// perceive_bonds: applies the sources of bonds in order.
 #include "hinge/molecular/bonds.hpp"
 
 #include <algorithm>
@@ -21,11 +21,11 @@ namespace hinge::molecular {
 
 namespace {
 
-/// An S-S bond is 2.05 A long; MD files record none, so SG pairs within about 10 % of it count.
+/// An S-S bond is 2.05 A long. MD files do not record it, so SG pairs within about 10 % of that length count.
 constexpr double disulphide_min = 1.8, disulphide_max = 2.3;
-/// A recorded disulphide or link longer than this is not there in these coordinates.
+/// A longer recorded disulphide is ignored: it does not exist in these coordinates (angstrom).
 constexpr double recorded_disulphide_max = 2.5;
-/// The same for bonds of metals: K-O, the longest of the common ones, is up to 3.2 A.
+/// The bound for recorded bonds of metals: K-O, the longest common one, is up to 3.2 A.
 constexpr double recorded_coordination_max = 3.2;
 
 class Perception {
@@ -48,7 +48,7 @@ class Perception {
   struct Candidate {
     std::uint32_t first, second;
     BondOrigin origin;
-    double misfit;  ///< by how much its length differs from the sum of covalent radii, angstrom
+    double misfit;  ///< |length - sum of covalent radii|, angstrom
   };
 
   bool in_polymer(std::uint32_t r) const {
@@ -66,7 +66,7 @@ class Perception {
       if (!first) first = r;
       last = r;
     }
-    // A cyclic backbone: its ends meet. Two residues cannot close a ring of their own.
+    // The ends of a cyclic backbone are bonded. A chain of two residues cannot form a ring.
     if (first && last && *last > *first + 1) ends_.emplace_back(*last, *first);
   }
 
@@ -98,7 +98,8 @@ class Perception {
     std::size_t ignored = 0;
     std::string first_ignored;
     for (const Link& link : s_.links) {
-      if (link.conect && s_.atoms[link.first].residue == s_.atoms[link.second].residue) continue;  // ResidueBonds'
+      if (link.conect && s_.atoms[link.first].residue == s_.atoms[link.second].residue)
+        continue;  // handled by ResidueBonds
       const double d = bonds_.distance(link.first, link.second);
       const bool metal = is_metal(s_.atoms[link.first].element) || is_metal(s_.atoms[link.second].element);
       const bool holds = link.disulphide ? d <= recorded_disulphide_max
@@ -117,8 +118,8 @@ class Perception {
                          " (first: " + first_ignored + " angstrom)");
   }
 
-  /// Bonds between residues that nothing but their distance tells of: disulphides, closed backbones, and what residues
-  /// without a template are bonded to (glycans, ligands, cofactors, metals).
+  /// Adds bonds between residues that are known from their distance alone: disulphides, bonds that close a backbone,
+  /// and bonds of residues without a template (glycans, ligands, cofactors, metals).
   void bond_by_distance() {
     const std::size_t told = s_.bonds.size();
     BondJudge judge(s_);
@@ -126,7 +127,7 @@ class Perception {
     found.insert(found.end(), closing_.begin(), closing_.end());
     const std::vector<Candidate> others = of_unknown_residues();
     found.insert(found.end(), others.begin(), others.end());
-    // Those come first whose length is nearest to a bond's.
+    // Lengths closest to a typical bond's come first: each accepted bond uses up valences.
     std::stable_sort(found.begin(), found.end(),
                      [](const Candidate& a, const Candidate& b) { return a.misfit < b.misfit; });
     std::size_t refused = 0;
@@ -151,7 +152,7 @@ class Perception {
                          " pairs (first: " + first_refused + ")");
   }
 
-  /// Bonds of the backbone, close enough, from the last residue of a chain to its first.
+  /// Returns backbone bonds from the last residue of a chain to its first, if they are short enough.
   std::vector<Candidate> closing_bonds() const {
     std::vector<Candidate> found;
     for (const auto& [last, first] : ends_)
@@ -162,7 +163,7 @@ class Perception {
       }
     return found;
   }
-  /// A cyclic backbone is one, recorded or not.
+  /// The origin of a recorded bond: a bond that closes a backbone is one of the polymer's.
   BondOrigin origin_of(const Link& link) const {
     if (link.disulphide) return BondOrigin::disulphide;
     for (const Candidate& bond : closing_)
@@ -194,7 +195,7 @@ class Perception {
     return found;
   }
 
-  /// Residues without a template may be bonded to anything.
+  /// Residues without a template may be bonded to any atom.
   std::vector<Candidate> of_unknown_residues() const {
     std::vector<std::uint32_t> heavy;
     bool any = false;
@@ -204,7 +205,7 @@ class Perception {
     }
     std::vector<Candidate> found;
     if (!any) return found;
-    constexpr double longest = 2 * 2.4 + BondList::tolerance;  // two of the largest covalent radii
+    constexpr double longest = 2 * 2.4 + BondList::tolerance;  // above twice the largest covalent radius
     CellGrid grid(x_, heavy, longest);
     for (const std::uint32_t i : heavy)
       if (unknown(i))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A cell grid over some atoms, for neighbour searches with a fixed radius while bonds are perceived.
+// CellGrid: finds neighbours within a fixed radius while bonds are perceived.
 #pragma once
 
 #include <array>
@@ -13,13 +13,16 @@
 
 namespace hinge::molecular {
 
+/// Cubic cells that list some atoms. Independent of its arguments after construction.
 class CellGrid {
  public:
+  /// atoms: indices in `positions`. cell: edge length of a cell, angstrom.
   CellGrid(std::span<const Vec3> positions, std::span<const std::uint32_t> atoms, double cell) : cell_(cell) {
     for (const std::uint32_t atom : atoms) cells_[key(positions[atom])].push_back(atom);
   }
 
-  /// Every atom in the cells around x, among them all within one cell length of it.
+  /// Calls visit(atom) for every atom in the cell of x and its 26 neighbours, which includes all atoms within one cell
+  /// length.
   template <class Visit>
   void for_each_near(const Vec3& x, const Visit& visit) const {
     const Key centre = key(x);
@@ -35,7 +38,7 @@ class CellGrid {
  private:
   using Key = std::array<std::int64_t, 3>;
   Key key(const Vec3& x) const {
-    // Coordinates far beyond any molecule share the border cells rather than overflow.
+    // Coordinates far outside any molecule share border cells; the conversion does not overflow.
     const auto number = [&](double v) {
       return static_cast<std::int64_t>(std::floor(std::fmax(-1e15, std::fmin(1e15, v / cell_))));
     };

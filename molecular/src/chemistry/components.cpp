@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where components are looked for.
+// ComponentLibrary: searches the added components, then the dictionary's files.
 #include "hinge/molecular/components.hpp"
 
 #include <algorithm>
@@ -16,13 +16,13 @@ namespace {
 
 constexpr const char* debian_dictionary = "/usr/share/refmac/monomers";
 
-/// A name that may become a path: nothing but letters and digits.
+/// True if the name can be used in a path: letters and digits only.
 bool is_plain(const std::string& name) {
   return !name.empty() &&
          std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) != 0 && c < 128; });
 }
 
-/// The dictionary's file of a monomer: a/ATP.cif, and CON_CON.cif for names that some file systems reserve.
+/// Returns the dictionary's file of a monomer: a/ATP.cif, or c/CON_CON.cif for names that some file systems reserve.
 std::filesystem::path file_of(const std::filesystem::path& dictionary, const std::string& name) {
   const char folder = static_cast<char>(std::tolower(static_cast<unsigned char>(name.front())));
   const std::filesystem::path plain = dictionary / std::string(1, folder) / (name + ".cif");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a hydrogen's name says of the atom it is bonded to.
+// bearers_by_name: infers from a hydrogen's name which atom it is bonded to.
 #include <algorithm>
 #include <cctype>
 #include <string>
@@ -14,7 +14,7 @@ namespace {
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
-/// Heavy atoms of the residue for which `matches(name)` holds.
+/// Returns the heavy atoms of residue r for whose names matches(name) is true.
 template <class Matches>
 std::vector<std::uint32_t> heavy_atoms(const Structure& s, std::uint32_t r, const Matches& matches) {
   std::vector<std::uint32_t> found;
@@ -23,7 +23,7 @@ std::vector<std::uint32_t> heavy_atoms(const Structure& s, std::uint32_t r, cons
   return found;
 }
 
-/// Heavy atoms whose name behind the element is `locant`, or else the longest beginning of it that some atom has.
+/// Returns the heavy atoms whose name after the element is `locant`, or else its longest prefix that some atom has.
 std::vector<std::uint32_t> with_locant(const Structure& s, std::uint32_t r, std::string_view locant) {
   for (; !locant.empty(); locant.remove_suffix(1)) {
     auto found = heavy_atoms(s, r, [&](std::string_view name) { return !name.empty() && name.substr(1) == locant; });
@@ -41,7 +41,7 @@ std::vector<std::uint32_t> in_amino_acid(const Structure& s, std::uint32_t r, st
   return amino ? exactly("N") : with_locant(s, r, locant);
 }
 
-/// H5', H5'', H5'1, HO2', HO'2 and H5T on the sugar; HOP2 on the phosphate; digits alone on the base.
+/// H5', H5'', H5'1, HO2', HO'2 and H5T are on the sugar, HOP2 on the phosphate; digits alone mean the base.
 std::vector<std::uint32_t> in_nucleotide(const Structure& s, std::uint32_t r, std::string_view locant) {
   const auto digit = std::find_if(locant.begin(), locant.end(), is_digit);
   if (digit == locant.end()) return {};
@@ -58,7 +58,8 @@ std::vector<std::uint32_t> in_nucleotide(const Structure& s, std::uint32_t r, st
 
 std::vector<std::uint32_t> bearers_by_name(const Structure& s, std::uint32_t hydrogen) {
   std::string_view name = s.atoms[hydrogen].name;
-  name.remove_prefix(std::min(name.find_first_not_of("0123456789"), name.size()));  // 1HB: the first of several
+  name.remove_prefix(
+      std::min(name.find_first_not_of("0123456789"), name.size()));  // "1HB": the first of several hydrogens HB
   if (name.empty() || (name.front() != 'H' && name.front() != 'D')) return {};
   name.remove_prefix(1);
   const std::uint32_t r = s.atoms[hydrogen].residue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Atom by atom from internal coordinates.
+// build_ideal_protein: places atoms one by one from internal coordinates.
 #include "hinge/molecular/ideal_protein.hpp"
 
 #include <array>
@@ -17,7 +17,7 @@ namespace hinge::molecular {
 
 namespace {
 
-/// An atom bonded to `bonded`: distance to it (angstrom), angle with `second`, dihedral with `third` (degrees).
+/// An atom bonded to `bonded`: the distance (angstrom), the angle with `second`, the dihedral with `third` (degrees).
 struct Internal {
   const char* residue;
   const char* name;
@@ -27,7 +27,7 @@ struct Internal {
   double length, angle, dihedral;
 };
 
-// Rotamers that meet the backbone of neither helix nor strand: chi1 is 180 for aromatic side chains and valine.
+// Rotamers without clashes with the backbone of helices and strands: chi1 is 180 for aromatic side chains and valine.
 constexpr std::array<Internal, 62> side_chains{{
     {"ARG", "CG", "CB", "CA", "N", 1.520, 114.1, -65},
     {"ARG", "CD", "CG", "CB", "CA", 1.520, 111.3, 180},
@@ -90,13 +90,13 @@ constexpr std::array<Internal, 62> side_chains{{
     {"TRP", "CH2", "CZ2", "CE2", "CD2", 1.368, 117.5, 0},
     {"VAL", "CG1", "CB", "CA", "N", 1.521, 110.5, 175},
     {"VAL", "CG2", "CB", "CA", "N", 1.521, 110.5, -63},
-    // Tyrosine's ring is phenylalanine's; only its hydroxyl is listed.
+    // Tyrosine has phenylalanine's ring; only its hydroxyl is listed.
     {"TYR", "OH", "CZ", "CE1", "CD1", 1.376, 119.9, 180},
 }};
 
 constexpr double degree = std::numbers::pi / 180.0;
 
-/// The position at `length` from c, at `angle` with cb, at `dihedral` about cb away from a.
+/// Returns the position at `length` from c (angstrom), with the angle to b and the dihedral to a about b-c (degrees).
 Vec3 place(const Vec3& a, const Vec3& b, const Vec3& c, double length, double angle, double dihedral) {
   const Vec3 bc = c - b;
   const Vec3 u = bc / std::sqrt(squared_norm(bc));
@@ -183,8 +183,8 @@ class Builder {
 
   std::string_view sequence_, elements_;
   Structure s_;
-  Vec3 n_ = Vec3::Zero(), ca_ = Vec3::Zero(), c_ = Vec3::Zero();  // of the residue before
-  std::map<std::string, Vec3> here_;                              // of the residue being built
+  Vec3 n_ = Vec3::Zero(), ca_ = Vec3::Zero(), c_ = Vec3::Zero();  // of the preceding residue
+  std::map<std::string, Vec3> here_;                              // positions of the current residue, by name
 };
 
 }  // namespace

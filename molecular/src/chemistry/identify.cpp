@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a residue is and what element an atom is, where names, records and neighbours have to be weighed.
+// The kind of a residue and the element of an atom, from names, records and neighbours.
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -13,10 +13,10 @@ namespace hinge::molecular {
 
 namespace {
 
-/// C-N of a peptide is 1.33 angstrom and O3'-P 1.61; no unbonded contact of these atoms comes below 2.4.
+/// C-N of a peptide is 1.33 angstrom, O3'-P 1.61; unbonded contacts of these atoms are above 2.4.
 constexpr double polymer_bond_max = 2.0;
 
-/// By the name of today: is_nucleotide_atom changes no name of an amino acid's atoms.
+/// Finds an atom by its current name; is_nucleotide_atom does not alter names of amino acid atoms.
 const RawAtom* find(const RawResidue& residue, std::string_view name) {
   const auto found = std::find_if(residue.atoms.begin(), residue.atoms.end(),
                                   [&](const RawAtom& a) { return is_nucleotide_atom(a.name, name); });
@@ -47,7 +47,7 @@ bool is_in_polymer(const std::vector<RawResidue>& residues, std::size_t r) {
   return false;
 }
 
-/// CHARMM's names of monatomic ions, whose first letters are those of other elements.
+/// CHARMM's names of monatomic ions; their first letters are symbols of other elements.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 5> charmm_ions{
     {{"CLA", "Cl"}, {"SOD", "Na"}, {"POT", "K"}, {"CAL", "Ca"}, {"CES", "Cs"}}};
 

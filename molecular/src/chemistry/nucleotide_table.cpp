@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nucleotides by the names of PDB format 3, of CHARMM and of AMBER.
+// Tables of nucleotides by the names of PDB format 3, CHARMM and AMBER.
 #include "chemistry/nucleotide_table.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ constexpr std::array<NucleotideTemplate, 7> nucleotides{{
     {"PSU", "C1'-C5 N1-C2 C2-O2 C2-N3 N3-C4 C4-O4 C4-C5 C5-C6 C6-N1"},
 }};
 
-/// CHARMM's names, and modified nucleotides by the base they come from.
+/// CHARMM's names, and modified nucleotides, with the base they derive from.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 25> parents{{
     {"ADE", "A"}, {"CYT", "C"}, {"GUA", "G"}, {"THY", "T"}, {"URA", "U"}, {"1MA", "A"}, {"A2M", "A"},
     {"6MZ", "A"}, {"MA6", "A"}, {"5MC", "C"}, {"OMC", "C"}, {"4AC", "C"}, {"CCC", "C"}, {"1MG", "G"},
@@ -28,7 +28,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 25> parents{
     {"OMU", "U"}, {"4SU", "U"}, {"UR3", "U"}, {"5BU", "U"},
 }};
 
-/// The base's letter in A, DA, RA, +A, and in the chain ends and lone nucleotides of AMBER: A5, DA3, RAN.
+/// Returns the base's letter in A, DA, RA, +A, and in AMBER's chain ends and lone nucleotides: A5, DA3, RAN.
 std::string_view letter(std::string_view name) noexcept {
   if (name.size() >= 2 && (name.front() == 'D' || name.front() == 'R' || name.front() == '+')) name.remove_prefix(1);
   if (name.size() == 2 && (name[1] == '3' || name[1] == '5' || name[1] == 'N')) name.remove_suffix(1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The numbers of the radii sets, and the threshold table made of them.
+// The radii sets, and the threshold table of biocd's rules.
 #include "hinge/molecular/radii.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace hinge::molecular {
 
 namespace {
 
-/// Elements without a class of their own: Bondi 1964 and, where Bondi has none, Mantina et al. 2009 (angstrom).
+/// Radii of elements without a class, angstrom: Bondi 1964, otherwise Mantina et al. 2009.
 double element_radius(std::string_view element) {
   static constexpr std::array<std::pair<std::string_view, double>, 31> table{{
       {"H", 1.20},  {"He", 1.40}, {"Li", 1.82}, {"Be", 1.53}, {"B", 1.92},  {"F", 1.47},  {"Ne", 1.54}, {"Na", 2.27},
@@ -28,7 +28,7 @@ double element_radius(std::string_view element) {
   }};
   for (const auto& [symbol, radius] : table)
     if (symbol == element) return radius;
-  return 2.00;  // Bondi's advice for metals he has no figure for
+  return 2.00;  // Bondi's value for metals without data
 }
 
 double bondi(AtomClass c, std::string_view element) {
@@ -52,8 +52,8 @@ double bondi(AtomClass c, std::string_view element) {
   return element_radius(element);
 }
 
-/// Probe's figures for other elements, the same with explicit and implicit hydrogens (angstrom): metals are ions
-/// (Pauling, Shannon); where it is silent here, Bondi's.
+/// Probe's radii of other elements, for explicit and implicit hydrogens (angstrom). Metals are ions (Pauling, Shannon).
+/// Elements that Probe lacks have Bondi's radii.
 double probe_element_radius(std::string_view element) {
   static constexpr std::array<std::pair<std::string_view, double>, 36> table{{
       {"F", 1.30},  {"Cl", 1.77}, {"Br", 1.95}, {"I", 2.10},  {"As", 2.00}, {"Se", 1.90}, {"Li", 0.60}, {"Na", 0.95},
@@ -67,7 +67,7 @@ double probe_element_radius(std::string_view element) {
   return element_radius(element);
 }
 
-/// Probe's atomprops, hydrogens explicit, electron-cloud bond lengths.
+/// Probe's atomprops with explicit hydrogens at electron-cloud bond lengths, angstrom.
 double probe_explicit(AtomClass c, std::string_view element) {
   switch (c) {
     case AtomClass::carbon_aromatic: return 1.75;
@@ -84,7 +84,7 @@ double probe_explicit(AtomClass c, std::string_view element) {
   }
 }
 
-/// Probe's implicit-hydrogen (united-atom) radii.
+/// Probe's radii with implicit hydrogens (united atoms), angstrom.
 double probe_united(AtomClass c, std::string_view element) {
   switch (c) {
     case AtomClass::carbon:
@@ -100,7 +100,7 @@ double probe_united(AtomClass c, std::string_view element) {
   }
 }
 
-/// AMBER ff99SB-ILDN, Rmin / 2 = sigma 2^(1/6) / 2.
+/// AMBER ff99SB-ILDN: Rmin / 2 = sigma 2^(1/6) / 2, angstrom.
 double amber(AtomClass c, std::string_view element) {
   switch (c) {
     case AtomClass::carbon:
@@ -155,8 +155,8 @@ const std::vector<RadiiSet>& radii_sets() {
   static const std::vector<RadiiSet> sets{
       {"bondi", "1", "Bondi, J. Phys. Chem. 68:441 (1964); Mantina et al. (2009)", 4, bondi},
       {"probe", "5", "Probe, explicit hydrogens, electron-cloud positions", 4, probe_explicit},
-      // United atoms and AMBER's Rmin overlap at four bonds in every native structure (O(i)...C(i+1) above all), so
-      // there pairs count from five bonds on.
+      // United atoms and AMBER's Rmin overlap at a distance of four bonds in every native structure (above all
+      // O(i)...C(i+1)), so pairs count from five bonds on.
       {"probe-united", "2", "Probe, implicit hydrogens", 5, probe_united},
       {"amber", "2", "AMBER ff99SB-ILDN Rmin/2", 5, amber},
   };
@@ -191,11 +191,11 @@ Thresholds make_thresholds(const Structure& structure, const ThresholdOptions& o
   const std::vector<AtomClass> classes = set.name == "probe" ? probe_classes(structure) : classify_atoms(structure);
   const bool hydrogens = has_hydrogens(structure);
   const bool rule = options.hydrogen_bonds.value_or(hydrogens);
-  // Hydrogens say which atoms bond; without them the heavy atoms are asked.
+  // Explicit hydrogens tell which atoms form bonds; without them the roles of heavy atoms do.
   std::vector<HydrogenBondRole> roles(classes.size());
   if (rule && !hydrogens) roles = hydrogen_bond_roles(structure);
 
-  // Types are the classes that occur, in class order, and one per further element.
+  // Types: the classes that occur, in class order, and one per element of class `other`.
   using Type = std::tuple<AtomClass, std::string, HydrogenBondRole>;
   std::map<Type, std::uint16_t> type_of;
   const auto key = [&](std::size_t i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Both directions stand side by side here: what the writer leaves out is what the reader finds by names.
+// Writer and reader of recorded bonds: the reader finds by name exactly the bonds that the writer omits.
 #include "chemistry/recorded_bonds.hpp"
 
 #include <algorithm>
@@ -23,11 +23,11 @@ namespace {
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
-/// The bond that would join two residues of a polymer, first < second.
+/// The bond that joins two residues of a polymer by name and order, first < second.
 struct PolymerPair {
   Pair atoms;
   BondOrigin origin = BondOrigin::peptide;
-  bool closes = false;  ///< from the last residue of a chain to its first
+  bool closes = false;  ///< joins the last residue of a chain to its first
 };
 
 bool is_of_polymer(const Residue& residue) {
@@ -74,7 +74,7 @@ bool inside_residue(const Structure& s, std::uint32_t i, std::uint32_t j) {
 bool hydrogen(const Structure& s, std::uint32_t i) { return s.atoms[i].element == "H"; }
 bool heavy(const Structure& s, const Bond& bond) { return !hydrogen(s, bond.first) && !hydrogen(s, bond.second); }
 
-/// Residues whose bonds no table of ours tells.
+/// Returns one value per residue: true if the built-in tables do not imply its bonds.
 std::vector<bool> recorded_residues(const Structure& s) {
   std::vector<bool> recorded(s.residues.size(), false);
   for (const Bond& bond : s.bonds)
@@ -88,7 +88,7 @@ std::vector<bool> recorded_residues(const Structure& s) {
 bool joins_neighbours(const Structure& s, const Bond& bond) {
   if (bond.origin != BondOrigin::peptide && bond.origin != BondOrigin::phosphodiester) return false;
   const std::string_view first = s.atoms[bond.first].name;
-  // The bond that closes a cyclic backbone goes the other way: N or P is of the earlier residue.
+  // A bond that closes a cyclic backbone is reversed: N or P is in the earlier residue.
   return first != "N" && first != "P" && !inside_residue(s, bond.first, bond.second);
 }
 
@@ -125,7 +125,7 @@ RecordedBonds record_bonds(const Structure& structure) {
 void take_recorded_bonds(Structure& s, const RecordedBonds& recorded) {
   s.bonds.clear();
   s.bond_sources.clear();
-  std::map<std::uint32_t, std::uint32_t> atom_of;  // by record
+  std::map<std::uint32_t, std::uint32_t> atom_of;  // by Atom::record
   for (std::uint32_t i = 0; i < s.atoms.size(); ++i) atom_of.emplace(s.atoms[i].record, i);
   BondList list(s);
   std::set<Pair> broken, disulphides;
@@ -133,7 +133,7 @@ void take_recorded_bonds(Structure& s, const RecordedBonds& recorded) {
   std::vector<std::vector<Bond>> inside(s.residues.size());
   for (const RecordedBond& bond : recorded.bonds) {
     const auto a = atom_of.find(bond.first), b = atom_of.find(bond.second);
-    if (a == atom_of.end() || b == atom_of.end()) continue;  // of an atom that is left out
+    if (a == atom_of.end() || b == atom_of.end()) continue;  // one atom was dropped
     const Pair atoms = std::minmax(a->second, b->second);
     const auto [i, j] = atoms;
     if (!bond.bonded)
@@ -165,7 +165,7 @@ void take_recorded_bonds(Structure& s, const RecordedBonds& recorded) {
       list.add(pair.atoms.first, pair.atoms.second, pair.origin);
   }
   for (const auto& [atoms, order] : between) {
-    // SSBOND names no atom of a residue that bears another's number.
+    // If two residues share a number, SSBOND cannot address the second one; the names SG then identify a disulphide.
     const bool disulphide =
         disulphides.contains(atoms) || (s.atoms[atoms.first].name == "SG" && s.atoms[atoms.second].name == "SG");
     list.add(atoms.first, atoms.second, disulphide ? BondOrigin::disulphide : BondOrigin::record, order);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One residue after the other, from the first source that knows it.
+// ResidueBonds: each residue gets its bonds from the first source that knows it.
 #include "chemistry/residue_bonds.hpp"
 
 #include <algorithm>
@@ -15,12 +15,13 @@ namespace hinge::molecular {
 
 namespace {
 
-/// X-H is at most 1.35 A (S-H). A hydrogen farther than this from the atom its name tells has a wrong name, as the
-/// hydroxyls of four tyrosines in an old 5PTI; farther from every heavy atom of its residue, it is left unbonded.
+/// Angstrom. X-H is at most 1.35 (S-H). A hydrogen farther from the atom that its name tells has a wrong name, as the
+/// hydroxyls of four tyrosines in an old 5PTI. If it is farther from every heavy atom of its residue, it stays
+/// unbonded.
 constexpr double hydrogen_bond_max = 1.6;
-/// A bond of a component does not fit when it is this many times as long as the sum of covalent radii: atoms two bonds
-/// apart are 1.6 times as far. Where more than one bond in `fitting_share` does not, the residue has the component's
-/// name by chance; fewer are bad coordinates, as of the haems in 4HHB.
+/// A bond of a component is too long at this multiple of the sum of covalent radii: atoms two bonds apart are at 1.6
+/// times that sum. If more than one bond in `fitting_share` is too long, the component of that name is another
+/// molecule. Fewer are inaccurate coordinates, as in the haems of 4HHB.
 constexpr double fitting_bond_max = 1.5;
 constexpr std::size_t fitting_share = 4;
 
@@ -61,7 +62,7 @@ bool ResidueBonds::for_each_table_bond(std::uint32_t r, const Visit& visit) cons
   return true;
 }
 
-/// Bonds that a name tells hold whatever their length, but for those of hydrogens.
+/// Bonds by name are accepted at any length, except those of hydrogens.
 bool ResidueBonds::may_bond(std::uint32_t i, std::uint32_t j) const {
   return (!bonds_.hydrogen(i) && !bonds_.hydrogen(j)) || bonds_.distance(i, j) < hydrogen_bond_max;
 }
@@ -72,7 +73,7 @@ bool ResidueBonds::has_all(const std::set<std::uint32_t>& known, const Residue& 
   return true;
 }
 
-/// The component of the residue's name; none where it comes from a dictionary and cannot be meant.
+/// Returns the component of the residue's name; null if it is from a dictionary and does not fit the coordinates.
 const Component* ResidueBonds::fitting_component(std::uint32_t r) {
   const Component* component = components_.find(s_.residues[r].name);
   if (component == nullptr || component->given) return component;
@@ -93,14 +94,14 @@ const Component* ResidueBonds::fitting_component(std::uint32_t r) {
   return component;
 }
 
-/// Bonds by CONECT records, when they join the heavy atoms of the residue.
+/// Adds the bonds of CONECT records, if they connect all heavy atoms of the residue.
 bool ResidueBonds::add_conect(const Residue& residue) {
   const auto before = [](const Link& link, std::uint32_t atom) { return link.first < atom; };
   const auto first = std::lower_bound(conect_.begin(), conect_.end(), residue.first_atom, before);
   const auto last = std::lower_bound(first, conect_.end(), residue.last_atom, before);
   std::set<std::uint32_t> joined{residue.first_atom};
   bool orders = false;
-  for (std::size_t size = 0; size != joined.size();) {  // as many rounds as bonds lie between the farthest atoms
+  for (std::size_t size = 0; size != joined.size();) {  // repeats until no atom is added
     size = joined.size();
     for (auto link = first; link != last; ++link) {
       if (!bonds_.within_radii(link->first, link->second)) continue;
@@ -117,10 +118,10 @@ bool ResidueBonds::add_conect(const Residue& residue) {
   return true;
 }
 
-/// Atoms within covalent radii, but for contacts of a residue that is folded onto itself: bonds that close a ring which
-/// cannot be one.
+/// Adds bonds by covalent radii. A pair that would close an impossible ring is a contact of the folded residue, not a
+/// bond.
 void ResidueBonds::add_by_radii(const Residue& residue, const std::set<std::uint32_t>& known) {
-  std::vector<std::pair<double, std::pair<std::uint32_t, std::uint32_t>>> found;  // by how far it is from the radii
+  std::vector<std::pair<double, std::pair<std::uint32_t, std::uint32_t>>> found;  // worst fit to the radii first
   BondJudge judge(s_, residue.first_atom, residue.last_atom);
   for (auto bond = s_.bonds.rbegin(); bond != s_.bonds.rend() && bond->first >= residue.first_atom; ++bond)
     judge.join(bond->first, bond->second, bond->order);
@@ -143,7 +144,7 @@ void ResidueBonds::add_by_radii(const Residue& residue, const std::set<std::uint
   }
 }
 
-/// Adds the residue's heavy-atom bonds, and those of hydrogens that a component names; says where they come from.
+/// Adds the residue's heavy-atom bonds, and a component's bonds of hydrogens. Returns their source.
 std::string ResidueBonds::source_of(std::uint32_t r) {
   const Residue& residue = s_.residues[r];
   std::set<std::uint32_t> known;
@@ -187,7 +188,7 @@ void ResidueBonds::add(std::uint32_t r) {
   if (residue.last_atom - residue.first_atom > hydrogens.size() + 1) ++sources_[{residue.name, std::move(source)}];
 }
 
-/// A hydrogen has exactly one bond: to the atom its name tells, else to the nearest heavy atom of its residue.
+/// Adds the one bond of a hydrogen: to the atom that its name tells, else to the nearest heavy atom of its residue.
 void ResidueBonds::add_hydrogen(std::uint32_t h, std::uint32_t r) {
   const Residue& residue = s_.residues[r];
   std::optional<std::uint32_t> bearer;

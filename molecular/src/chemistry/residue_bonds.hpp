@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bonds inside residues: by table, component, CONECT records or covalent radii; hydrogens by name, else by distance.
+// ResidueBonds: bonds inside residues, by table, component, CONECT records or covalent radii; hydrogens by name, else
+// by distance.
 #pragma once
 
 #include <cstdint>
@@ -17,16 +18,18 @@
 
 namespace hinge::molecular {
 
+/// Adds bonds to a BondList, residue by residue. Keeps references to its arguments.
 class ResidueBonds {
  public:
   ResidueBonds(Structure& structure, BondList& bonds, ComponentLibrary& components);
 
+  /// Adds the bonds inside a residue, from the first source that knows it.
   void add(std::uint32_t residue);
-  /// Writes Structure::bond_sources and notes.
+  /// Writes Structure::bond_sources and the notes; call once, after the last add().
   void say();
 
  private:
-  /// Visits the bonds of a residue's table; false when it has none.
+  /// Calls visit(name, name) for each bond of the residue's table; false if it has no table.
   template <class Visit>
   bool for_each_table_bond(std::uint32_t residue, const Visit& visit) const;
   const Component* fitting_component(std::uint32_t r);
@@ -40,13 +43,13 @@ class ResidueBonds {
   Structure& s_;
   BondList& bonds_;
   ComponentLibrary& components_;
-  std::vector<Link> conect_;                                            // inside residues, in order of their first atom
-  std::map<std::pair<std::string, std::string>, std::size_t> sources_;  // residue name, source
-  std::set<std::string> extended_;  // residues with atoms that their table or component does not have
+  std::vector<Link> conect_;                                            // links inside residues, sorted by first atom
+  std::map<std::pair<std::string, std::string>, std::size_t> sources_;  // (residue name, source) -> residues
+  std::set<std::string> extended_;  // names of residues with atoms that their table or component lacks
 };
 
-/// Heavy atoms of a polymer's residue that may bear a hydrogen of this name (IUPAC 1998 and older styles): HD11 is on
-/// CD1, HG1 of threonine on OG1, H61 of a purine on N6 or C6. Empty when the name tells nothing.
+/// Returns the heavy atoms of a polymer residue that can bear a hydrogen of this name (IUPAC 1998 and older styles):
+/// HD11 is on CD1, HG1 of threonine on OG1, H61 of a purine on N6 or C6. Empty if the name tells nothing.
 std::vector<std::uint32_t> bearers_by_name(const Structure& structure, std::uint32_t hydrogen);
 
 }  // namespace hinge::molecular

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// IUPAC-IUB 1970 names and side-chain torsions.
+// Tables of amino acids: IUPAC-IUB 1970 names, bonds and side-chain torsions.
 #include "chemistry/residue_table.hpp"
 
 #include <algorithm>
@@ -35,8 +35,8 @@ constexpr std::array<ResidueTemplate, 21> templates{{
     {"VAL", 'V', "CA-CB CB-CG1 CB-CG2", "N-CA-CB-CG1"},
 }};
 
-/// Residues whose backbone and side chain have the names and bonds of another: protonation states of AMBER and CHARMM,
-/// disulphide-bonded cysteine, D residues, modified residues (their further atoms are bonded by distance).
+/// Residues that share the backbone, side-chain names and bonds of another: protonation states of AMBER and CHARMM,
+/// disulphide-bonded cysteine, D residues, and modified residues, whose further atoms are bonded by distance.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 52> variants{{
     {"HID", "HIS"},  {"HIE", "HIS"}, {"HIP", "HIS"},  {"HSD", "HIS"}, {"HSE", "HIS"}, {"HSP", "HIS"}, {"ASH", "ASP"},
     {"ASPP", "ASP"}, {"GLH", "GLU"}, {"GLUP", "GLU"}, {"LYN", "LYS"}, {"LSN", "LYS"}, {"CYX", "CYS"}, {"CYM", "CYS"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the residues that words stand for.
+// ResidueWords: finds the residues that words select.
 #include "chemistry/residue_words.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ struct ResidueNumber {
   char insertion_code = '\0';
 };
 
-/// "45", "-3", "60A"; consumes what it read.
+/// Reads "45", "-3" or "60A" and removes it from the text.
 std::optional<ResidueNumber> read_number(std::string_view& text) {
   ResidueNumber result;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), result.number);
@@ -33,7 +33,7 @@ struct NumberRange {
   ResidueNumber first, last;
 };
 
-/// "45", "10-20", "-5--1", "60A-60C"; none for any other form.
+/// Reads "45", "10-20", "-5--1" or "60A-60C"; nullopt for any other form.
 std::optional<NumberRange> read_range(std::string_view text) {
   const auto first = read_number(text);
   auto last = first;
@@ -107,7 +107,8 @@ std::optional<std::vector<bool>> ResidueWords::find_bare(const SelectionWord& wo
   return std::nullopt;
 }
 
-/// Residues of one name: none where there are none. ModelError: several where one was to be the only one.
+/// Returns the set of residues of one name; nullopt if it is empty. Throws ModelError if it has several residues but
+/// names must be unique.
 std::optional<std::vector<bool>> ResidueWords::named(const SelectionWord& word, std::vector<bool> set) const {
   const auto count = static_cast<std::size_t>(std::ranges::count(set, true));
   if (count == 0) return std::nullopt;
@@ -134,7 +135,7 @@ std::optional<std::vector<bool>> ResidueWords::find_in_chain(const SelectionWord
   };
   std::vector<bool> of_name(in.size(), false);
   for (std::uint32_t r = 0; r < in.size(); ++r) of_name[r] = in[r] && s_.residues[r].name == text;
-  // Names may start with a digit, or be a number that nobody would write so: "017".
+  // Names may start with a digit, or be a number in an unusual form: "017".
   if (auto found = named(word, std::move(of_name))) {
     if (range && std::to_string(range->first.number) == text && position(range->first) < in.size())
       refuse(word, "a number or a name, and both are there: write " + std::string(name) + ":" + std::string(text) +

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Words that stand for residues: "A", "KNI", "A:45", "A:10-20", "_:60A", "A:HEM", "file:2", "loops", "every:4".
+// ResidueWords: words that select residues: "A", "KNI", "A:45", "A:10-20", "_:60A", "A:HEM", "file:2", "loops",
+// "every:4".
 #pragma once
 
 #include <cstdint>
@@ -15,27 +16,29 @@
 
 namespace hinge::molecular {
 
-/// The residues that a word stands for. Sets have one value per residue.
+/// Finds the residues that a word selects. Sets have one value per residue. The structure must outlive this object.
 class ResidueWords {
  public:
   explicit ResidueWords(const Structure& structure, ResidueNames names = ResidueNames::all)
       : s_(structure), names_(names) {}
 
+  /// The members that words_of() needs: no word binds another, and select() throws ModelError if `word` is unknown.
   static bool binds(std::string_view, std::string_view) { return false; }
   std::vector<bool> select(const SelectionWord& word, std::span<const SelectionWord> bound);
 
-  /// As `text`, the whole of `word` or its beginning, says; none when it has no form that residues have. ModelError: a
-  /// chain, residue or file that is not there.
+  /// Returns the residues that `text` selects; text is `word` or its beginning, for messages. nullopt if it does not
+  /// have the form of a residue word. Throws ModelError if a chain, residue or file does not exist.
   std::optional<std::vector<bool>> find(const SelectionWord& word, std::string_view text) const;
-  /// The residues of a chain. ModelError: there is none.
+  /// Returns the residues of a chain. Throws ModelError if there is no chain of that name.
   std::vector<bool> chain(const SelectionWord& word, std::string_view name) const;
+  /// True for amino acids and nucleotides.
   bool in_polymer(std::uint32_t residue) const;
-  /// "45", "10-20", "60A"?
+  /// True for the form of a residue number or range: "45", "10-20", "60A".
   static bool is_range(std::string_view text);
 
-  /// "A B _": the names of all chains.
+  /// Returns the names of all chains, "A B _".
   std::string chains() const;
-  /// " (12 hetero atoms were left out; --hetero keeps them)", or nothing.
+  /// Returns " (12 hetero atoms were left out; --hetero keeps them)", or an empty string.
   std::string left_out() const;
 
  private:

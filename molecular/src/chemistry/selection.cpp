@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the words of a selection say about torsions.
+// Words of a selection that mean torsions.
 #include "hinge/molecular/selection.hpp"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ bool is_bond_name(std::string_view word) { return word.find('-') != std::string_
 bool is_torsion_name(std::string_view word) {
   return !word.empty() && std::ranges::find(torsion_names, word) != torsion_names.end();
 }
-/// May it stand behind CHAIN: or CHAIN:RESIDUES: and a comma?
+/// True if the word may follow CHAIN: or CHAIN:RESIDUES: in a list.
 bool is_torsion_word(std::string_view word) {
   return is_torsion_name(word) || word == "all" || word == "backbone" || word == "chi" || word == "delta";
 }
@@ -33,7 +33,7 @@ class TorsionWords {
   TorsionWords(const Molecule& molecule, std::vector<std::string>& notes)
       : m_(molecule), s_(molecule.structure()), residues_(s_), named_omega_(m_.torsions().size()), notes_(notes) {}
 
-  /// omega that a word names.
+  /// Torsions omega that a word names.
   const std::vector<bool>& named_omega() const { return named_omega_; }
   bool asked_for_none() const { return asked_for_none_; }
 
@@ -81,7 +81,7 @@ class TorsionWords {
   using Set = std::vector<bool>;
   static bool any(const Set& set) { return std::ranges::find(set, true) != set.end(); }
 
-  /// Torsions of residues by one name that stands behind them.
+  /// Returns the torsions of the residues `in` by the name that follows them.
   Set named(const SelectionWord& word, const Set& in, std::string_view name) {
     if (!is_torsion_word(name) && name != "ligands" && !is_bond_name(name))
       refuse(word, "a torsion (" + names_in(in) + "), backbone, chi or all behind the residues");
@@ -90,7 +90,7 @@ class TorsionWords {
     return chosen;
   }
 
-  /// A word about the whole molecule; `before`: the residues that the word in front of it was about.
+  /// Returns the torsions of a word without residues. before: the residues of the preceding word, for a note.
   Set bare(const SelectionWord& word, const std::string& before) {
     const std::string_view text = word.text;
     const Set everywhere(s_.residues.size(), true);
@@ -133,13 +133,13 @@ class TorsionWords {
     return name;
   }
 
-  /// "C5-C6", either way round.
+  /// True if the torsion is about this bond, "C5-C6" in either order.
   bool is_bond(const Torsion& torsion, std::string_view word) const {
     const std::string &a = s_.atoms[torsion.atoms[1]].name, &b = s_.atoms[torsion.atoms[2]].name;
     return word.size() == a.size() + b.size() + 1 && (word == a + "-" + b || word == b + "-" + a);
   }
 
-  /// The torsions of these residues that fall under a name.
+  /// Returns the torsions of these residues that match a name.
   Set choose(const Set& in, std::string_view name) {
     const bool by_atoms = is_bond_name(name), by_name = by_atoms || is_torsion_name(name);
     Set chosen(m_.torsions().size(), false);
@@ -168,7 +168,7 @@ class TorsionWords {
     if (!any(chosen)) refuse(word, "torsions that turn there; these residues have " + names_in(in));
   }
 
-  /// "phi, psi, chi1": those of these residues, the first few.
+  /// Returns "phi, psi, chi1": the names of these residues' torsions, at most twelve.
   std::string names_in(const Set& in) const {
     std::vector<std::string> names;
     for (const Torsion& torsion : m_.torsions())
@@ -189,7 +189,7 @@ class TorsionWords {
   Set named_omega_;
   bool asked_for_none_ = false;
   std::vector<std::string>& notes_;
-  std::string_view last_residues_;  // of the word before; empty when that was about no residues of its own
+  std::string_view last_residues_;  // residues of the preceding word; empty: it named none
 };
 
 }  // namespace
@@ -215,7 +215,7 @@ SelectedTorsions read_selection(const Molecule& molecule, std::string_view expre
     if (chosen[k]) result.torsions.push_back(k);
     if (omega || torsions[k].name != "omega") ++all;
   }
-  // "all" is the default, also of molecules in which nothing turns.
+  // "all" is the default, also for molecules without torsions.
   if (result.torsions.empty() && !words.asked_for_none() && expression != "all")
     refuse({expression, expression}, "torsions to free; it selects nothing" +
                                          (result.notes.empty() ? std::string() : " (" + result.notes.front() + ")"));

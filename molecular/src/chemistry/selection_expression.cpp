@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A recursive-descent reader that evaluates while it reads.
+// A recursive-descent parser that evaluates the expression while it reads.
 #include "chemistry/selection_expression.hpp"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ class Reader {
   bool joins() const { return is_comma() || token_ == "or"; }
   bool is_word() const { return !token_.empty() && !is_sign() && token_ != "and" && token_ != "or" && token_ != "not"; }
 
-  /// token_: the next word or sign; empty at the end.
+  /// Reads the next word or sign to token_; empty at the end.
   void advance() {
     const std::size_t begin = std::min(all_.find_first_not_of(blanks, next_), all_.size());
     std::size_t end = begin;
@@ -115,8 +115,8 @@ class Reader {
   std::string_view all_;
   const SelectionWords& words_;
   std::string_view token_;
-  std::size_t next_ = 0, last_end_ = 0;  // behind token_, and behind the one before it
-  bool alternative_ = false;             // token_ stands right behind a sign that joins
+  std::size_t next_ = 0, last_end_ = 0;  // offsets after token_ and after the token before it
+  bool alternative_ = false;             // token_ directly follows a sign that joins alternatives
   int depth_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Expressions of words joined by ',', '+', or, and, not and parentheses, as every selection on a command line is.
+// Selection expressions: words joined by ',', '+', or, and, not and parentheses, for all selections on a command line.
 #pragma once
 
 #include <functional>
@@ -10,25 +10,26 @@
 
 namespace hinge::molecular {
 
-/// A word and the expression it stands in; `text` points into `expression`.
+/// A word and its expression; `text` points into `expression`, which must outlive it.
 struct SelectionWord {
   std::string_view text;
   std::string_view expression;
-  bool alternative = false;  ///< it stands right behind ',', '+' or `or`
+  bool alternative = false;  ///< follows ',', '+' or `or` directly
 };
 
-/// ModelError that names the expression, the word, where it stands, and what was expected.
+/// Throws ModelError with the expression, the word, its position, and what was expected.
 [[noreturn]] void refuse(const SelectionWord& word, const std::string& expected);
 
-/// What the words of an expression select, each from the same elements.
+/// The meaning of words: each selects some of the same elements.
 struct SelectionWords {
-  /// Does `next`, which follows `word` behind a comma, belong to `word`, as psi does in A:1-5:phi,psi?
+  /// True if `next`, after `word` and a comma, belongs to `word`, as psi does in A:1-5:phi,psi.
   std::function<bool(std::string_view word, std::string_view next)> binds;
-  /// Per element: is it selected by `word` and the words that belong to it? ModelError: not a word.
+  /// Returns one value per element: true if `word` with the words that belong to it selects it. Throws ModelError if it
+  /// is not a word.
   std::function<std::vector<bool>(const SelectionWord& word, std::span<const SelectionWord> bound)> select;
 };
 
-/// The words that an object's members binds() and select() know; the object must outlive the result.
+/// Wraps an object's members binds() and select(); the object must outlive the result.
 template <class Words>
 SelectionWords words_of(Words& words) {
   return {
@@ -36,14 +37,14 @@ SelectionWords words_of(Words& words) {
       [&words](const SelectionWord& word, std::span<const SelectionWord> bound) { return words.select(word, bound); }};
 }
 
-/// One of the alternatives that ',', '+' or `or` join outside of parentheses.
+/// One of the alternatives that ',', '+' or `or` join outside parentheses.
 struct SelectionTerm {
   std::string_view text;
-  std::vector<bool> selected;  ///< per element
+  std::vector<bool> selected;  ///< one value per element
 };
 
-/// From the loosest: ',' '+' or; and; not; parentheses. Blanks separate words. ModelError: an expression of another
-/// form, more than 100 levels deep, or with something that is no word.
+/// Returns the alternatives of an expression. Operators from the loosest: ',' '+' or; and; not; parentheses. Blanks
+/// separate words. Throws ModelError for another form, more than 100 nested parentheses, or an unknown word.
 std::vector<SelectionTerm> read_terms(std::string_view expression, const SelectionWords& words);
 
 }  // namespace hinge::molecular

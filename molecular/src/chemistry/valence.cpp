@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Valences: of amino acids and nucleotides by their atoms' names, of all others by bonds.
+// Valences: for amino acids and nucleotides by atom name, for other residues by bonds.
 #include "chemistry/valence.hpp"
 
 #include <algorithm>

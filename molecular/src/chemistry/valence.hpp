@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Valence: how many bonds an atom can have and in what shape, whether or not its hydrogens are there.
+// Valence: the number and geometry of an atom's bonds, with or without explicit hydrogens.
 #pragma once
 
 #include <cstdint>
@@ -10,21 +10,22 @@
 
 namespace hinge::molecular {
 
-/// As IDATM's types say it (Meng and Lewis, J. Comput. Chem. 12:891, 1991; table of ChimeraX).
+/// From IDATM's types (Meng and Lewis, J. Comput. Chem. 12:891, 1991; ChimeraX's table).
 struct Valence {
-  int bonds = 0;             ///< at most, hydrogens included
-  int shape = 0;             ///< 4 tetrahedral, 3 planar, 2 linear, 1 at an end; more than bonds: has a lone pair there
-  int present = 0;           ///< bonds there are, coordination bonds left out
-  bool carboxylate = false;  ///< carbon with two terminal oxygens in a residue known to be charged, IDATM's Cac
+  int bonds = 0;  ///< largest number of bonds, hydrogens included
+  /// 4 tetrahedral, 3 planar, 2 linear, 1 terminal. Counts bonds and lone pairs: above `bonds`, there is a lone pair.
+  int shape = 0;
+  int present = 0;           ///< bonds in the structure, without coordination
+  bool carboxylate = false;  ///< carbon of a carboxylate in Asp or Glu, IDATM's Cac
 };
 
-/// One per atom. Bonds of metals do not count.
+/// Returns one valence per atom. Bonds of metals do not count.
 std::vector<Valence> valences(const Structure& structure);
 
-/// As bonded_neighbours, without coordination bonds.
+/// As bonded_neighbours without coordination bonds, not sorted.
 std::vector<std::vector<std::uint32_t>> covalent_neighbours(const Structure& structure);
 
-/// hydrogen_bond_roles of a structure whose covalent_neighbours and valences are at hand.
+/// As hydrogen_bond_roles(structure), with its covalent_neighbours and valences computed before.
 std::vector<HydrogenBondRole> hydrogen_bond_roles(const Structure& structure,
                                                   const std::vector<std::vector<std::uint32_t>>& near,
                                                   const std::vector<Valence>& all);
