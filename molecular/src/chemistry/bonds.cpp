@@ -98,8 +98,7 @@ class Perception {
     std::size_t ignored = 0;
     std::string first_ignored;
     for (const Link& link : s_.links) {
-      if (link.conect && s_.atoms[link.first].residue == s_.atoms[link.second].residue)
-        continue;  // handled by ResidueBonds
+      if (link.conect && s_.atoms[link.first].residue == s_.atoms[link.second].residue) continue;  // in ResidueBonds
       const double d = bonds_.distance(link.first, link.second);
       const bool metal = is_metal(s_.atoms[link.first].element) || is_metal(s_.atoms[link.second].element);
       const bool holds = link.disulphide ? d <= recorded_disulphide_max

@@ -58,8 +58,7 @@ std::vector<std::uint32_t> in_nucleotide(const Structure& s, std::uint32_t r, st
 
 std::vector<std::uint32_t> bearers_by_name(const Structure& s, std::uint32_t hydrogen) {
   std::string_view name = s.atoms[hydrogen].name;
-  name.remove_prefix(
-      std::min(name.find_first_not_of("0123456789"), name.size()));  // "1HB": the first of several hydrogens HB
+  name.remove_prefix(std::min(name.find_first_not_of("0123456789"), name.size()));  // "1HB": one of several HB
   if (name.empty() || (name.front() != 'H' && name.front() != 'D')) return {};
   name.remove_prefix(1);
   const std::uint32_t r = s.atoms[hydrogen].residue;

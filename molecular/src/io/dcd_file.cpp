@@ -46,8 +46,7 @@ std::uint64_t DcdFile::record(std::uint64_t offset, std::uint64_t& next, const s
   const std::span<char> length(bytes.data(), marker_size_);
   file_.read_all(offset, length, what);
   const std::uint64_t size = marker(bytes.data());
-  if (size > file_.size())
-    file_.read_all(offset + marker_size_, std::size_t{size}, what);  // the length is damaged: throws
+  if (size > file_.size()) file_.read_all(offset + marker_size_, std::size_t{size}, what);  // throws
   file_.read_all(offset + marker_size_ + size, length, what);
   if (marker(bytes.data()) != size)
     throw LoadError(file_.name() + ": " + what + ": a record of " + std::to_string(size) + " bytes at byte " +

@@ -32,8 +32,7 @@ int model_number(std::string_view line, int otherwise) {
 
 PreparedPdb prepare_pdb(const std::string& text, std::size_t columns) {
   constexpr std::size_t length_column = 72;
-  constexpr std::size_t most_atoms =
-      100000 + 26UL * 36 * 36 * 36 * 36;  // the largest count that gemmi reads from five columns
+  constexpr std::size_t most_atoms = 100000 + 26UL * 36 * 36 * 36 * 36;  // that gemmi reads from five columns
   PreparedPdb result;
   std::vector<int>& serials = result.serials;
   std::string& kept = result.text;

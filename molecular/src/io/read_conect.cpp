@@ -17,8 +17,8 @@
 namespace hinge::molecular {
 
 std::vector<RawConnection> read_conect(const std::string& text) {
-  constexpr std::size_t serial_column = 6, width = 5,
-                        most = 4;  // further fields: hydrogen bonds and salt bridges of old files
+  // Further fields hold hydrogen bonds and salt bridges of old files.
+  constexpr std::size_t serial_column = 6, width = 5, most = 4;
   std::map<std::pair<int, int>, int> directed;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());

@@ -49,7 +49,7 @@ class BondExclusions {
     const auto list = excluded(i);
     return in_scope(i, j) && !std::binary_search(list.begin(), list.end(), j);
   }
-  /// True if the pair is in the scope, whatever its number of bonds.
+  /// True if the pair is in the scope, for any number of bonds.
   bool in_scope(PrimitiveId i, PrimitiveId j) const noexcept { return scope_.holds(i, j); }
   /// The atoms that are listed as excluded with i: too few bonds apart, or exempted. Sorted, without i. Valid for the
   /// lifetime of this object or of any copy.

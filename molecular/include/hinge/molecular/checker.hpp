@@ -33,19 +33,19 @@ using hinge::Mode;
 
 /// Options of a Checker.
 struct CheckOptions {
-  ThresholdOptions thresholds;
-  std::optional<int>
-      min_bonds;  ///< number of bonds from which a pair counts; nullopt: that of the rules or the radii set
-  bool exempt_reference = false;  ///< leave out pairs that collide in the reference, except pairs of an interface
-  bool exempt_interfaces =
-      false;                    ///< leave those out too. Interface: between two files, or a placed part and its outside
-  PairScope scope{};            ///< tested pairs, made for the molecule's structure; default: all
-  std::string engine = "simd";  ///< "simd", "lazy" (the paper's) or "brute"
+  ThresholdOptions thresholds;   ///< clash rules and radii
+  std::optional<int> min_bonds;  ///< number of bonds from which a pair counts; nullopt: by the rules or radii set
+  /// Leave out pairs that collide in the reference, except interfaces: pairs of two files, or of an atom in a placed
+  /// part and one outside it.
+  bool exempt_reference = false;
+  bool exempt_interfaces = false;  ///< with exempt_reference: leave out interfaces too
+  PairScope scope{};               ///< tested pairs, made for the molecule's structure; default: all
+  std::string engine = "simd";     ///< "simd", "lazy" (the paper's) or "brute"
 };
 
 /// A pair, and whether it collides: near the threshold, the rounded distance in `hit` cannot tell.
 struct Contact {
-  Hit hit;
+  Hit hit;  ///< atoms, distance and threshold M in angstrom
   bool collides = false;
 
   friend bool operator==(const Contact&, const Contact&) = default;
@@ -59,8 +59,8 @@ struct Verdict {
   std::vector<Contact> pairs;
   std::optional<Contact> closest;  ///< mode closest only: the pair of least d - M; one that collides, if any does
   double closure_residual = 0.0;   ///< largest of closure_residuals, angstrom; 0 for given coordinates
-  std::vector<double>
-      closure_residuals{};  ///< one per closure of the molecule's tree, angstrom; empty for given coordinates
+  /// One per closure of the molecule's tree, angstrom; empty for given coordinates.
+  std::vector<double> closure_residuals{};
 };
 
 /// Tests conformations of one molecule. One per thread: checks change its state. Copies share all constant data.
@@ -74,9 +74,10 @@ class Checker {
   const Molecule& molecule() const noexcept { return *molecule_; }
   const Thresholds& thresholds() const noexcept { return *thresholds_; }
   const BondExclusions& exclusions() const noexcept { return *exclusions_; }
+  /// The number of bonds from which pairs count.
   MinBonds min_bonds() const noexcept { return min_bonds_; }
   /// Pairs that collide in the reference coordinates, in decimals as the file gives them, sorted. All admitted pairs
-  /// are tested, whatever the selection. Valid for the lifetime of this object or of any copy.
+  /// are tested, independent of the selection. Valid for the lifetime of this object or of any copy.
   std::span<const Hit> reference_collisions() const noexcept { return *reference_; }
   /// The reference collisions whose distance the selection cannot change, without exempted ones. Valid as above.
   std::span<const Hit> constant_contacts() const noexcept { return *constant_; }
@@ -85,6 +86,7 @@ class Checker {
   const DofSelection& selection() const;
   /// Number of values of a configuration.
   std::size_t dof_count() const;
+  /// Number of rigid groups under the selection, including the world's.
   std::size_t rigid_group_count() const;
   /// The rigid group of an atom.
   GroupId group_of(std::uint32_t atom) const;
@@ -94,8 +96,9 @@ class Checker {
   /// Tests the conformation at q. q: dof_count() values, angles in rad and slides in angstrom, relative to the
   /// reference. Throws ConfigurationError if their number is wrong or a value is not finite.
   Verdict check(std::span<const double> q, const Mode& mode);
-  /// Tests given coordinates. positions: angstrom, one per atom. Every admitted pair is tested, whatever the selection.
-  /// Distances of atoms whose coordinates have at most three decimals, as in files, are compared in exact decimals.
+  /// Tests given coordinates. positions: angstrom, one per atom. Every admitted pair is tested, independent of the
+  /// selection. Distances of atoms whose coordinates have at most three decimals, as in files, are compared in exact
+  /// decimals.
   Verdict check_coordinates(std::span<const Vec3> positions, const Mode& mode);
   /// The coordinates of the last check, angstrom, one per atom.
   std::vector<Vec3> positions();

@@ -13,8 +13,8 @@
 
 namespace hinge::molecular {
 
-/// The bodies that a set of torsions joins. A body is a set of atoms that none of these torsions moves relative to one
-/// another. The points of a body include the axis atoms of its torsions, which it shares with its neighbours.
+/// The bodies that a set of torsions joins. A body is a set of atoms whose relative positions these torsions do not
+/// change. The points of a body include the axis atoms of its torsions, which it shares with its neighbours.
 class TorsionBodies {
  public:
   /// torsions: indices in Molecule::torsions(). Independent of the molecule after construction.

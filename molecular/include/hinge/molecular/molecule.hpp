@@ -35,9 +35,10 @@ struct MoleculeOptions {
   /// The chain is cut at the end of each loop (find_loops). Residues after a loop do not move with it. psi of the
   /// loop's last residue is not a DOF: it follows from the others if the loop's closure holds.
   std::vector<Loop> loops{};
-  bool keep_hydrogen_bonds = false;   ///< make closures of backbone hydrogen bonds (find_hydrogen_bonds)
+  /// Make hydrogen bonds of the backbone closures (Kabsch & Sander, E < -0.5 kcal/mol).
+  bool keep_hydrogen_bonds = false;
   std::vector<Part> placed{};         ///< parts that get six DOF each
-  std::vector<HeldPlacement> held{};  ///< two parts each that keep their relative pose, as closures
+  std::vector<HeldPlacement> held{};  ///< pairs of fragments that keep their relative pose, by closures
 };
 
 /// Every torsion of the structure is a joint; primitive i is atom i of model 0, in angstrom. Joint values are rotations
@@ -46,7 +47,8 @@ struct MoleculeOptions {
 /// closure of a disulphide keeps its length and two angles. The closure of another bond, or of a torsion that closes a
 /// cycle, keeps the bond's length and the angles at both ends; only rotation about the bond is free. If its torsion is
 /// an omega, that is fixed too. One rigid fragment of each connected component of the bond graph is fixed in the world,
-/// or in its placed part. Const members may be called by many threads at once.
+/// or in its placed part. Views and references are valid for this object's lifetime. Const members may be called by
+/// many threads at once.
 class Molecule {
  public:
   /// Throws ModelError if psi of a loop's last residue is undefined, or a placed part is empty, is bonded to an atom
@@ -75,7 +77,7 @@ class Molecule {
   /// The placed parts, in the order given to the constructor.
   std::span<const PlacedPart> placed_parts() const noexcept { return placed_; }
   /// The two atoms that each closure of the tree joins, in the order of the tree's closures: those of a bond or a
-  /// hydrogen bond, or one atom in each of two parts that are held.
+  /// hydrogen bond, or one atom in each of two held fragments.
   std::span<const std::array<std::uint32_t, 2>> closure_atoms() const noexcept { return closure_atoms_; }
   /// Decisions of the construction: undefined torsions, torsions in rings, closures. One sentence each.
   std::span<const std::string> notes() const noexcept { return notes_; }

@@ -22,8 +22,7 @@ enum class AtomClass : std::uint8_t {
   nitrogen,           ///< any other nitrogen, as one that bears a hydrogen or has three bonds
   nitrogen_acceptor,  ///< two heavy neighbours and no hydrogen, in a structure with hydrogens: accepts hydrogen bonds
   oxygen,
-  oxygen_hydroxyl,  ///< bears a hydrogen, or should: in SER, THR, TYR and sugars, or a ligand's terminal oxygen with a
-                    ///< single bond
+  oxygen_hydroxyl,  ///< with a hydrogen, explicit or implied: SER, THR, TYR, sugars, ligands' terminal C-O
   sulphur,
   phosphorus,
   hydrogen,        ///< any other hydrogen, as one bonded to aliphatic carbon
@@ -59,7 +58,7 @@ struct ThresholdOptions {
   std::optional<double> rho{};           ///< M = rho * d0; finite, > 0; nullopt: 0.8
   std::optional<bool> hydrogen_bonds{};  ///< use the hydrogen-bond rule; nullopt: if the structure has hydrogens
   /// Angstrom >= 0, subtracted from M of a polar H and an acceptor N, O or S. In a structure without hydrogens: from M
-  /// of a donor and an acceptor (hydrogen_bond_roles). nullopt: 0.4.
+  /// of a donor and an acceptor among N, O and S. nullopt: 0.4.
   std::optional<double> hydrogen_bond_allowance{};
   std::string rules = "auto";  ///< "auto" or a name in all_clash_rules(); rules other than biocd fix all options above
 

@@ -21,9 +21,9 @@ struct ReadOptions {
   std::optional<int> model;  ///< model number in the file; nullopt: all models
   /// Alternative location; nullopt: the one with the highest summed occupancy, then the first letter.
   std::optional<char> altloc;
-  bool hetero = false;  ///< keep ligands, ions and sugars; a file without a polymer keeps them anyway
-  bool waters = false;  ///< keep waters; a file of waters alone keeps them anyway
-  bool keep_hydrogens = true;
+  bool hetero = false;         ///< keep ligands, ions and sugars; a file without a polymer keeps them anyway
+  bool waters = false;         ///< keep waters; a file of waters alone keeps them anyway
+  bool keep_hydrogens = true;  ///< false: drop hydrogen and deuterium
   BondSearch bonds = BondSearch::geometry;  ///< how bonds between residues are found
   /// CIF files of components; they take precedence over the structure's own components and the dictionary.
   std::vector<std::filesystem::path> components = {};

@@ -26,8 +26,8 @@ enum class ResidueKind : std::uint8_t { amino_acid, nucleotide, water, other };
 
 /// A residue and its atoms [first_atom, last_atom).
 struct Residue {
-  std::string name;  ///< residue name: "ALA", "HOH", "DA"
-  int sequence_number = 0;
+  std::string name;              ///< residue name: "ALA", "HOH", "DA"
+  int sequence_number = 0;       ///< author's number in the file
   char insertion_code = '\0';    ///< '\0': none
   std::uint32_t chain = 0;       ///< index in Structure::chains
   std::uint32_t first_atom = 0;  ///< index in Structure::atoms
