@@ -191,7 +191,7 @@ Thresholds make_thresholds(const Structure& structure, const ThresholdOptions& o
   const std::vector<AtomClass> classes = set.name == "probe" ? probe_classes(structure) : classify_atoms(structure);
   const bool hydrogens = has_hydrogens(structure);
   const bool rule = options.hydrogen_bonds.value_or(hydrogens);
-  // Explicit hydrogens tell which atoms form bonds; without them the roles of heavy atoms do.
+  // Explicit hydrogens tell which atoms form hydrogen bonds; without them the roles of heavy atoms do.
   std::vector<HydrogenBondRole> roles(classes.size());
   if (rule && !hydrogens) roles = hydrogen_bond_roles(structure);
 

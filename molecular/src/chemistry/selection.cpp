@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Words of a selection that mean torsions.
+// read_selection: the words of a selection that mean torsions.
 #include "hinge/molecular/selection.hpp"
 
 #include <algorithm>

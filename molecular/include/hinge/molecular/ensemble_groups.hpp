@@ -11,9 +11,9 @@
 
 namespace hinge::molecular {
 
-/// A set of atoms that keep their relative positions. A segment is a set of atoms without a turning torsion inside. A
-/// group has several segments if turning torsions lie between them, as where a chain leaves a domain and returns. The
-/// largest segment is first.
+/// A set of atoms that keeps its shape in all conformations. A segment is a set of atoms without a turning torsion
+/// inside. A group has several segments if turning torsions lie between them, as where a chain leaves a domain and
+/// returns. The largest segment is first.
 struct EnsembleGroup {
   std::vector<std::vector<std::uint32_t>> segments;  ///< atom indices, each segment sorted
   double spread = 0.0;  ///< largest standard deviation of a distance between two of its points, angstrom

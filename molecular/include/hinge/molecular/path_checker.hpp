@@ -16,16 +16,17 @@ namespace hinge::molecular {
 /// closures are not solved, as in Checker::check. from, to: one value per DOF of the checker's selection, rad or
 /// angstrom, relative to the reference. Throws ConfigurationError for a wrong number of values or one that is not
 /// finite. One per thread; copies share all constant data.
-/// Independent of the checker's later state.
 class PathChecker {
  public:
+  /// Takes the molecule's model, the selection and the rules from the checker; independent of it afterwards.
   explicit PathChecker(const Checker& checker);
 
   /// Proves the verdict for every state of the path. A segment no longer than smallest_step (a share of the path, > 0,
   /// otherwise ConfigurationError) is not divided.
   PathAnswer certify(std::span<const double> from, std::span<const double> to,
                      double smallest_step = smallest_path_step);
-  /// Tests states between which no torsion changes by more than `resolution` (rad, > 0, otherwise ConfigurationError).
+  /// Tests states between which no DOF changes by more than `resolution` (rad or angstrom). Throws ConfigurationError
+  /// unless it is finite, above 0, and large enough for at most 2^53 states.
   PathAnswer sample(std::span<const double> from, std::span<const double> to, double resolution);
 
  private:

@@ -11,7 +11,7 @@
 
 namespace hinge::molecular {
 
-/// Thrown if a model has other atoms than the molecule whose conformation it should be.
+/// Thrown if a model should be a conformation of a molecule but has other atoms.
 struct OtherAtoms : LoadError {
   using LoadError::LoadError;
 };
