@@ -28,7 +28,7 @@ struct Count {
 
 /// conformations: of each sampling. engine/brute is asked as well, at one conformation in a hundred.
 Count check(Scene& scene, std::size_t conformations) {
-  Contestant wide = engine<Simd>(scene, "simd", true), brute = engine<Brute>(scene, "brute", false);
+  Contestant simd = engine<Simd>(scene, "simd", true), brute = engine<Brute>(scene, "brute", false);
   Reference reference(scene.input());
   Count count;
   for (const Sampling sampling : all_samplings) {
@@ -41,7 +41,7 @@ Count check(Scene& scene, std::size_t conformations) {
       const Conformation c = scene.conformation(std::move(q));
       const std::vector<Answer> expected = reference.ask(c.xyz);
       count.answers += static_cast<long long>(expected.size());
-      count.differences += count_differences(wide, c, expected, k);
+      count.differences += count_differences(simd, c, expected, k);
       if (k % engine_brute_share == 0 && scene.size() <= large)
         count.differences += count_differences(brute, c, expected, k);
     }

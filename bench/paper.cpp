@@ -68,11 +68,11 @@ void run_selection_change(Results& results, const Setup& setup, const Scene& sce
     wide = std::min(wide, microseconds([&] { scene.make<Simd>(); }));
     lazy = std::min(lazy, microseconds([&] { scene.make<Lazy>(); }));
   }
-  std::printf("%-7s %4d %5zu %6zu changing the selection: wide %.0f, lazy %.0f\n", setup.name.c_str(), setup.residues,
+  std::printf("%-7s %4d %5zu %6zu changing the selection: simd %.0f, lazy %.0f\n", setup.name.c_str(), setup.residues,
               scene.dof_count(), scene.size(), simd, lazy);
   Json row = {{"kind", "selection"}};
   row.update(describe(setup, scene));
-  row.update({{"wide_us", wide}, {"lazy_us", lazy}});
+  row.update({{"simd_us", wide}, {"lazy_us", lazy}});
   results.add(std::move(row));
 }
 

@@ -188,7 +188,7 @@ int main(int argc, char** argv) {
         {"selection",
          {"paper selection",
           [&] {
-            return plain(found.rows("paper selection"), with({"wide µs", "lazy µs"}), {"wide_us", "lazy_us"});
+            return plain(found.rows("paper selection"), with({"simd µs", "lazy µs"}), {"simd_us", "lazy_us"});
           }}},
         {"caches",
          {"paper caches",

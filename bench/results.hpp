@@ -131,7 +131,7 @@ inline void add_cell(Results& results, const Json& setup, Query query, Sampling 
                 {"sampling", name(sampling)},
                 {"peer", s.name},
                 {"us", s.us},
-                {"wide_us", s.wide_us},
+                {"simd_us", s.simd_us},
                 {"conformations", s.conformations},
                 {"colliding", static_cast<double>(cell.colliding) / cell.conformations}});
     results.add(std::move(row));

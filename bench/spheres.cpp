@@ -129,9 +129,9 @@ int compare(const char* name, const Subject& robot, SphereBatch& batch, const Co
   const double each_ns = time(blocks, passes, [&](std::size_t b) { each[b] = batch.each(block(b)); });
 
   const Model<Sphere> model = spheres_of(robot.robot);
-  Hierarchy<Sphere, LinkPairFilter, UniformClearance> wide(model, robot.filter, UniformClearance{0.0});
+  Hierarchy<Sphere, LinkPairFilter, UniformClearance> simd(model, robot.filter, UniformClearance{0.0});
   Hierarchy<Sphere, LinkPairFilter, UniformClearance, Brute> brute(model, robot.filter, UniformClearance{0.0});
-  std::vector<detail::simd::Bits> expected(blocks), by_wide(blocks);
+  std::vector<detail::simd::Bits> expected(blocks), by_simd(blocks);
   const auto one_by_one = [&](auto& hierarchy, std::vector<detail::simd::Bits>& to) {
     return [&](std::size_t b) {
       to[b] = 0;
@@ -141,17 +141,17 @@ int compare(const char* name, const Subject& robot, SphereBatch& batch, const Co
       }
     };
   };
-  const double wide_ns = time(blocks, 3, one_by_one(wide, by_wide));
+  const double simd_ns = time(blocks, 3, one_by_one(simd, by_simd));
   const double brute_ns = time(blocks, 1, one_by_one(brute, expected));
   int wrong = 0;
   std::size_t valid = 0, hits = 0;
   for (std::size_t b = 0; b < blocks; ++b) {
-    wrong += each[b] == expected[b] && by_wide[b] == expected[b] && (any[b] != 0) == (expected[b] != 0) ? 0 : 1;
+    wrong += each[b] == expected[b] && by_simd[b] == expected[b] && (any[b] != 0) == (expected[b] != 0) ? 0 : 1;
     valid += expected[b] == 0 ? 1 : 0;
     hits += static_cast<std::size_t>(std::popcount(expected[b]));
   }
-  std::printf("%-12s any %6.1f  each %6.1f  one at a time: wide %7.1f  brute %8.1f  ratio %5.1f %5.1f\n", name, any_ns,
-              each_ns, wide_ns, brute_ns, wide_ns / any_ns, wide_ns / each_ns);
+  std::printf("%-12s any %6.1f  each %6.1f  one at a time: simd %7.1f  brute %8.1f  ratio %5.1f %5.1f\n", name, any_ns,
+              each_ns, simd_ns, brute_ns, simd_ns / any_ns, simd_ns / each_ns);
   std::printf("%-12s valid blocks %.4f, hits %.4f, wrong blocks %d\n", "",
               static_cast<double>(valid) / static_cast<double>(blocks),
               static_cast<double>(hits) / static_cast<double>(blocks * n), wrong);

@@ -38,11 +38,11 @@ inline constexpr int repetitions = 3;
 struct Series {
   std::string name;
   double us = 0.0;       ///< mean of the best times
-  double wide_us = 0.0;  ///< the first contestant's mean over the same conformations
+  double simd_us = 0.0;  ///< the first contestant's mean over the same conformations
   int conformations = 0;
   double spent = 0.0;  ///< seconds, preparing included
 
-  double ratio() const { return us / wide_us; }
+  double ratio() const { return us / simd_us; }
 };
 
 struct Cell {
@@ -79,7 +79,7 @@ class Measurement {
     }
     for (Series& s : cell.series) {
       s.us /= s.conformations;
-      s.wide_us /= s.conformations;
+      s.simd_us /= s.conformations;
     }
     std::erase_if(cell.series, [](const Series& s) { return s.conformations == 0; });
     return cell;
@@ -120,7 +120,7 @@ class Measurement {
       for (std::size_t c = 0; c < contestants_.size(); ++c) {
         if (best[c][k] == unasked) continue;
         cell.series[c].us += best[c][k];
-        cell.series[c].wide_us += best[0][k];
+        cell.series[c].simd_us += best[0][k];
         ++cell.series[c].conformations;
       }
     }

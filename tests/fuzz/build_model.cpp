@@ -210,17 +210,17 @@ class Attempt {
                                [](const hinge::Hit& a, const hinge::Hit& b) {
                                  return a.first == b.first && a.second == b.second && a.threshold == b.threshold;
                                }),
-                    "wide and brute differ in their pairs");
+                    "simd and brute differ in their pairs");
       for (const hinge::Hit& hit : hits) fuzz::require(hit.distance >= 0.0, "a distance that is no number");
     });
     fuzz::accepts([&] {
       fuzz::require(wide.self_collides(options) == !brute.self_collisions(options).empty(),
-                    "wide and brute differ in a yes or no");
+                    "simd and brute differ in a yes or no");
       fuzz::require(wide.self_closest(options).has_value() == brute.self_closest(options).has_value(),
-                    "wide and brute differ in whether there is a closest pair");
+                    "simd and brute differ in whether there is a closest pair");
     });
     fuzz::require(wide.constant_contacts().size() == brute.constant_contacts().size(),
-                  "wide and brute differ in constant contacts");
+                  "simd and brute differ in constant contacts");
   }
 
   fuzz::Bytes& bytes_;

@@ -33,12 +33,12 @@ inline void check_robot(const std::shared_ptr<const hinge::robotics::Robot>& rob
     for (const Mode& mode : {Mode{Mode::Kind::all, 0.0}, Mode{Mode::Kind::within, 0.5}, Mode{Mode::Kind::any, 0.0},
                              Mode{Mode::Kind::closest, 0.0}}) {
       const auto fast = wide.check(q, mode), slow = brute.check(q, mode);
-      require(fast.collides == slow.collides, "wide and brute differ in a yes or no");
-      require(fast.pairs.size() == slow.pairs.size(), "wide and brute differ in their pairs");
+      require(fast.collides == slow.collides, "simd and brute differ in a yes or no");
+      require(fast.pairs.size() == slow.pairs.size(), "simd and brute differ in their pairs");
       for (std::size_t k = 0; k < fast.pairs.size(); ++k)
         require(fast.pairs[k].link1 == slow.pairs[k].link1 && fast.pairs[k].link2 == slow.pairs[k].link2,
-                "wide and brute differ in their pairs");
-      require(fast.closest.has_value() == slow.closest.has_value(), "wide and brute differ in the closest pair");
+                "simd and brute differ in their pairs");
+      require(fast.closest.has_value() == slow.closest.has_value(), "simd and brute differ in the closest pair");
     }
     wide.contained();
   });

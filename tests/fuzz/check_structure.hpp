@@ -65,14 +65,14 @@ inline void check_answers(const std::shared_ptr<const hinge::molecular::Molecule
   for (const Mode& mode : {Mode{Mode::Kind::all, 0.0}, Mode{Mode::Kind::within, 0.5}, Mode{Mode::Kind::any, 0.0},
                            Mode{Mode::Kind::closest, 0.0}}) {
     const auto fast = wide.check(q, mode), slow = brute.check(q, mode);
-    require(fast.collides == slow.collides, "wide and brute differ in a yes or no");
-    require(fast.pairs == slow.pairs, "wide and brute differ in their pairs");
+    require(fast.collides == slow.collides, "simd and brute differ in a yes or no");
+    require(fast.pairs == slow.pairs, "simd and brute differ in their pairs");
     require(fast.closest.has_value() == slow.closest.has_value() &&
                 (!fast.closest || fast.closest->hit.gap() == slow.closest->hit.gap()),
-            "wide and brute differ in the closest pair");
+            "simd and brute differ in the closest pair");
   }
   require(wide.check_coordinates(read, {}).pairs == brute.check_coordinates(read, {}).pairs,
-          "wide and brute differ in the file's coordinates");
+          "simd and brute differ in the file's coordinates");
 }
 
 /// With the options' defaults, or others: by the length of the file, so that a find is a file and nothing more.

@@ -356,6 +356,9 @@ TEST_F(BiocdFiles, SaysWhatWasLeftOut) {
     EXPECT_NE(all.out.find("7 atoms"), std::string::npos) << all.out;
     EXPECT_EQ(all.out.find("left out"), std::string::npos) << all.out;
   }
+  const test::Said info = run_biocd("info --json --hetero waters" + file("wet.pdb") + " 2>/dev/null");
+  EXPECT_NE(info.out.find("\"water\":"), std::string::npos) << info.out;
+  EXPECT_NE(info.out.find("\"ion\":"), std::string::npos) << info.out;
   EXPECT_EQ(run_biocd("check --hetero=salt" + file("wet.pdb") + " 2>&1").status, 2);
 }
 

@@ -105,7 +105,7 @@ TEST(RobustnessCases, ReportsRefusals) {
   folder.write("a.jsonl", atoms(nan, "\"0x1p+0\"", R"(,"collides":false,"pair_count":0,"pairs":[],"min_dist":null)"));
   said = run(folder.path(), "2>&1");
   EXPECT_EQ(said.status, 1);
-  EXPECT_NE(said.out.find("p, wide, a link per group: refused: "), std::string::npos) << said.out;
+  EXPECT_NE(said.out.find("p, simd, a link per group: refused: "), std::string::npos) << said.out;
 }
 
 TEST(RobustnessCases, NamesFileAndLineOfWhatIsNoCase) {

@@ -16,6 +16,7 @@ std::string residue_class(const Structure& s, std::uint32_t r) {
     return "DNA";
   }
   if (is_cap(residue.name)) return "cap";
+  if (residue.kind == ResidueKind::water) return "water";
   return residue.last_atom - residue.first_atom == 1 ? "ion" : "ligand";
 }
 
