@@ -14,6 +14,7 @@
 #include "hinge/robotics/environment.hpp"
 #include "hinge/robotics/path_checker.hpp"
 #include "hinge/robotics/robot_checker.hpp"
+#include "hinge/robotics/tested_pairs.hpp"
 #include "robotics/random_robot.hpp"
 #include "robotics/run_robocd.hpp"
 
@@ -159,6 +160,24 @@ TEST(RobocdPath, RefusesEndsThatDoNotFit) {
       refused(arm, "--from 0,9 --to zero"),
       "0: note: 1 of 2 configurations are outside the joint limits: configuration 0 has 9 for joint 'elbow', limits "
       "-1.5 and 1\n");
+}
+
+TEST(RobotPathChecker, RefusesBadStepsEvenWhereABodyAlwaysCollides) {
+  RobotDescription description{"post", {{"base", {{BoxShape{Vec3(1, 1, 1)}, Pose{}}}}, {"arm", {}}}, {}};
+  JointDescription joint{"turn", JointType::continuous, "base", "arm"};
+  joint.axis = Vec3::UnitZ();
+  description.joints.push_back(joint);
+  const auto robot = std::make_shared<const Robot>(std::move(description));
+  const RobotChecker checker(robot, tested_pairs(*robot), LinkMargins(*robot));
+  Environment around;
+  around.add(BoxShape{Vec3(1, 1, 1)}, Pose{Mat3::Identity(), Vec3(0.5, 0, 0)});
+  const std::vector<double> here = {0.0}, there = {1.0};
+  PathChecker paths(checker, around);
+  EXPECT_EQ(paths.certify(here, there).verdict, PathVerdict::colliding);
+  EXPECT_EQ(paths.sample(here, there, 0.1).verdict, PathVerdict::colliding);
+  EXPECT_THROW(paths.certify(here, there, 0.0), ConfigurationError);
+  EXPECT_THROW(paths.sample(here, there, 0.0), ConfigurationError);
+  EXPECT_THROW(paths.certify(here, std::vector<double>{std::nan("")}), ConfigurationError);
 }
 
 /// A quarter of the robots each, so that none takes long; with HINGE_TEST_ALL 12 000 paths in all.

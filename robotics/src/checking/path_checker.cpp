@@ -152,13 +152,14 @@ template <class Check>
 RobotPathAnswer PathChecker::answer(std::span<const double> from, std::span<const double> to, const Check& check) {
   const std::vector<double> first = robot_->expand(from), last = robot_->expand(to);
   RobotPathAnswer answer;
+  // Where something always collides, a path without length still refuses a bad step.
+  const PathAnswer found = check(first, always_ ? first : last);
   if (always_) {
     answer.verdict = PathVerdict::colliding;
     answer.configuration.assign(from.begin(), from.end());
     answer.contact = always_;
     return answer;
   }
-  const PathAnswer found = check(first, last);
   answer.counts = found.counts;
   answer.verdict = found.verdict;
   answer.parameter = found.parameter;
@@ -176,6 +177,7 @@ RobotPathAnswer PathChecker::certify(std::span<const double> from, std::span<con
     AnyHit inside;
     WithInsides{hierarchy_, *solid_pairs_, *robot_}.add_insides(inside);
     if (!inside.done()) return certified_.check(a, b, smallest_step);
+    certified_.check(a, a, smallest_step);  // refuses a bad step
     at_start.verdict = PathVerdict::colliding;
     at_start.counts.configurations = 1;
     at_start.configuration = a;
