@@ -97,6 +97,18 @@ void expect_same_answers(const Structure& a, const Structure& b) {
   EXPECT_EQ(v.pairs, w.pairs);  // including thresholds
 }
 
+/// A longer name would push the coordinates out of their columns.
+TEST(WritePdb, RefusesModelsWithNamesLongerThanTheirColumns) {
+  const Structure protein = build_ideal_protein("AG", "CC");
+  std::ostringstream out;
+  write_pdb_model(out, protein, protein.models.front(), 1);
+  Structure residue = protein, atom = protein;
+  residue.residues.front().name = "ALAN";
+  atom.atoms.front().name = "N1234";
+  EXPECT_THROW(write_pdb_model(out, residue, protein.models.front(), 1), ModelError);
+  EXPECT_THROW(write_pdb_model(out, atom, protein.models.front(), 1), ModelError);
+}
+
 TEST(RoundTrip, EveryFileOfTheSharedData) {
   if (!std::filesystem::exists(test::shared_molecules())) GTEST_SKIP() << "no shared data on this machine";
   const bool whole = std::getenv("HINGE_TEST_ALL") != nullptr;  // verdicts for 100 000 atoms take long

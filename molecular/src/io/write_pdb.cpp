@@ -147,11 +147,11 @@ void write_pdb_head(std::ostream& out, const Structure& structure) {
 }
 
 void write_pdb_model(std::ostream& out, const Structure& structure, std::span<const Vec3> positions, int number) {
+  check_fits_pdb(structure);
   const std::vector<std::uint32_t> copies = copies_of_residues(structure);
   std::string text = "MODEL " + right(std::to_string(number), 8) + "\n";
   std::uint32_t i = 0;
   for (const Chain& chain : structure.chains) {
-    if (chain.name.size() > 1) check_fits_pdb(structure);
     std::uint32_t polymer_end = chain.first_residue;
     for (std::uint32_t r = chain.first_residue; r < chain.last_residue; ++r)
       if (!is_hetero(structure.residues[r])) polymer_end = r + 1;

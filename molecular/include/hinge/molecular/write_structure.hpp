@@ -24,8 +24,8 @@ void check_fits_pdb(const Structure& structure);
 /// check_fits_pdb does.
 void write_pdb_head(std::ostream& out, const Structure& structure);
 /// Writes one MODEL ... ENDMDL block. positions: angstrom, one per atom. number: model number. Serial numbers above
-/// 99999 and residue numbers above 9999 are hybrid-36. Throws ModelError if a coordinate does not fit eight columns, or
-/// a chain name has more than one character.
+/// 99999 and residue numbers above 9999 are hybrid-36. Throws ModelError as check_fits_pdb does, and if a coordinate
+/// does not fit eight columns.
 void write_pdb_model(std::ostream& out, const Structure& structure, std::span<const Vec3> positions, int number);
 /// Writes CONECT records and END. A multiple bond is a repeated partner.
 void write_pdb_tail(std::ostream& out, const Structure& structure);
