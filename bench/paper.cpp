@@ -63,16 +63,16 @@ int run_table(Results& results, const Setup& setup, Scene& scene, double seconds
 
 /// Microseconds to make a hierarchy for a selection, the molecule being there: the best of five.
 void run_selection_change(Results& results, const Setup& setup, const Scene& scene) {
-  double wide = std::numeric_limits<double>::infinity(), lazy = wide;
+  double simd = std::numeric_limits<double>::infinity(), lazy = simd;
   for (int k = 0; k < 5; ++k) {
-    wide = std::min(wide, microseconds([&] { scene.make<Simd>(); }));
+    simd = std::min(simd, microseconds([&] { scene.make<Simd>(); }));
     lazy = std::min(lazy, microseconds([&] { scene.make<Lazy>(); }));
   }
   std::printf("%-7s %4d %5zu %6zu changing the selection: simd %.0f, lazy %.0f\n", setup.name.c_str(), setup.residues,
               scene.dof_count(), scene.size(), simd, lazy);
   Json row = {{"kind", "selection"}};
   row.update(describe(setup, scene));
-  row.update({{"simd_us", wide}, {"lazy_us", lazy}});
+  row.update({{"simd_us", simd}, {"lazy_us", lazy}});
   results.add(std::move(row));
 }
 
