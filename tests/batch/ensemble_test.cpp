@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Many configurations: the same results in the same order on any number of threads, and nothing lost when one fails.
+// Many configurations: results and their order do not depend on the number of threads; exceptions reach the caller.
 #include "hinge/batch/ensemble.hpp"
 
 #include <gtest/gtest.h>
@@ -63,7 +63,7 @@ TEST(Ensemble, HandsResultsOverInOrderWhateverTheThreads) {
 }
 
 TEST(Ensemble, HoldsFewResultsAtATime) {
-  // Results count themselves; a run over many must not keep them all.
+  // Results count their live copies; a run over many configurations must not keep all of them.
   static std::atomic<int> alive{0}, most{0};
   struct Counted {
     Counted() { most = std::max(most.load(), ++alive); }

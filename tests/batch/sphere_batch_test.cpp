@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sphere models in lanes: the verdicts of single queries, lane by lane, also where spheres touch within an ulp.
+// Sphere models in SIMD lanes: each lane has the verdict of a single query, even where spheres touch within an ulp.
 #include "hinge/batch/sphere_batch.hpp"
 
 #include <gtest/gtest.h>
@@ -31,21 +31,21 @@ using Single = Hierarchy<Sphere, F, UniformClearance, Brute>;
 
 struct Sizes {
   std::size_t links = 10, per_link = 5;
-  double radius = 0.8;  ///< largest
-  double unit = 1.0;    ///< of all lengths but those random_model draws itself
+  double radius = 0.8;  ///< largest radius
+  double unit = 1.0;    ///< factor of all lengths except those that random_model draws
 };
 
 Model<Sphere> random_spheres(Random& random, const Sizes& sizes) {
   return test::random_model(random, sizes.links, sizes.per_link, false,
                             [&](Random& r, const Vec3& axis, const Vec3& point) {
-                              // Some on the axis: their distance across the joint cannot change.
+                              // One in eight is on the joint axis, so its distance across the joint cannot change.
                               const Vec3 on_axis = point + axis * r.uniform(-3.0, 3.0);
                               const Vec3 centre = r.one_in(8) ? on_axis : r.vector(2.0);
                               return Sphere{centre, r.one_in(9) ? 0.0 : r.uniform(0.0, sizes.radius)};
                             });
 }
 
-/// The same mechanism in another unit, its base moved.
+/// The same mechanism in another length unit, its base translated by `shift`.
 Model<Sphere> moved(const Model<Sphere>& model, double unit, const Vec3& shift) {
   ModelBuilder<Sphere> builder;
   for (std::size_t l = 1; l < model.tree().link_count(); ++l) {
@@ -80,7 +80,7 @@ struct Tally {
   std::size_t lanes = 0, hits = 0, wrong = 0;
 };
 
-/// Both questions about one block against single queries.
+/// Compares both queries on one block with single queries.
 template <class F>
 void compare(SphereBatch& batch, Single<F>& single, std::span<const double> block, Tally& tally) {
   const std::size_t dof = batch.dof_count(), count = block.size() / dof;
@@ -145,7 +145,8 @@ TEST(SphereBatch, AsksAFilterDerivedFromAStockOne) {
   EXPECT_LT(tally.hits, tally.lanes);
 }
 
-/// Configurations between a and b at whose ends the verdicts differ, down to neighbours; then some ulps around.
+/// Bisects between a and b, whose verdicts differ, down to adjacent doubles; returns configurations a few ulps
+/// around.
 template <class F>
 std::vector<double> touching_block(Single<F>& single, std::vector<double> a, std::vector<double> b) {
   const auto verdict = [&](const std::vector<double>& q) {
@@ -254,7 +255,7 @@ TEST(SphereBatch, AnswersHugeAnglesAndSlides) {
   EXPECT_GT(tally.hits, 0U);
 }
 
-/// A ball on a turning arm, and one fixed to the world.
+/// A ball on a rotating arm, and a ball fixed to the world.
 Model<Sphere> arm_and_obstacle() {
   ModelBuilder<Sphere> builder;
   builder.add_link(world, Revolute{}, {Sphere{{1, 0, 0}, 0.1}});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Neighbouring configurations from one list: frames, verdicts and pairs of single queries, to the last bit.
+// Blocks of neighbouring configurations with one candidate list: results equal those of single queries, bit for bit.
 #include "hinge/batch/state_batch.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ Model<Point> random_points(Random& random, std::size_t links, std::size_t per_li
   });
 }
 
-/// Configurations within `spread` of a random one, turns of several revolutions among them.
+/// `count` configurations within `spread` of a random one; some values are many revolutions.
 std::vector<double> neighbours(Random& random, std::size_t dof, std::size_t count, double spread) {
   std::vector<double> centre(dof), block;
   for (double& value : centre)
@@ -67,7 +67,7 @@ struct Tally {
   std::size_t hits = 0, pairs = 0, states = 0;
 };
 
-/// The filter lists exclusions and refuses further pairs.
+/// Uses a filter that lists exclusions and excludes further pairs.
 template <class P>
 void compare(const Model<P>& model, Random& random, BatchCounts& total, Tally& tally) {
   const DofSelection selection = test::random_selection(model.tree(), random);
@@ -79,7 +79,7 @@ void compare(const Model<P>& model, Random& random, BatchCounts& total, Tally& t
   for (const double spread : {0.0, 1e-7, 1e-3, 0.02, 0.02, 0.2, 3.0, 0.01}) {
     const std::size_t count = dof == 0 ? 1 : 1 + random.below(16);
     std::vector<double> block = neighbours(random, dof, count, spread);
-    for (int step = 0; step < 3; ++step) {  // on the way, where lists are kept
+    for (int step = 0; step < 3; ++step) {  // steps of a walk, in which candidate lists are reused
       const detail::simd::Bits hit = batch.collides(block);
       std::vector<std::vector<Hit>> hits(count);
       batch.collisions(block, [&](std::size_t k, const Hit& h) { hits[k].push_back(h); });
@@ -130,7 +130,7 @@ TEST(StateBatch, AnswersAsSingleQueriesDo) {
   EXPECT_LT(tally.hits, tally.states);
 }
 
-/// Links of two points each on axes that turn about each other, and one that slides; all lengths times `unit`.
+/// Links of two points each with alternating joint axes; one joint is prismatic. All lengths are multiples of `unit`.
 Model<Point> chain_of(double unit, std::size_t links) {
   ModelBuilder<Point> builder;
   LinkId last = world;

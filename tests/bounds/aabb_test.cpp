@@ -63,7 +63,7 @@ TEST(Separation, IsALowerBoundOfDistanceMinusReaches) {
   EXPECT_GT(negative, 1000);
 }
 
-// Of points, which no reach grows; the distance is that of points, good to a few ulps at any size.
+// Boxes of points are not inflated. The distance of points is accurate to a few ulps at any size.
 TEST(Separation, IsALowerBoundAtAnySize) {
   Random random(5);
   for (int exponent = -1070; exponent <= 960; ++exponent)

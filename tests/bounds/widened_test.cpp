@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Floats read back as doubles are rounded whatever the optimiser makes of two conversions side by side.
+// A double converted to float and back is rounded, even if the optimiser combines two conversions.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -16,7 +16,7 @@ namespace widened_test {
 }
 
 TEST(Widened, IsTheRoundedNumberWhereTwoAreConvertedAtOnce) {
-  volatile double tenth = 0.1;  // so that nothing is computed by the compiler
+  volatile double tenth = 0.1;  // prevents evaluation at compile time
   const std::array<double, 3> x{3.7 * tenth, 7.4 * tenth, -12.1 * tenth};
   const std::array<double, 3> rounded = through_floats(x.data());
   for (std::size_t k = 0; k < 3; ++k) {

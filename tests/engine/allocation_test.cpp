@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Queries through trees allocate nothing.
+// Tree queries do not allocate memory.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -45,7 +45,7 @@ TEST(TreeQueries, AllocateNothing) {
     robot.self_query(closest);
     hits += any.done() ? 1U : 0U;
   };
-  // The list of hits is the caller's: it grows to what the largest answer takes.
+  // The caller owns the list of hits. It grows until it fits the largest answer.
   for (int k = 0; k < 200; ++k) ask();
   const std::size_t before = allocations;
   for (int k = 0; k < 100; ++k) ask();

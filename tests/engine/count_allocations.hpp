@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// allocations: how often the test program has called operator new. Defines that operator, so for one source a program.
+// Counts calls of operator new in `allocations`. It defines that operator, so include it in one source per program.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@ inline std::size_t allocations = 0;
 
 }  // namespace hinge::test
 
-// malloc aligns as much as the plain forms promise. Not inlined: g++ 12 would take a free() that it sees beside a call
-// of new for a mistake.
+// malloc guarantees the alignment of the plain forms. Not inlined: g++ 12 would warn about a free() that it sees next
+// to a call of new.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++hinge::test::allocations;
   if (void* memory = std::malloc(size)) return memory;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sizes that leave the range of floats, where engine/simd must answer as brute force does.
+// Sizes outside the range of float: engine/simd must return the answers of brute force.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,14 +19,14 @@ namespace extremes_test {
 template <template <class, class, class> class EngineOf>
 using PointsOn = Hierarchy<Point, AdmitAll, UniformClearance, EngineOf>;
 
-/// Each point on a slider of its own.
+/// Each point on its own slider along x.
 Model<Point> sliders(const std::vector<Vec3>& points) {
   ModelBuilder<Point> builder;
   for (const Vec3& x : points) builder.add_link(world, Prismatic{{1, 0, 0}, {}, {}}, {Point{x}});
   return builder.finish();
 }
 
-/// Two rigid groups of twenty points, twisted into each other.
+/// Two interleaved rigid groups of twenty points each.
 Model<Point> two_groups(double size) {
   ModelBuilder<Point> builder;
   for (int h = 0; h < 2; ++h) {
@@ -166,11 +166,11 @@ TEST(WideExtremes, HoldWhereSquaresUnderflow) {
 }
 
 TEST(WideExtremes, LeaveNothingUndecidedWhereFloatsDoNotHoldThem) {
-  // About one middle, so that floats hold both models in the unit of either.
+  // Both models have the same centre, so floats hold each of them in the other's length unit.
   const double size = 0x1p-59;
   const Model<Point> large = sliders({{-1, 0, 0}, {1, 0, 0}, {0, -0.5, 0}, {0, 0.5, 0}});
   const Model<Point> small = sliders({{-size, 0, 0}, {size, 0, 0}});
-  // Twice the distance of the two models; and far above the error of small coordinates, however large they become.
+  // Twice the distance of the two models, and a threshold far above the size of both models.
   for (const double clearance : {2.0, 1e15}) {
     SCOPED_TRACE(clearance);
     PointsOn<Simd> a(large, AdmitAll{}, UniformClearance(clearance)), b(small, AdmitAll{}, UniformClearance(clearance));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What queries in float may answer next to the exact ones: too much or too little, and only as much as they say.
+// Checks float queries against the exact answer: each may err to one side only, and by the undecided pairs only.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,8 +20,8 @@ inline bool names_all(const std::vector<Hit>& hits, const std::vector<Hit>& want
   });
 }
 
-/// `list` and `any` ask the same question with the given options, `exact` is its answer. Returns how many pairs were
-/// undecided.
+/// Runs one query in both float precisions. `list` and `any` run it with the options that they receive; `exact` is
+/// its exact answer. Returns the number of undecided pairs.
 template <class List, class Any>
 std::uint64_t expect_on_their_sides(QueryOptions options, const std::vector<Hit>& exact, const List& list,
                                     const Any& any) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The band of engine/simd against observed errors: floats against the double coordinates verdicts are about.
-// docs/explanation/float_filter.md derives it and tells the worst shares found here.
+// The error band of engine/simd against observed errors of float coordinates, relative to the double coordinates that
+// decide pairs.
+// The derivation and the worst shares are in docs/explanation/float_filter.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +29,7 @@ using test::Random;
 constexpr std::size_t n = detail::simd::width;
 constexpr double u = 0x1p-24;
 
-/// One model as engine/simd keeps it, all of it placed.
+/// One model with the data of engine/simd, all primitives placed.
 struct Placed {
   Placed(const Model<Point>& model, bool inside_groups, double clearance = 0.0)
       : selected(std::make_shared<const SelectedModel<Point>>(model, DofSelection::all(model.tree()))),
@@ -43,7 +44,7 @@ struct Placed {
     for (std::size_t k = 0; k < side.layout().entries.size(); ++k) side.state().refresh(k, placement);
     for (std::uint32_t b = 0; b < side.layout().block_count(); ++b) side.state().block(b, placement);
   }
-  /// A slot's coordinates in double, as verdicts see them.
+  /// Coordinates of a slot in double, which decide pairs.
   Vec3 at(std::size_t slot) {
     return side.state().exact(static_cast<std::uint32_t>(slot / n), placement)[slot % n].position;
   }
@@ -55,7 +56,7 @@ struct Placed {
   detail::SimdSide<Point> side;
 };
 
-/// Worst share of the band that an error took, by what the two points belong to.
+/// Largest share of the band that an error used, by the kind of blocks of the two points.
 struct Worst {
   double mixed = 0, rigid = 0, boxes = 0, trees = 0;
   void take(double& worst, double share) {
@@ -67,7 +68,7 @@ struct Worst {
   }
 };
 
-/// A threshold of exactly the distance: by how much are floats off, to either side?
+/// For a threshold equal to the distance: the error of the float distance as a share of the band.
 void check_pairs(Placed& m, Random& random, std::size_t count, Worst& worst) {
   if (m.slots() < 2) return;
   const double scale = m.side.layout().scale;
@@ -87,7 +88,7 @@ void check_pairs(Placed& m, Random& random, std::size_t count, Worst& worst) {
   }
 }
 
-/// How far points stick out of their boxes: two boxes may take half of the band each.
+/// How far points are outside their float boxes. Each of two boxes may use half of the band.
 void check_boxes(Placed& m, Worst& worst) {
   const detail::BlockLayout& layout = m.side.layout();
   const double half_band = m.side.state().band(0.0) / 2;
@@ -129,17 +130,17 @@ Model<Point> model_of(std::size_t links, std::size_t per_link, double size, cons
   return builder.finish();
 }
 
-/// Rotations whose entries' magnitudes add up to the most, with noise, and any others.
+/// A random rotation; in half of the cases nearly one with the largest sums of absolute entries.
 Mat3 rotation(Random& random) {
   Mat3 r = random.pose(1.0).rotation;
   if (random.one_in(2)) {
     const Vec3 axis = Vec3(Vec3(1, 1, 1) + random.vector(1e-3)).normalized();
-    r = rotation_about(axis, std::numbers::pi);  // entries 1/3 and 2/3
+    r = rotation_about(axis, std::numbers::pi);  // entries of magnitude 1/3 and 2/3
   }
   return r;
 }
 
-/// Rigid groups turned about the model's place and moved by up to `travel`.
+/// Random poses: each rigid group rotates about `offset` and moves by up to `travel`.
 std::vector<Pose> turned(std::size_t groups, const Vec3& offset, double travel, Random& random) {
   std::vector<Pose> poses(groups);
   for (std::size_t g = 1; g < poses.size(); ++g) {
@@ -163,7 +164,7 @@ TEST(FloatFilter, BandCoversTurnedGroups) {
         const std::size_t per_link = repetition % 4 == 0   ? 5
                                      : repetition % 4 == 1 ? 16
                                      : repetition % 4 == 2 ? 100
-                                     : repetition == 3     ? 4200  // with a tree
+                                     : repetition == 3     ? 4200  // large enough for a tree
                                                            : 600;
         Placed m(model_of(repetition == 3       ? 1
                           : repetition % 4 == 3 ? 3
@@ -201,7 +202,7 @@ TEST(FloatFilter, BandCoversConfigurations) {
   worst.print("random mechanisms");
 }
 
-/// Coordinates from elsewhere, each half a unit in the last place from a float and pushed apart by its rounding.
+/// Coordinates from update_placed(). Each is half a float ulp from a float, and rounding pushes all of them outward.
 TEST(FloatFilter, BandCoversAlignedRoundings) {
   Random random(3);
   Worst worst;
@@ -223,7 +224,7 @@ TEST(FloatFilter, BandCoversAlignedRoundings) {
   worst.print("aligned roundings");
 }
 
-/// Two models with origins and scales of their own; the margin as Simd makes it.
+/// Two models with different origins and scales; the band is computed as in Simd.
 TEST(FloatFilter, BandCoversTwoModels) {
   Random random(4);
   for (const double far : {0.0, 10.0, 1e3, 1e6}) {
@@ -256,7 +257,7 @@ TEST(FloatFilter, BandCoversTwoModels) {
   }
 }
 
-/// Threshold plus margin, squared, in float against the numbers they stand for; and the arithmetic of a distance.
+/// Float rounding of (threshold + margin)^2, of squared distances and of square roots, in units of u.
 TEST(FloatFilter, ArithmeticTakesLessThanItsShare) {
   Random random(5);
   double thresholds = 0.0, extras = 0.0, distances = 0.0, roots = 0.0;
@@ -293,7 +294,7 @@ TEST(FloatFilter, ArithmeticTakesLessThanItsShare) {
   EXPECT_LT(roots, 3.5);
 }
 
-/// Queries in float against exact distances: what they may be off by, and what they must not leave open.
+/// Queries in float against exact distances: a wrong decision and an undecided pair each need a small gap.
 TEST(FloatFilter, BandCoversMeasuredDistances) {
   Random random(6);
   for (const double far : {0.0, 1e3, 1e6, 1e9}) {
@@ -306,7 +307,7 @@ TEST(FloatFilter, BandCoversMeasuredDistances) {
       const std::vector<Pose> poses = turned(probe.model().groups()->size(), offset, 4.0, random);
       probe.update_poses(poses);
       const std::vector<Point> at(probe.placed().begin(), probe.placed().end());
-      // One pair is exactly at its threshold.
+      // The threshold plus the margin equals the distance of one pair.
       const double clearance = distance(at.front(), at.back()) * random.uniform(0.2, 1.0);
       const double margin = std::max(0.0, distance(at.front(), at.back()) - clearance), t = clearance + margin;
       Placed m(model, false, clearance);
@@ -329,7 +330,8 @@ TEST(FloatFilter, BandCoversMeasuredDistances) {
         for (std::size_t i = 0; i < at.size(); ++i)
           for (std::size_t j = i + 1; j < at.size(); ++j) {
             if (model.links()[i] == model.links()[j]) continue;
-            // Twice the band: measured distances are off by one, and are left open within one.
+            // Twice the band: a measured distance has an error of one band, and pairs within another band are left
+            // undecided.
             const double gap = distance(at[i], at[j]) - t;
             ASSERT_FALSE(gap > 2 * band && found[i][j] == 1) << gap / band;
             ASSERT_FALSE(gap < -2 * band && found[i][j] == 0) << gap / band;
@@ -340,7 +342,7 @@ TEST(FloatFilter, BandCoversMeasuredDistances) {
     std::printf("measured, %g from the origin: %.3f of the band, %d undecided\n", far, worst,
                 static_cast<int>(undecided));
     EXPECT_LT(worst, 1.0);
-    EXPECT_GE(undecided, 80U);  // the pair at its threshold, on either side
+    EXPECT_GE(undecided, 80U);  // the pair at its threshold, for both float precisions
   }
 }
 

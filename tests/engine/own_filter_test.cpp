@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A filter of one's own is asked of every pair, whatever the stock filter that it is derived from promises.
+// Engines ask a custom filter for every pair, whatever its stock base filter promises.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -28,13 +28,13 @@ struct EveryOther : AdmitAll {
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept { return (index(i) + index(j)) % 2 == 0; }
 };
 
-/// Two rows of 40 points side by side, where only neighbours are near: every other pair of neighbours counts.
+/// Two parallel rows of 40 points where only opposite points are close. The filter admits every other pair.
 TEST(OwnFilter, IsAskedOfPairsOutsideAllLists) {
   ModelBuilder<Point> builder;
   for (const double y : {0.0, 0.5}) {
     std::vector<Point> row;
     for (int k = 0; k < 40; ++k) row.push_back(Point{{2.0 * k, y, 0.0}});
-    if (y > 0.0) row.erase(row.begin());  // so that neighbours differ by 39
+    if (y > 0.0) row.erase(row.begin());  // opposite points then differ by the odd number 39 in their index
     builder.add_link(world, Revolute{}, row);
   }
   const Model<Point> model = builder.finish();
@@ -50,7 +50,8 @@ TEST(OwnFilter, IsAskedOfPairsOutsideAllLists) {
   EXPECT_EQ(found.template operator()<Lazy>(), expected);
 }
 
-/// Queries of a model and between two, in a few states. (Each kind of query is compiled for each engine, slowly.)
+/// Queries of one model and of two models in a few states. (Each kind of query is compiled per engine, which is
+/// slow.)
 template <class P, class F, template <class, class, class> class EngineOf>
 void compare_own(std::uint64_t seeds = 25) {
   std::size_t hits = 0;
@@ -82,14 +83,14 @@ void compare_own(std::uint64_t seeds = 25) {
   EXPECT_GT(hits, seeds);
 }
 
-// Filters are asked in the same places whatever the primitive; points and triangles have code of their own in Simd.
+// Engines ask filters at the same points for every primitive; Simd has its own code for points and for triangles.
 TEST(OwnFilter, DerivedFromAdmitAllIsAsked) {
   compare_own<Point, OwnOfAll, Simd>();
   compare_own<Triangle, OwnOfAll, Simd>();
   compare_own<Capsule, OwnOfAll, Lazy>();
 }
 
-// Filters that promise the same are the same to an engine: own_filters.hpp says what each of these promises.
+// Engines treat filters with equal promises equally; own_filters.hpp states these promises.
 TEST(OwnFilter, DerivedFromDifferentLinksIsAsked) {
   compare_own<Point, OwnOfLinks, Lazy>();
   compare_own<Triangle, OwnWithLinks, Simd>();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Filters of one's own, each derived from a stock filter that promises more than `admits`.
+// Custom filters for tests. Each one derives from a stock filter whose promises its own `admits` does not keep.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 
 namespace hinge::test {
 
-/// One pair in two, symmetric, by no rule that an engine could know.
+/// A pseudo-random half of the pairs, symmetric in i and j, with no structure that an engine could use.
 inline bool by_chance(PrimitiveId i, PrimitiveId j) noexcept {
   const auto [low, high] = std::minmax({static_cast<std::uint32_t>(index(i)), static_cast<std::uint32_t>(index(j))});
   return (philox({low, high, 0, 0}, {1, 2})[0] & 1U) != 0;
@@ -28,20 +28,20 @@ struct OwnOfAll : AdmitAll {
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept { return by_chance(i, j); }
 };
 
-/// Hides what the base says of links, and admits pairs that it refuses.
+/// Hides the base's test of links, so pairs of ignored links may be admitted.
 struct OwnOfLinks : DifferentLinks {
   using DifferentLinks::DifferentLinks;
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept { return by_chance(i, j); }
 };
 
-/// Keeps what the base says of links.
+/// Keeps the base's test of links and excludes further pairs.
 struct OwnWithLinks : DifferentLinks {
   using DifferentLinks::admits;
   using DifferentLinks::DifferentLinks;
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept { return DifferentLinks::admits(i, j) && by_chance(i, j); }
 };
 
-/// Refuses pairs that the base does not list.
+/// Excludes pairs that the base does not list as excluded.
 struct OwnOfList : ExcludedPairs {
   using ExcludedPairs::ExcludedPairs;
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept { return ExcludedPairs::admits(i, j) && by_chance(i, j); }
@@ -50,7 +50,7 @@ struct OwnOfList : ExcludedPairs {
 static_assert(!ListsExclusions<OwnOfAll> && !AdmitsLinks<OwnOfLinks> && AdmitsLinks<OwnWithLinks>);
 static_assert(ListsExclusions<OwnOfList>);
 
-/// Of a model: an own filter over a random base.
+/// Returns a custom filter for `model`, over a random base filter.
 template <class F, class P>
 F own_filter(const Model<P>& model, Random& random) {
   if constexpr (std::is_same_v<F, OwnOfAll>) {

@@ -42,10 +42,10 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-/// A list of excluded pairs, the general filter.
+/// A list of excluded pairs, the most general filter.
 class ExcludedPairs {
  public:
-  /// By primitive, each pair in both lists.
+  /// `lists` holds the excluded partners of each primitive; each pair is in both lists.
   explicit ExcludedPairs(std::vector<std::vector<PrimitiveId>> lists) : excluded_(std::move(lists)) { sort(); }
   ExcludedPairs(std::size_t n, Random& random, std::size_t one_in) : excluded_(n) {
     for (std::size_t i = 0; i < n; ++i)
@@ -74,7 +74,7 @@ class ExcludedPairs {
 
 static_assert(ListsExclusions<ExcludedPairs>);
 
-/// The same exclusions for engines that must ask for every pair.
+/// The same exclusions without lists: engines must call admits() for every pair.
 struct UnlistedPairs {
   ExcludedPairs pairs;
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept { return pairs.admits(i, j); }
@@ -93,8 +93,8 @@ inline TypedThresholds random_thresholds(std::size_t n, Random& random) {
   return {std::move(type), types, std::move(table)};
 }
 
-/// A tree of up to `links` links with up to `per_link` primitives each; make(random, joint axis, axis point) gives one
-/// primitive in the link's frame, sometimes on the joint's axis.
+/// A random tree of up to `links` links with up to `per_link` primitives each. make(random, axis, point) returns one
+/// primitive in the link's frame, sometimes on the joint axis (direction `axis`, through `point`).
 template <class Make>
 auto random_model(Random& random, std::size_t links, std::size_t per_link, bool basic_groups, const Make& make) {
   using P = decltype(make(random, Vec3(), Vec3()));

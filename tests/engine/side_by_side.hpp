@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two hierarchies of one random mechanism side by side, one of them brute force: every query in every state.
+// Runs every query on two hierarchies of one random mechanism in every state; one of the two is brute force.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ inline Triangle make_primitive(Random& random, const Vec3&, const Vec3&) {
   return Triangle{a, a + random.vector(1.0), a + random.vector(1.0)};
 }
 
-/// Hits compare by pair and distance; engines may look at (p, q) or (q, p), so distances agree to rounding only.
+/// Pairs and thresholds must be equal. Distances agree to rounding only: engines may test (p, q) or (q, p).
 inline void expect_same(const std::vector<Hit>& a, const std::vector<Hit>& b) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t k = 0; k < a.size(); ++k) {
@@ -63,7 +63,7 @@ inline void expect_same(const std::optional<Hit>& a, const std::optional<Hit>& b
 
 using Primitives = testing::Types<Point, Sphere, Capsule, Triangle>;
 
-/// Two hierarchies of one model, side by side in every state.
+/// Two hierarchies of one model that always have the same state.
 template <class P, class F, template <class, class, class> class EngineOf>
 class Pair {
  public:
@@ -113,7 +113,7 @@ class Pair {
   Reference reference;
 
  private:
-  /// Only points on engine/simd are measured in float; all else is decided.
+  /// Only engine/simd measures points in float; every other combination decides all pairs.
   static constexpr bool measures = std::is_same_v<Tested, Hierarchy<Point, F, TypedThresholds, Simd>>;
   static void expect_decided(std::uint64_t undecided) {
     if (!measures) {
@@ -131,7 +131,7 @@ void compare_with_brute(Random& random, const F& filter, const Model<P>& model) 
   pair.compare(random);
   std::vector<double> q(selection.size());
   for (int step = 0; step < 6; ++step) {
-    // Every other time so few that engines look for what stood still.
+    // Every other step changes so few values that engines search for unmoved groups.
     const std::size_t changed = step % 2 == 0 ? 2 : 10;
     for (double& value : q)
       if (random.one_in(changed)) value = random.uniform(-3.0, 3.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// engine/simd against brute force at every size where its blocks, rows and trees begin or end, point for point.
+// engine/simd against brute force on points, for sizes around every boundary of blocks, rows of boxes and trees.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ using test::GroupSizes;
 using test::Random;
 using test::UnlistedPairs;
 
-/// Distances of points have the same bits from both ends, so hits have to be equal and not only near.
+/// A distance of points has the same bits in both directions, so hits must be equal, not only close.
 void expect_equal(const std::vector<Hit>& tested, const std::vector<Hit>& reference) {
   ASSERT_EQ(tested.size(), reference.size());
   for (std::size_t k = 0; k < tested.size(); ++k)
@@ -37,7 +37,7 @@ void expect_equal(const std::vector<Hit>& tested, const std::vector<Hit>& refere
                                        << index(reference[k].second);
 }
 
-/// Which of several equally close pairs is named does not matter.
+/// If several pairs are equally close, either engine may return any of them.
 void expect_equal(const std::optional<Hit>& tested, const std::optional<Hit>& reference) {
   ASSERT_EQ(tested.has_value(), reference.has_value());
   if (tested) {
@@ -45,7 +45,7 @@ void expect_equal(const std::optional<Hit>& tested, const std::optional<Hit>& re
   }
 }
 
-/// Admits a pair of two models or not, without any symmetry between them.
+/// A filter between two models, without any symmetry in i and j.
 struct Checkered {
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept { return (7 * index(i) + 3 * index(j)) % 5 != 0; }
 };
@@ -55,7 +55,7 @@ Checkered across(const F&) {
   return {};
 }
 
-/// One model on both engines.
+/// One model in both engines.
 template <class F, class D>
 struct Both {
   Both(const Model<Point>& model, const DofSelection& selection, const F& f, const D& matrix)
@@ -94,7 +94,7 @@ void compare_self(Both<F, D>& model, Random& random, Tally& tally) {
   expect_equal(model.tested.self_within(0.5, options), model.reference.self_within(0.5, options));
   const auto closest = model.reference.self_closest(options);
   expect_equal(model.tested.self_closest(options), closest);
-  expect_equal(model.tested.self_closest(options), closest);  // with the last answer to start from
+  expect_equal(model.tested.self_closest(options), closest);  // starts from the previous answer
   ++tally.states;
   ++(all.empty() ? tally.free : tally.colliding);
 }
@@ -116,7 +116,7 @@ void compare_across(Both<F, D>& a, Both<F, D>& b, Random& random) {
   expect_equal(a.tested.closest(b.tested, filter, options), a.reference.closest(b.reference, filter, options));
 }
 
-/// Through all ways to give a state. `states`: how many of them.
+/// Compares both engines in `states` states, set through every kind of update.
 template <class F, class D>
 void walk(Both<F, D>& a, Both<F, D>& b, int states, Random& random, Tally& tally) {
   std::vector<double> q(a.tested.dof_count()), other(b.tested.dof_count());
@@ -125,17 +125,17 @@ void walk(Both<F, D>& a, Both<F, D>& b, int states, Random& random, Tally& tally
   for (int state = 0; state < states; ++state) {
     SCOPED_TRACE(state);
     switch (state % 6) {
-      case 0:  // everything moves
+      case 0:  // all groups move
         for (double& value : q) value = random.uniform(-3.0, 3.0);
         a.both([&](auto& h) { h.update(q); });
         break;
-      case 1:  // little moves
+      case 1:  // few groups move
       case 4:
         for (std::size_t k = 0; k < 1 + q.size() / 20 && !q.empty(); ++k)
           q[random.below(q.size())] = random.uniform(-3.0, 3.0);
         a.both([&](auto& h) { h.update(q); });
         break;
-      case 2:  // every primitive for itself
+      case 2:  // each primitive moves on its own
       {
         std::vector<Point> placed(a.reference.placed().begin(), a.reference.placed().end());
         for (Point& p : placed) p.position += random.vector(0.3);
@@ -163,7 +163,7 @@ enum class Filter : std::uint8_t { none, listed, unlisted };
 constexpr std::size_t matrices = 4, filters = 3;
 
 struct Case {
-  std::vector<std::size_t> links, other_links;  ///< primitives per link of the two models
+  std::vector<std::size_t> links, other_links;  ///< number of primitives per link of the two models
   Matrix matrix = Matrix::uniform;
   Filter filter = Filter::none;
   int states = 4;
@@ -185,13 +185,13 @@ Tally run(const Case& c, Random& random) {
     }
     const std::size_t types = c.matrix == Matrix::many_types ? 17 + random.below(40) : 1 + random.below(16);
     auto table = test::random_table(types, c.matrix == Matrix::zeros ? 10 : random.below(5), random);
-    // Every other table with a type that collides with none.
+    // Every second table contains a type that never collides.
     const bool has_idle_type = types > 1 && random.one_in(2);
     for (std::size_t t = 0; t < types && has_idle_type; ++t) table[t] = table[t * types] = 0.0;
     with(test::dealt_thresholds(a.size(), types, table, random),
          test::dealt_thresholds(b.size(), types, table, random));
   };
-  // About four partners are excluded in large models; one pair in five in small ones.
+  // Excludes about four partners per primitive in large models, one pair in five in small ones.
   const auto excluded = [&](const Model<Point>& m) {
     return ExcludedPairs(m.size(), random, std::max<std::size_t>(5, m.size() / 4));
   };
@@ -207,8 +207,8 @@ Tally run(const Case& c, Random& random) {
   return tally;
 }
 
-/// The sizes asked for, each with every way to share primitives out and `combinations` of matrix and filter, of which
-/// there are twelve.
+/// Runs each size with every distribution over rigid groups and with `combinations` of the twelve combinations of
+/// matrix and filter.
 void run_sizes(std::span<const std::size_t> sizes, std::size_t combinations, int states, std::uint64_t seed) {
   Random random(seed);
   Tally total;
@@ -232,7 +232,7 @@ void run_sizes(std::span<const std::size_t> sizes, std::size_t combinations, int
         total.free += tally.free;
         if (testing::Test::HasFailure()) return;
       }
-  // Neither answer may be rare, or the comparison says little.
+  // Both answers must be frequent, or the comparison proves little.
   EXPECT_GT(total.colliding, total.states / 10);
   EXPECT_GT(total.free, total.states / 50);
 }
@@ -247,7 +247,7 @@ TEST(WideSizes, EqualsBruteAroundTwoHundredFiftySix) {
   run_sizes(sizes, matrices * filters, 6, 2);
 }
 
-/// Brute force takes seconds for a large model: some cases are left to `./run test --all`.
+/// Brute force takes seconds on a large model, so `./run test` skips some cases that `./run test --all` runs.
 bool exhaustive() { return std::getenv("HINGE_TEST_ALL") != nullptr; }
 
 TEST(WideSizes, EqualsBruteOnLargeModels) {
@@ -255,8 +255,8 @@ TEST(WideSizes, EqualsBruteOnLargeModels) {
   run_sizes(std::span(sizes).first(exhaustive() ? 3 : 2), 1, 3, 3);
 }
 
-/// Small groups, groups of a row of blocks, of the most that go without a tree of their own, and 4097 points, whose
-/// boxes stand in three levels.
+/// Group sizes: small, one row of blocks, the largest without a tree, and 4097 points, which need three levels of
+/// boxes.
 TEST(WideSizes, EqualsBruteWhereGroupsHaveTrees) {
   constexpr std::size_t row = detail::simd::width * detail::simd::width,
                         flat = detail::BlockLayout::largest_flat_group * detail::simd::width;
@@ -283,8 +283,8 @@ TEST(WideSizes, EqualsBruteWhereGroupsHaveTrees) {
     }
 }
 
-/// A turned and shifted lattice whose neighbours are as far apart as the clearance but for the last bits of a double:
-/// floats alone would get half of them wrong.
+/// A rotated and translated lattice. Neighbours are one clearance apart up to the last bits of a double, so floats
+/// alone would misjudge half of the pairs.
 TEST(WideSizes, LosesNoPairAtItsThreshold) {
   Random random(5);
   std::size_t hits = 0, misses = 0;
@@ -308,7 +308,7 @@ TEST(WideSizes, LosesNoPairAtItsThreshold) {
       for (const double off : {-1e-9, 0.0, 1e-9}) {
         const UniformClearance clearance(1.0 + off * (1e-3 + far));
         Both both(model, all, AdmitAll{}, clearance);
-        // A turn that moves nothing but last bits.
+        // A joint angle of 1e-17 changes only the last bits.
         const std::vector<double> q(both.tested.dof_count(), random.one_in(2) ? 0.0 : 1e-17);
         both.both([&](auto& h) { h.update(q); });
         const auto expected = both.reference.self_collisions();
@@ -325,8 +325,8 @@ TEST(WideSizes, LosesNoPairAtItsThreshold) {
   EXPECT_GT(misses, 1000U);
 }
 
-/// Points so exponentially spaced that floats take nearly all of them for one: queries change over to trees of boxes in
-/// double half-way through rigid groups, through chains, and through pairs of models.
+/// Exponentially spaced points, which floats cannot separate. Queries switch to the double-precision BVH in the
+/// middle of rigid groups, of chains, and of pairs of models.
 TEST(WideSizes, EqualsBruteWhereFloatsTellNothingApart) {
   Random random(6);
   const auto point = [&] { return Point{std::exp2(random.uniform(-20.0, 900.0)) * random.vector(1.0)}; };
@@ -355,7 +355,7 @@ TEST(WideSizes, EqualsBruteWhereFloatsTellNothingApart) {
   EXPECT_GT(counts.nodes_split, 0U);
 }
 
-/// Crowds at one point, each on a slider of its own along x.
+/// n points at one position, each on its own slider along x.
 Model<Point> crowd_at_one_point(std::size_t n) {
   ModelBuilder<Point> builder;
   for (std::size_t k = 0; k < n; ++k) builder.add_link(world, Prismatic{Vec3::UnitX(), {}, {}}, {Point{Vec3(1, 2, 3)}});

@@ -27,7 +27,7 @@ TYPED_TEST_SUITE(WideEquality, test::Primitives);
 
 TYPED_TEST(WideEquality, HoldsOnRandomMechanisms) {
   using P = TypeParam;
-  // Brute force over curved or flat primitives takes a microsecond a pair: few large cases for them.
+  // Brute force takes a microsecond per pair of extended primitives, so they have few large cases.
   const std::uint64_t seeds = std::is_same_v<P, Point> ? 300 : 100;
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     SCOPED_TRACE(seed);
@@ -43,7 +43,7 @@ TYPED_TEST(WideEquality, HoldsOnRandomMechanisms) {
   }
 }
 
-/// Fewer static primitives than a block holds, which nothing comes near until after coordinates came from elsewhere.
+/// Fewer static primitives than a block holds. Nothing comes near them until after a call of update_placed().
 TEST(Simd, KeepsStaticBlocksThroughCoordinatesFromElsewhere) {
   ModelBuilder<Point> builder;
   builder.add_link(world, Fixed{}, {Point{{0, 0, 0}}, Point{{0, 7, 0}}});
@@ -63,12 +63,12 @@ TEST(Simd, KeepsStaticBlocksThroughCoordinatesFromElsewhere) {
   q[5] = 1;
   wide.update(q);
   EXPECT_FALSE(wide.self_collides());
-  q[0] = -100.1;  // one value of eight: what stood still is not looked at again
+  q[0] = -100.1;  // one value of eight changes, so the engine does not test unmoved pairs again
   wide.update(q);
   EXPECT_EQ(wide.self_collisions().size(), 2U);
 }
 
-/// A square of points an entry apart, each on a slider of its own; its diagonals are of no interest.
+/// The corners of a unit square, each on its own slider along x.
 Model<Point> square() {
   ModelBuilder<Point> builder;
   for (const Vec3& x : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)})
@@ -78,7 +78,7 @@ Model<Point> square() {
 
 TEST(WideInFloat, LeavesOpenWhatIsAtItsThresholdAndCountsIt) {
   const ExcludedPairs one_side({{id<PrimitiveId>(1)}, {id<PrimitiveId>(0)}, {}, {}});
-  // Sides are 1 long: pairs of types 0 and 0 are at their threshold, of 1 and 1 far below it, of 0 and 1 above.
+  // Sides have length 1: above the threshold for types 0 and 1, at it for types 0 and 0. No side has types 1 and 1.
   const TypedThresholds thresholds({0, 0, 0, 1}, 2, {1.0, 0.5, 0.5, 3.0});
   Hierarchy wide(square(), one_side, thresholds);
   const auto ask = [&](Precision precision, double margin) {
@@ -90,11 +90,12 @@ TEST(WideInFloat, LeavesOpenWhatIsAtItsThresholdAndCountsIt) {
   };
   using Answer = std::pair<std::size_t, std::uint64_t>;
   EXPECT_EQ(ask(Precision::exact, 0.0), Answer(0, 0));
-  EXPECT_EQ(ask(Precision::never_miss, 0.0), Answer(1, 1));  // 1 and 2; the filter does not admit 0 and 1
+  EXPECT_EQ(ask(Precision::never_miss, 0.0),
+            Answer(1, 1));  // the side of points 1 and 2; the filter excludes points 0 and 1
   EXPECT_EQ(ask(Precision::never_cry_wolf, 0.0), Answer(0, 1));
   EXPECT_EQ(ask(Precision::exact, 0x1p-30), Answer(1, 0));
   EXPECT_EQ(ask(Precision::never_cry_wolf, 0x1p-30), Answer(0, 1));
-  // Far above what floats resolve, where the sides of types 0 and 1 are at their threshold.
+  // A margin far above float resolution puts the sides of types 0 and 1 at their threshold.
   EXPECT_EQ(ask(Precision::exact, 0.5), Answer(2, 0));
   EXPECT_EQ(ask(Precision::never_miss, 0.5), Answer(4, 2));
   EXPECT_EQ(ask(Precision::never_cry_wolf, 0.5), Answer(2, 2));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random models of points whose rigid groups have the sizes asked for, for tests of what happens at block boundaries.
+// Random models of points with given rigid group sizes, to test block boundaries.
 #pragma once
 
 #include <algorithm>
@@ -15,22 +15,22 @@
 
 namespace hinge::test {
 
-/// How the primitives of a model are shared out among its rigid groups.
+/// How the primitives of a model are distributed over its rigid groups.
 enum class GroupSizes : std::uint8_t {
   ones,
   fifteens,
   sixteens,
   seventeens,
-  static_giant,   ///< nearly all on the world, single ones behind
-  two_giants,     ///< two moving groups of half the model each, a few more between and behind
+  static_giant,   ///< nearly all on the world, a few single-point links after it
+  two_giants,     ///< two moving groups of about half the model each, a few other links between and after them
   static_moving,  ///< half on the world, half on the last link
-  mixed           ///< anything from none to forty
+  mixed           ///< 0 to 40 primitives per link
 };
 inline constexpr std::array all_group_sizes = {
     GroupSizes::ones,         GroupSizes::fifteens,   GroupSizes::sixteens,      GroupSizes::seventeens,
     GroupSizes::static_giant, GroupSizes::two_giants, GroupSizes::static_moving, GroupSizes::mixed};
 
-/// Primitives per link, the world first; they sum up to n.
+/// Number of primitives per link, world first; the sum is n.
 inline std::vector<std::size_t> share_out(std::size_t n, GroupSizes sizes, Random& random) {
   std::vector<std::size_t> links{0};
   const auto in_steps_of = [&](std::size_t step) {
@@ -68,8 +68,8 @@ inline std::vector<std::size_t> share_out(std::size_t n, GroupSizes sizes, Rando
   return links;
 }
 
-/// A random tree of links with so many points each, about one per eight cubic units where they start; every joint free.
-/// Some points coincide, some lie on joint axes.
+/// A random tree of links with the given numbers of points per link and one DOF per joint. The reference has about
+/// one point per eight cubic units. Some points coincide, and some lie on joint axes.
 inline Model<Point> sized_model(const std::vector<std::size_t>& per_link, Random& random) {
   ModelBuilder<Point> builder;
   std::size_t n = 0;
@@ -97,7 +97,7 @@ inline Model<Point> sized_model(const std::vector<std::size_t>& per_link, Random
   return builder.finish();
 }
 
-/// Types dealt out at random.
+/// Thresholds from `table` (count x count) with a random type for each of n primitives.
 inline TypedThresholds dealt_thresholds(std::size_t n, std::size_t count, const std::vector<double>& table,
                                         Random& random) {
   std::vector<std::uint16_t> type(n);
@@ -105,7 +105,7 @@ inline TypedThresholds dealt_thresholds(std::size_t n, std::size_t count, const 
   return {std::move(type), count, table};
 }
 
-/// count x count thresholds; `zeros` of ten are 0.
+/// A symmetric count x count table of thresholds; an entry is 0 with probability zeros / 10.
 inline std::vector<double> random_table(std::size_t count, std::size_t zeros, Random& random) {
   std::vector<double> table(count * count);
   for (std::size_t s = 0; s < count; ++s)

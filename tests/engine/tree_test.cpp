@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The trees of engine/simd: what they hold, and every query through them against brute force.
+// The trees of engine/simd: their contents, and every query through them against brute force.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ namespace tree_test {
 
 using test::Random;
 
-/// Walks a tree; every box must hold what is below it. Returns the primitives of its leaves.
+/// Walks a tree and checks that every box contains everything below it. Returns the primitives of its leaves.
 std::vector<std::uint32_t> collect(const detail::TreeStore& store, detail::BoxId root,
                                    const std::vector<detail::BuildItem>& items) {
   std::vector<std::uint32_t> found;
@@ -126,7 +126,7 @@ TEST(AdmittedPairs, KeepWhatIsLeftOutInMemoryForThatAlone) {
         for (std::size_t q = 0; q < (n + 15) / 16 * 16; ++q)
           ASSERT_EQ((parts.get(p, q / 16) >> q % 16 & 1U) != 0, q < n && tested[p][q]) << p << ' ' << q;
     }
-  // A chain of links, each left out with its neighbour and the base.
+  // A chain of links; each one excludes its neighbour and the base.
   const std::size_t n = 100'000;
   detail::AdmittedPairs chain;
   for (std::size_t p = 0; p < n; ++p) {
@@ -137,8 +137,8 @@ TEST(AdmittedPairs, KeepWhatIsLeftOutInMemoryForThatAlone) {
   EXPECT_LE(chain.bytes(), 100 * n);
 }
 
-/// Links of many triangles: bumpy balls around the link's origin, every other one a quarter as large and as fine; one
-/// link in `fixed_in` is fixed to the one before it.
+/// A chain of links with bumpy balls of triangles around their origins. Every other ball has a quarter of the size.
+/// One link in `fixed_in` is fixed to its parent.
 Model<Triangle> bumpy_chain(Random& random, std::size_t links, std::size_t triangles, double size,
                             std::size_t fixed_in = 4) {
   ModelBuilder<Triangle> builder;
@@ -180,7 +180,7 @@ TEST(TreeQueries, EqualBruteForceWithoutThresholds) {
     Hierarchy<Triangle, DifferentLinks, UniformClearance, Brute> reference(model, filter, UniformClearance(0.0));
     LinkPairHits links(model.links());
     std::vector<double> q(tested.dof_count());
-    // Half of the runs with an order of pairs, which changes no answer.
+    // Half of the runs calibrate the order of pairs, which must not change any answer.
     for (int k = 0; seed % 2 == 0 && k < 10; ++k) {
       for (double& value : q) value = random.uniform(-3.0, 3.0);
       tested.update(q);
@@ -208,7 +208,8 @@ TEST(TreeQueries, EqualBruteForceWithoutThresholds) {
   }
 }
 
-/// Links of a group are walked as one where they are tested with the same links, and only there.
+/// Queries walk the links of a rigid group together if and only if the filter admits the same partners for all of
+/// them.
 TEST(TreeQueries, EqualBruteForceWhereLinksOfAGroupAreTestedWithOthers) {
   int collides = 0, apart = 0, merged = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -254,7 +255,7 @@ class Refuses {
   bool done() const noexcept { return false; }
 };
 
-/// A collector may throw, and the next query is answered as ever.
+/// If a collector throws, the next query still returns the correct answer.
 TEST(TreeQueries, LetExceptionsThrough) {
   Random random(4);
   const auto model = bumpy_chain(random, 4, 50, 1.0);
@@ -265,7 +266,7 @@ TEST(TreeQueries, LetExceptionsThrough) {
   EXPECT_TRUE(tree.self_collides());
 }
 
-/// The same answers wherever the model stands and whatever its unit: trees are kept about their own middles.
+/// Answers do not depend on the model's position or length unit: trees are stored relative to their own centres.
 TEST(TreeQueries, EqualBruteForceFarFromTheOriginAndAtAnyScale) {
   for (const double size : {1e-12, 1e-3, 1.0, 1e6, 1e12})
     for (const double away : {0.0, 1e3, 1e9}) {
@@ -317,7 +318,7 @@ TEST(TreeQueries, EqualBruteForceBetweenModelsOfDifferentSizes) {
       test::expect_same(a.closest(b), c.closest(d));
       EXPECT_EQ(a.collides(b), c.collides(d));
       EXPECT_EQ(b.collides(a), c.collides(d));
-      // An order of links changes no answer.
+      // Calibrating the order of link pairs must not change any answer.
       if (step > 0) a.calibrate_pair_order(b);
     }
     if (HasFailure()) return;

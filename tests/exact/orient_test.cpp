@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Error-free transforms, whole numbers and orientations against Boost.Multiprecision.
+// Error-free transforms, big integers and orientation signs against Boost.Multiprecision.
 #include "hinge/detail/exact/orient.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ namespace orient_test {
 using test::Random;
 using Big = boost::multiprecision::cpp_int;
 
-/// x * 2^1074.
+/// Returns x * 2^1074, which is an integer.
 Big big(double x) {
   int exponent = 0;
   const double mantissa = std::frexp(x, &exponent);
@@ -55,7 +55,7 @@ TEST(ErrorFree, SumsAndProductsLoseNothing) {
   }
 }
 
-/// Equal sign, and `expected` rounded to 53 bits.
+/// Expects the sign of `expected` and its value rounded to 53 bits.
 void expect_same(const Integer& n, const Big& expected) {
   EXPECT_EQ(n.sign(), expected.sign());
   const Scaled s = n.scaled();
@@ -128,7 +128,7 @@ int expected2d(const Vec3& a, const Vec3& b, const Vec3& c, int axis) {
   return Big(ax * by - ay * bx + bx * cy - by * cx + cx * ay - cy * ax).sign();
 }
 
-/// Counts of -1, 0, 1, so that a test can show that it met them.
+/// Counts signs -1, 0 and 1, so a test can show that all of them occurred.
 struct Seen {
   std::array<std::size_t, 3> times{};
   void add(int sign) { ++times[sign < 0 ? 0U : sign == 0 ? 1U : 2U]; }

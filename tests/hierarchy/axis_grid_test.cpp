@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which axes pass through a point: the grid names every one that does and few others, and a star of joints gets the
-// same answer as from looking at all of them.
+// The grid of joint axes finds all axes through a point and few others. With it, a star of joints gives the same
+// result as a test of all axes.
 #include "hinge/detail/model/axis_grid.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,8 @@ namespace axis_grid_test {
 constexpr std::uint64_t seed = 10000;
 using test::Random;
 
-/// Places for n lines, by the manner: in a cube, in a plane, on a line, at one point, far apart in size.
+/// A random point for a line. `manner`: 0 in a cube, 1 in a plane, 2 on a line, 3 at one point, 4 at very different
+/// scales.
 Vec3 place(Random& random, int manner, double offset) {
   Vec3 x = random.vector(1.0);
   if (manner >= 1) x[2] = 0.0;
@@ -87,7 +88,8 @@ TEST(AxisGrid, NamesFewOthers) {
   }
 }
 
-/// Links that turn on the world, some about axes through the others' points; each holds a point.
+/// Links that rotate relative to the world, each with one primitive. Some joint axes pass through the primitives of
+/// earlier links.
 template <class P, class Make>
 void expect_the_same_as_from_all(const Make& make, std::size_t n) {
   Random random(seed);
@@ -96,7 +98,7 @@ void expect_the_same_as_from_all(const Make& make, std::size_t n) {
   for (std::size_t k = 0; k < n; ++k) {
     const Pose pose = random.pose(10.0);
     Vec3 axis = random.vector(1.0).normalized();
-    // Through an earlier point, now and then.
+    // One axis in three passes through an earlier point.
     const bool aimed = !centres.empty() && random.one_in(3);
     if (aimed) axis = pose.inverse() * centres[random.below(centres.size())];
     const Vec3 point = axis * (random.one_in(4) ? 0.5 : 0.0) + (random.one_in(3) ? Vec3(0.1, 0.2, 0.3) : Vec3::Zero());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Without NDEBUG a hierarchy refuses filters whose lists or links contradict what they admit.
+// Without NDEBUG, a hierarchy rejects a filter whose lists or link tests contradict admits().
 #include <gtest/gtest.h>
 
 #include <span>
@@ -42,7 +42,7 @@ std::string refusal(const Act& act) {
 
 struct Listed {
   PrimitiveId fifth{5};
-  bool refuses = false;  // what it lists
+  bool refuses = false;  // excludes the pair that it lists
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept {
     return !refuses || index(i) + index(j) != 7 || (index(i) != 2 && index(j) != 2);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The extremes a hierarchy meets: sizes, refusals, ties, coincident input, counts.
+// Edge cases of a hierarchy: model sizes, rejected input, ties, coincident input, counts.
 #include "hinge/hierarchy.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ using test::Random;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// Points in two groups that can turn against each other about a distant axis.
+/// Points in two rigid groups that rotate relative to each other about a distant axis.
 Model<Point> two_groups(const std::vector<Vec3>& fixed, const std::vector<Vec3>& moving) {
   ModelBuilder<Point> build;
   for (const Vec3& x : fixed) build.add_primitive(world, Point{x});
@@ -117,7 +117,7 @@ TYPED_TEST(EveryHierarchy, ReportsConstantContactsApart) {
   ModelBuilder<Point> build;
   build.add_primitive(world, Point{Vec3(0, 0, 0)});
   build.add_primitive(world, Point{Vec3(0.5, 0, 0)});
-  // On the axis of the joint, so its distance to the first two never changes.
+  // This point is on the joint axis, so its distance to the first two points never changes.
   build.add_link(world, Revolute{Vec3::UnitZ(), Vec3(0.25, 0, 0), {}, {}},
                  {Point{Vec3(0.25, 0, 0.1)}, Point{Vec3(4, 0, 0)}});
   Points points(build.finish(), AdmitAll{}, UniformClearance{1.0});

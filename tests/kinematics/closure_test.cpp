@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Closed cycles: the solver against rings closed by construction, derivatives against differences, rings known to be
-// rigid or to move.
+// Closed cycles: the solver against rings that are closed by construction, derivatives against finite differences,
+// and rings that are known to be rigid or mobile.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace closure_test {
 
 using test::Random;
 
-/// By the plain product of transforms: nothing of the solver's.
+/// Pose of `link` as the plain product of transforms, independent of the solver.
 Pose plain_pose(const KinematicTree& tree, const std::vector<double>& q, LinkId link) {
   Pose pose;
   for (; link != world; link = tree.parent(link)) {
@@ -37,7 +37,7 @@ double plain_residual(const KinematicTree& tree, const std::vector<double>& q) {
   return worst;
 }
 
-/// A polygon of atoms as a ring: a torsion about every edge, the last one left to the closure.
+/// A polygon of atoms as a ring: one torsion per edge; the last edge is left to the closure.
 KinematicTree ring(const std::vector<Vec3>& x) {
   KinematicTree tree;
   const LinkId base = tree.add_link(world, Fixed{});
@@ -156,7 +156,7 @@ TEST(ClosureSolver, SaysThatWhatCannotCloseDoesNot) {
   ClosureSolver solver(tree, DofSelection::all(tree));
   std::vector<double> q{0.3, 0.4};
   EXPECT_FALSE(solver.close(q));
-  EXPECT_NEAR(solver.residual(), 3.0, 1e-3);  // as near as two arms of length 1 come
+  EXPECT_NEAR(solver.residual(), 3.0, 1e-3);  // the smallest residual of two arms of length 1
   const DofSelection none(tree, {});
   std::vector<double> nothing;
   EXPECT_FALSE(ClosureSolver(tree, none).close(nothing));
@@ -219,7 +219,7 @@ TEST(RigidCycles, HoldTheChairButNotTheBoat) {
   EXPECT_EQ(held(ring(boat())), 0U);
   const detail::GeometryTolerance decimals{8.7e-4, 1.5e-3};
   EXPECT_EQ(held(ring(chair()), decimals), 5U);
-  // The boat as a file has it is rigid if its decimals are taken for exact, and may move if they are not.
+  // A boat rounded to file decimals is rigid if its decimals are taken as exact. Within its tolerance it may move.
   std::vector<Vec3> rounded = boat();
   for (Vec3& x : rounded)
     for (double& value : x) value = std::round(value * 1000) / 1000;
@@ -232,7 +232,7 @@ TEST(RigidCycles, MoveWithOneDofLessThanSixForEachTurn) {
     for (int round = 0; round < 20; ++round) EXPECT_EQ(held(ring(any_polygon(random, n))), n <= 6 ? n - 1 : 0U) << n;
 }
 
-/// The farthest a closed ring gets from its reference when it is pushed a little and closed again.
+/// The largest DOF value after one DOF of a closed ring is set to `push` and the ring is closed again.
 double farthest(const KinematicTree& tree, double push) {
   ClosureSolver solver(tree, DofSelection::all(tree));
   double most = 0.0;
@@ -254,7 +254,7 @@ TEST(RigidCycles, AreThoseThatReturnWhenTheyArePushed) {
 
 TEST(RigidCycles, AreFoundWhereSeveralCyclesTogetherHoldThem) {
   Random random(18);
-  // A ring of seven moves; a second hinge across it leaves nothing free. Beside it a free joint, which stays free.
+  // A ring of seven moves. A second closure across it makes it rigid. A further joint outside the ring stays free.
   const std::vector<Vec3> x = any_polygon(random, 7);
   KinematicTree tree = ring(x);
   tree.add_link(LinkId{2}, Revolute{Vec3::UnitX(), Vec3::Zero(), {}, {}});
@@ -263,7 +263,7 @@ TEST(RigidCycles, AreFoundWhereSeveralCyclesTogetherHoldThem) {
   const std::vector<DofId> dofs = detail::rigid_cycle_dofs(tree, DofSelection::all(tree));
   EXPECT_EQ(dofs.size(), 6U);
   EXPECT_EQ(std::count(dofs.begin(), dofs.end(), DofId{6}), 0);
-  // A blocked DOF is none: the ring of seven with one of its turns not selected is held.
+  // A DOF that is not selected cannot move: a ring of seven with only six selected DOF is rigid.
   const KinematicTree seven = ring(x);
   EXPECT_EQ(
       detail::rigid_cycle_dofs(seven, DofSelection(seven, {DofId{0}, DofId{1}, DofId{2}, DofId{4}, DofId{5}})).size(),

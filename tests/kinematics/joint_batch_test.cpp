@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joints computed eight at a time: the bits of one joint at a time, whatever the angles and whatever was asked before.
+// Joints computed eight at a time have the bits of joints computed one at a time, for all values and call orders.
 #include "hinge/detail/kinematics/joint_batch.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ namespace joint_batch_test {
 using test::Random;
 using Bits = std::array<std::uint64_t, 12>;
 
-/// Rotation column by column, then translation; zeros count with their sign.
+/// Rotation column by column, then translation. The sign of zero counts.
 Bits bits_of(const Pose& pose) {
   Bits bits;
   for (std::size_t e = 0; e < 9; ++e) bits[e] = std::bit_cast<std::uint64_t>(pose.rotation.data()[e]);
@@ -33,7 +33,7 @@ Bits bits_of(const Pose& pose) {
   return bits;
 }
 
-/// Values where sine and cosine change quadrant, method or sign, and ordinary ones.
+/// Values where sine and cosine change quadrant, method or sign, and ordinary values.
 double any_value(Random& random) {
   constexpr double pi = std::numbers::pi, limit = detail::cody_waite_limit;
   constexpr std::array special = {
@@ -49,7 +49,7 @@ double any_value(Random& random) {
   }
 }
 
-/// Slides stay where sums of two hundred of them are finite, and seldom go so far that nothing else counts.
+/// Any joint value. Prismatic values are limited: sums of 200 must be finite, and only few may hide all other terms.
 double any_value(const Joint& joint, Random& random) {
   const double value = any_value(random);
   if (joint.kind != JointKind::prismatic) return value;
@@ -74,7 +74,7 @@ Joint any_joint(Random& random) {
   return Revolute{any_axis(random), random.one_in(4) ? Vec3(Vec3::Zero()) : random.vector(5.0), origin, {}};
 }
 
-/// A tree of so many moving joints: chains, stars and what lies between, links fixed to others among them.
+/// A random tree with at least `joints` DOF: chains, stars and shapes between them, with some fixed joints.
 KinematicTree any_tree(std::size_t joints, Random& random) {
   KinematicTree tree;
   const std::size_t branching = 1 + random.below(4);
@@ -89,7 +89,7 @@ KinematicTree any_tree(std::size_t joints, Random& random) {
   return tree;
 }
 
-/// One joint at a time, each group onto its parent's pose.
+/// Poses of all groups, computed one joint at a time from parent to child.
 std::vector<Pose> one_by_one(const RigidGroups& groups, std::span<const double> q) {
   std::vector<Pose> poses(groups.size());
   for (std::size_t g = 1; g < groups.size(); ++g) {
@@ -101,7 +101,7 @@ std::vector<Pose> one_by_one(const RigidGroups& groups, std::span<const double> 
   return poses;
 }
 
-/// A pose source over a random tree and selection, and the values it was last given.
+/// A pose source over a random tree and selection, with its last configuration.
 struct Mechanism {
   Mechanism(std::size_t joints, Random& random)
       : tree(any_tree(joints, random)),
@@ -119,7 +119,7 @@ struct Mechanism {
   void expect_pose(std::size_t g) {
     ASSERT_EQ(bits_of(source.pose(id<GroupId>(g))), bits_of(one_by_one(*groups, q)[g])) << "group " << g;
   }
-  /// All groups, first to last, or one after the other in any order.
+  /// Compares all groups, first in an order with random repetitions, then first to last.
   void expect_poses(Random& random) {
     const std::vector<Pose> expected = one_by_one(*groups, q);
     std::vector<std::size_t> order;
@@ -144,7 +144,7 @@ TEST(JointBatch, HasTheBitsOfEachJointsMotion) {
     const std::size_t used = 1 + random.below(detail::JointBatch::size);
     std::vector<double> q(1 + random.below(20));
     for (double& value : q) value = any_value(random);
-    KinematicTree tree;  // makes the axes unit vectors
+    KinematicTree tree;  // add_link normalizes the joint axes
     detail::JointBatch batch;
     std::vector<std::size_t> position;
     for (std::size_t k = 0; k < used; ++k) {
@@ -187,7 +187,7 @@ TEST(PoseSource, HasTheseBitsWhateverChangedAndWasAskedBefore) {
       Mechanism m(joints, random);
       for (int step = 0; step < 40; ++step) {
         const std::size_t n = m.q.size();
-        // None, one, and about the share up to which frames are kept from before.
+        // Numbers of changed values: none, one, around the limit up to which frames are reused, and all.
         const std::size_t few = n / detail::few_changes_divisor;
         const std::array<std::size_t, 6> counts = {0, 1, few, few + 1, n / 20 + 1, n};
         for (std::size_t changes = counts[random.below(counts.size())]; changes > 0 && n > 0; --changes)
@@ -202,7 +202,7 @@ TEST(PoseSource, HasTheseBitsWhateverChangedAndWasAskedBefore) {
             ASSERT_EQ(bits_of(m.source.pose(id<GroupId>(g))), bits_of(poses[g]));
         }
         m.source.set_configuration(m.q);
-        // Now and then nothing is asked, or groups of the start of the chain only.
+        // Sometimes nothing is queried, or only one group.
         const std::size_t asked = random.below(3);
         if (asked == 1) m.expect_pose(random.below(m.groups->size()));
         if (asked == 2) m.expect_poses(random);
@@ -213,7 +213,7 @@ TEST(PoseSource, HasTheseBitsWhateverChangedAndWasAskedBefore) {
     }
 }
 
-/// What counts as moved follows from the values alone, by their bits, and everything moved after forget().
+/// A group counts as moved if the bits of its values differ, and every group counts as moved after forget().
 TEST(PoseSource, KnowsWhatMovedFromTheValues) {
   Random random(4);
   for (int round = 0; round < 10; ++round)

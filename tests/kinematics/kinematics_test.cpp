@@ -171,7 +171,7 @@ TEST(PoseSource, IsDoubleAndWithoutRecursionOnAHundredThousandJoints) {
     parent = tree.add_link(parent, Revolute{k % 2 == 0 ? Vec3::UnitX() : Vec3::UnitZ(), Vec3::Zero(), step, {}});
   const DofSelection all = DofSelection::all(tree);
   detail::PoseSource source(std::make_shared<const RigidGroups>(tree, all), n);
-  // Straight: turns about x only keep the chain on its line.
+  // Only joints about x rotate, so the chain stays straight along x.
   std::vector<double> q(n, 0.0);
   for (std::size_t k = 0; k < n; k += 2) q[k] = 0.3;
   source.set_configuration(q);

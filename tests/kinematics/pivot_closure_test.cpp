@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All closures of a chain with three pivots: each closes by the plain product of transforms, and none is missing that
-// a search from many starts finds.
+// All closures of a chain with three pivots. Each solution closes the chain by the plain product of transforms, and a
+// numerical search from many starts finds no further solution.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace pivot_closure_test {
 
 using test::Random;
 
-/// Three residues' worth of a chain: directions of bonds at each pivot, peptide units between them.
+/// A chain of three residues: random bond directions at each pivot, and peptide units of 3.8 angstrom between pivots.
 detail::OpenChain any_chain(Random& random) {
   detail::OpenChain chain;
   Vec3 at = random.vector(1.0);
@@ -34,7 +34,7 @@ detail::OpenChain any_chain(Random& random) {
   return chain;
 }
 
-/// The same as a tree: five turns and the hinge that closes it.
+/// The same chain as a tree: five torsions and the closing hinge.
 KinematicTree as_tree(const detail::OpenChain& chain) {
   KinematicTree tree;
   LinkId at = tree.add_link(world, Fixed{});
@@ -85,7 +85,7 @@ TEST(PivotClosures, AllCloseAndHoldTheConformationTheChainWasClosedIn) {
     const auto solutions = solve_tripeptide_closure(chain);
     most = std::max(most, solutions.size());
     EXPECT_LE(solutions.size(), 16U);
-    EXPECT_EQ(solutions.size() % 2, 0U) << round;  // roots of a periodic function come in pairs
+    EXPECT_EQ(solutions.size() % 2, 0U) << round;  // the roots of a periodic function come in pairs
     for (const detail::PivotTurns& q : solutions) EXPECT_LE(residual(tree, q), 1e-8) << round;
     EXPECT_TRUE(std::any_of(solutions.begin(), solutions.end(), [](const detail::PivotTurns& q) {
       return apart(q, detail::PivotTurns{}) < 1e-6;
@@ -112,7 +112,7 @@ TEST(PivotClosures, AreThoseThatASearchFinds) {
       EXPECT_NE(found, solutions.end()) << round;
       if (found != solutions.end()) seen[static_cast<std::size_t>(found - solutions.begin())] = true;
     }
-    EXPECT_EQ(std::count(seen.begin(), seen.end(), false), 0) << round;  // and each is reached
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), false), 0) << round;  // the search reaches every solution
   }
 }
 
@@ -121,7 +121,7 @@ TEST(PivotClosures, AreTheSameWhereverTheChainStartsFrom) {
   for (int round = 0; round < 50; ++round) {
     const detail::OpenChain chain = any_chain(random);
     const KinematicTree tree = as_tree(chain);
-    // The same chain, opened by turns of its own.
+    // The same chain, opened by random torsions.
     detail::PivotTurns by;
     for (double& value : by) value = random.uniform(-3.0, 3.0);
     detail::OpenChain open = chain;

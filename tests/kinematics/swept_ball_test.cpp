@@ -39,7 +39,7 @@ struct Chain {
     for (const detail::AxisInterval& joint : joints) ball.sweep(joint);
     return ball;
   }
-  /// Where x is at one choice of joint values, ends of intervals included; the same joints first.
+  /// Returns x moved by one random choice of joint values, applied in joint order. End values are frequent.
   Vec3 moved(Vec3 x, SampleStream& stream) const {
     for (const detail::AxisInterval& joint : joints) {
       const double q =
@@ -54,7 +54,7 @@ struct Chain {
   }
 };
 
-/// A convex set holds a point when along no direction the point lies farther.
+/// A convex set contains a point if its extent along every direction reaches the point; checks some directions.
 void expect_inside(const detail::SweptBall& ball, const Vec3& x, double more, SampleStream& stream) {
   constexpr double rounding = 1e-12;
   for (int k = 0; k < 20; ++k) {
@@ -68,7 +68,7 @@ TEST(SweptBall, HoldsEveryPositionOfItsCentre) {
   SCOPED_TRACE(seed);
   for (std::uint64_t c = 0; c < 300; ++c) {
     SampleStream stream(seed, c);
-    // From tiny intervals to more than a full turn.
+    // Intervals from tiny to more than a full turn.
     const Chain chain(stream, c % 3 == 0 ? 0.01 : c % 3 == 1 ? 0.7 : 7.0);
     const detail::SweptBall ball = chain.swept();
     for (int k = 0; k < 200; ++k) expect_inside(ball, chain.moved(chain.start, stream), 0.0, stream);

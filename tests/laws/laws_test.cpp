@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The stock policies keep the laws, and the laws catch policies that do not.
+// The stock policies keep the laws, and the law checks find policies that break them.
 #include "hinge/policy/laws.hpp"
 
 #include <gtest/gtest.h>
@@ -77,7 +77,7 @@ TEST(MatrixLaws, HoldForStockMatrices) {
   EXPECT_EQ(laws::check_distance_matrix(test::random_thresholds(20, random), 20), none);
 }
 
-/// Half of an odd number of the smallest denormals is rounded.
+/// Half of an odd number of the smallest denormals must be rounded.
 TEST(MatrixLaws, HoldForDenormalThresholds) {
   for (const double m : {1 * 0x1p-1074, 3 * 0x1p-1074, 5 * 0x1p-1074, 0x1p-1022 - 0x1p-1074}) {
     EXPECT_EQ(laws::check_distance_matrix(TypedThresholds({0, 0}, 1, {m}), 2), none) << m;
@@ -96,7 +96,7 @@ TEST(CollectorLaws, HoldForTheFourModes) {
   EXPECT_EQ(laws::check_collector(Closest{}, hits), none);
 }
 
-/// Bounds too small for the radius.
+/// Its bounds ignore its radius.
 struct Liar {
   Vec3 center;
   Liar placed(const Pose& pose) const noexcept { return {pose * center}; }
@@ -116,7 +116,7 @@ struct ShortReach {
   double reach(PrimitiveId) const noexcept { return 0.4; }
 };
 
-/// Lists a pair that it admits.
+/// Lists a pair as excluded that it admits.
 struct LooseList {
   PrimitiveId fifth{5};
   bool admits(PrimitiveId, PrimitiveId) const noexcept { return true; }
@@ -125,7 +125,7 @@ struct LooseList {
   }
 };
 
-/// Refuses two links whose primitives it admits.
+/// Excludes two links but admits pairs of their primitives.
 struct LooseLinks : DifferentLinks {
   using DifferentLinks::admits;
   using DifferentLinks::DifferentLinks;
@@ -140,7 +140,7 @@ struct GrowingCutoff {
   bool done() const noexcept { return most > 0.5 && most < 1.5; }
 };
 
-/// The one sentence that says all of this.
+/// Expects that the first violation contains all words.
 void expect_told(const laws::Violations& broken, const std::vector<std::string>& words) {
   ASSERT_FALSE(broken.empty());
   EXPECT_LE(broken.size(), 20U);
@@ -160,7 +160,8 @@ TEST(Laws, CatchAsymmetricFilters) {
 
 TEST(Laws, CatchListsOfAdmittedPairs) {
   expect_told(laws::check_pair_filter(LooseList{}, 6), {"primitives 2 and 5", "excluded(2)"});
-  const std::vector<LinkId> links(1000, world);  // so many that pairs are sampled: what is listed is asked all the same
+  const std::vector<LinkId> links(1000,
+                                  world);  // with this many links, pairs are sampled; listed pairs are always tested
   expect_told(laws::check_refinements(LooseList{}, links), {"primitives 2 and 5", "excluded(2)"});
 }
 
@@ -180,7 +181,7 @@ TEST(Laws, CatchCollectorsThatGoBack) {
   const std::vector<Hit> hits(2);
   const laws::Violations broken = laws::check_collector(GrowingCutoff{}, hits);
   expect_told(broken, {"hit 0", "cutoff"});
-  EXPECT_EQ(broken.size(), 3U);  // twice the cutoff, once what is done
+  EXPECT_EQ(broken.size(), 3U);  // the cutoff is broken twice, done() once
 }
 
 }  // namespace laws_test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Monte Carlo moves answer what queries over all of the model answer, and leave no trace in the state.
+// Monte Carlo moves give the answers of queries over the whole model, and leave the state as fresh updates would.
 #include "hinge/moves/move_checker.hpp"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ constexpr std::uint64_t seed = 2004;
 
 bool test_all() { return std::getenv("HINGE_TEST_ALL") != nullptr; }
 
-/// Values of D different DOF of `count`: small turns mostly, now and then whole ones, huge ones, none.
+/// New values for a few different DOF: mostly small steps from q, sometimes any angle, a huge value or no change.
 std::vector<DofChange> random_changes(Random& random, std::span<const double> q, double size) {
   std::vector<DofChange> changes;
   if (q.empty()) return changes;
@@ -58,7 +58,7 @@ void expect_bits(const P& a, const P& b) {
   }
 }
 
-/// Every frame and primitive of the state has the bits of a fresh model's.
+/// Every frame and primitive of the state has the bits of a freshly updated model.
 template <class Moves, class H>
 void expect_fresh(Moves& moves, H& reference) {
   reference.update(moves.configuration());
@@ -74,7 +74,7 @@ struct Tally {
   MoveCounts counts;
 };
 
-/// A walk over a model, each move held against brute force.
+/// A random walk over a model; every move is compared with brute force.
 template <class P, template <class, class, class> class EngineOf = Simd, class F>
 void walk(const Model<P>& model, const DofSelection& selection, const F& filter, const TypedThresholds& matrix,
           Random& random, int steps, double size, Tally& tally) {
@@ -99,8 +99,8 @@ void walk(const Model<P>& model, const DofSelection& selection, const F& filter,
     if (testing::Test::HasFailure()) return;
     ++tally.moves;
     tally.free += expected.empty() ? 1 : 0;
-    if (random.one_in(20)) expect_fresh(moves, reference);  // of the state, while the move is pending
-    if (random.one_in(20)) continue;                        // the next one drops it
+    if (random.one_in(20)) expect_fresh(moves, reference);  // the state is unchanged while a move is pending
+    if (random.one_in(20)) continue;                        // the next move discards the pending one
     if (random.one_in(30)) {
       moves.set(q);
     } else if (expected.empty() ? !random.one_in(4) : random.one_in(6)) {
@@ -120,7 +120,7 @@ void walk(const Model<P>& model, const DofSelection& selection, const F& filter,
   tally.counts.full_queries += moves.counts().full_queries;
 }
 
-/// Random models, every second one sparse enough to be free now and then.
+/// Random models; every second one is sparse enough to be free in some states.
 template <class P, template <class, class, class> class EngineOf>
 void walk_random_models() {
   std::printf("seed %llu\n", static_cast<unsigned long long>(seed));
@@ -166,7 +166,8 @@ TEST(MoveChecker, AsksAFilterDerivedFromAStockOne) {
   EXPECT_LT(tally.free, tally.moves);
 }
 
-/// A chain of `links` links with side branches, joints a unit apart, three points each: like a protein, and free.
+/// A chain of `links` links with side branches, joints one length unit apart, three points per link. It resembles a
+/// protein and has free states.
 Model<Point> comb(Random& random, std::size_t links, const Vec3& at) {
   ModelBuilder<Point> builder;
   Pose origin;
@@ -188,7 +189,7 @@ Model<Point> comb(Random& random, std::size_t links, const Vec3& at) {
 using Chain = Hierarchy<Point, ExcludedPairs, TypedThresholds>;
 using BruteChain = Hierarchy<Point, ExcludedPairs, TypedThresholds, Brute>;
 
-/// Every pair of points of different links counts, at one threshold.
+/// Admits every pair of points of different links, with one threshold for all pairs.
 template <class H>
 H one_threshold(const Model<Point>& model, double threshold) {
   return {model, ExcludedPairs(std::vector<std::vector<PrimitiveId>>(model.size())),
@@ -236,7 +237,7 @@ TEST(MoveChecker, LeavesNoTraceAfterManyMoves) {
 }
 
 TEST(MoveChecker, AnswersForThousandsOfPointsAsFullQueries) {
-  // More than 256 blocks: there are boxes above rows of boxes, and rows that move as a whole.
+  // More than 256 blocks, so there are several levels of boxes, and rows of boxes that move as a whole.
   Random random(seed + 6);
   const Model<Point> model = comb(random, 1400, Vec3::Zero());
   ASSERT_GT(model.size(), 256 * detail::simd::width);
@@ -320,7 +321,7 @@ TEST(MoveChecker, StaysExactWithLongSlides) {
 }
 
 TEST(MoveChecker, AsksTiesThatMoveTogetherAgain) {
-  // Rounding alone makes pairs at their threshold collide, or part, wherever they are carried.
+  // Whether a pair at its threshold collides depends on rounding, so it can change when both points move together.
   Random random(seed + 3);
   ModelBuilder<Point> builder;
   LinkId parent = builder.add_link(world, Revolute{Vec3(1, 2, 3), Vec3(0.3, 0, 0), {}, {}}, {});
@@ -370,7 +371,7 @@ TEST(MoveChecker, RefusesBadMovesAndKeepsTheState) {
   } catch (const ConfigurationError& error) {
     EXPECT_NE(std::string(error.what()).find("configuration value 3"), std::string::npos) << error.what();
   }
-  moves.accept();  // the last sound one
+  moves.accept();  // accepts the last valid move
   EXPECT_EQ(moves.configuration()[1], 0.01);
   EXPECT_THROW(moves.set(std::vector<double>(dof, nan)), ConfigurationError);
   EXPECT_THROW(moves.set(std::vector<double>(dof + 1, 0.0)), ConfigurationError);

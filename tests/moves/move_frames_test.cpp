@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Frames that accepted moves carry along stay as near to forward kinematics as is promised, and are its bits when
-// asked.
+// Frames updated by accepted moves stay within the proven error of forward kinematics. Settled frames have the bits
+// of forward kinematics.
 #include "hinge/detail/moves/move_frames.hpp"
 
 #include <gtest/gtest.h>
@@ -81,7 +81,7 @@ TEST(MoveFrames, StayWithinTheirBound) {
     }
   }
   std::printf("worst error: %.2g of the bound\n", worst);
-  EXPECT_GT(worst, 1e-6);  // it was no comparison of equals
+  EXPECT_GT(worst, 1e-6);  // the compared frames were not identical
   EXPECT_GT(settled, 0U);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Certified paths: what is called free is free at every state that is looked at, what collides does, bounds hold.
+// Certified paths against sampled states: free paths are free, colliding states collide, and motion bounds hold.
 #include "hinge/path/certified_path.hpp"
 
 #include <gtest/gtest.h>
@@ -66,7 +66,7 @@ Triangle make(Random& random, const Triangle*) {
   return {a, a + random.vector(0.7), a + random.vector(0.7)};
 }
 
-/// Revolute, prismatic and fixed joints in any order, with origins, branches and common ancestors.
+/// Revolute, prismatic and fixed joints in any order, with joint origins, branches and common ancestors.
 template <class P>
 Model<P> random_tree(Random& random, std::size_t links = 12, std::size_t most = 3) {
   return test::random_model(random, links, most, false, [](Random& r, const Vec3&, const Vec3&) {
@@ -78,7 +78,7 @@ struct Verdicts {
   int free = 0, colliding = 0, undecided = 0;
 };
 
-/// Every verdict of a certified path against brute force at many states.
+/// Compares verdicts of certified paths with brute force at `states` states per path.
 template <class P>
 Verdicts hold_against_brute_force(std::uint64_t seed, int cases, int states) {
   Verdicts verdicts;
@@ -138,13 +138,13 @@ TYPED_TEST(CertifiedPaths, AgreeWithBruteForceAtAThousandStates) {
   EXPECT_EQ(verdicts.undecided, 0);
 }
 
-/// A capsule on an arm turns above a floor; the arm's length, and how high its joint is.
+/// A capsule on an arm rotates above a floor. Length of the arm and height of its joint, in the model's length unit.
 constexpr double arm = 2.0, height = 1.0;
 
 Bodies<Capsule> arm_above_floor(double clearance, double scale = 1.0, const Vec3& away = Vec3::Zero()) {
   ModelBuilder<Capsule> build;
   const double wide = 20.0 * scale;
-  // The floor is a lying capsule of no radius: along x.
+  // The floor is a capsule of radius 0 along x.
   build.add_primitive(world, {Vec3(-wide, 0, 0) + away, Vec3(wide, 0, 0) + away, 0.0});
   const Vec3 joint = Vec3(0, 0, height * scale) + away;
   build.add_link(world, Revolute{Vec3::UnitY(), joint, {}, {}},
@@ -153,7 +153,8 @@ Bodies<Capsule> arm_above_floor(double clearance, double scale = 1.0, const Vec3
 }
 
 TEST(CertifiedPath, AnswersForASwingThatIsKnown) {
-  // The tip's height above the floor is height + arm cos q, the threshold is taken from either side of its smallest.
+  // The tip is height + arm cos q above the floor. The clearance is just above or just below the smallest such
+  // height.
   Random random(23);
   int free = 0, colliding = 0;
   for (int c = 0; c < 2000; ++c) {
@@ -171,8 +172,8 @@ TEST(CertifiedPath, AnswersForASwingThatIsKnown) {
   EXPECT_GT(colliding, 500);
 }
 
-/// A point slides straight towards another and stops `gap` before it; or it is the tip of an arm and passes the other,
-/// which is `gap` beyond its reach, at the angle pi.
+/// A point slides straight towards another point and stops at distance `gap`. Or the point is the tip of an arm, and
+/// the other point is `gap` outside the tip's circle, at the angle pi.
 template <template <class, class, class> class EngineOf>
 void come_near_a_point() {
   Random random(31);
@@ -206,7 +207,7 @@ TEST(CertifiedPath, AnswersForAPointThatComesNearAnother) {
   come_near_a_point<Simd>();
 }
 
-/// Admits nothing, whatever its base says.
+/// Excludes all pairs, although its base admits all.
 struct NoPair : AdmitAll {
   bool admits(PrimitiveId, PrimitiveId) const noexcept { return false; }
 };
@@ -233,7 +234,7 @@ TEST(CertifiedPath, AsksAFilterDerivedFromAStockOne) {
       arm_and_obstacle(Triangle{{1, 0, 0}, {2, 0, 0}, {1, 0, 1}}, Triangle{{0, 1, 0}, {0, 2, 0}, {0, 1, 1}}));
 }
 
-/// A copy, and one that was moved to, know nothing of the first one's path, which is gone.
+/// A copy and a moved-to object keep no data of the first object's path.
 TEST(CertifiedPath, MayBeCopiedAndMovedAfterAPath) {
   CertifiedPath first(bodies<Simd>(arm_and_obstacle(Point{{1, 0, 0}}, Point{{0, 1, 0}}), 0.1));
   const auto check = [](auto& path, double to) { return path.check(std::vector{0.0}, std::vector{to}).verdict; };
@@ -263,7 +264,8 @@ TEST(CertifiedPath, AnswersTheSameWhateverTheUnit) {
 }
 
 TEST(CertifiedPath, AllowsForRoundingFarFromTheOrigin) {
-  // There coordinates are off by 1e-7, of which the proof allows for some thousand; what is within that is left open.
+  // At 1e9 coordinates have errors of about 1e-7. The proof allows for about a thousand times as much, and smaller
+  // gaps may be left undecided.
   Random random(29);
   for (int c = 0; c < 100; ++c) {
     const double from = random.uniform(-1.0, 0.5), to = random.uniform(from + 1e-3, 1.5);
@@ -288,20 +290,20 @@ TEST(CertifiedPath, OfNoLengthIsTheQuery) {
     const PathAnswer answer = certified.check(std::vector{0.0}, std::vector{0.0});
     EXPECT_EQ(answer.verdict, plain.self_collides() ? PathVerdict::colliding : PathVerdict::free) << clearance;
   }
-  // No joint at all.
+  // A model without a DOF.
   ModelBuilder<Point> build;
   build.add_primitive(world, Point{});
   build.add_link(world, Fixed{}, {Point{Vec3::UnitX()}});
   CertifiedPath still(bodies(build.finish(), 2.0));
-  EXPECT_TRUE(still.check({}, {}).is_free());  // distances that cannot change are no query's business
-  // Nothing that could collide.
+  EXPECT_TRUE(still.check({}, {}).is_free());  // queries do not test pairs whose distance cannot change
+  // A model without primitives.
   CertifiedPath empty(bodies(ModelBuilder<Triangle>().finish(), 1.0));
   EXPECT_TRUE(empty.check({}, {}).is_free());
 }
 
 TEST(CertifiedPath, TurnsManyTimes) {
   const double turns = 40 * pi;
-  // The tip passes the floor's line at every turn; a floor out of reach it never meets.
+  // The tip crosses the floor at every turn; it never reaches a floor below its circle.
   CertifiedPath through(arm_above_floor(0.01));
   EXPECT_EQ(through.check(std::vector{0.0}, std::vector{turns}).verdict, PathVerdict::colliding);
   ModelBuilder<Capsule> build;
@@ -315,13 +317,13 @@ TEST(CertifiedPath, TurnsManyTimes) {
   EXPECT_GT(answer.counts.segments, 100U);
   CertifiedPath closer(bodies(model, 0.0101));
   EXPECT_EQ(closer.check(std::vector{-3.0}, std::vector{turns}).verdict, PathVerdict::colliding);
-  // So many turns that no step is short enough: left open, in bounded time.
+  // So many turns that no segment is short enough to be proved: not free, and found in bounded time.
   CertifiedPath hopeless(bodies(model, 0.0));
   for (const double far : {1e12, 1e160, 1e300})
     EXPECT_NE(hopeless.check(std::vector{0.0}, std::vector{far}).verdict, PathVerdict::free) << far;
 }
 
-/// Points that slide along x towards one at the origin.
+/// A point that slides along x towards a point at the origin.
 Bodies<Point> slider(double clearance) {
   ModelBuilder<Point> build;
   build.add_primitive(world, Point{});
@@ -341,13 +343,13 @@ TEST(CertifiedPath, LeavesExactTiesUndecidedAndSaysWhere) {
   EXPECT_LE(tie.half_width, smallest_path_step);
   ASSERT_TRUE(tie.hit.has_value());
   EXPECT_NEAR(tie.hit->distance, 1.0, 1e-5);
-  // Points at a threshold of 0 pass through each other.
+  // At a threshold of 0, points pass through each other.
   CertifiedPath bodiless(slider(0.0));
   EXPECT_EQ(bodiless.check(std::vector{4.0}, std::vector{-4.0}).verdict, PathVerdict::free);
 }
 
 TEST(CertifiedPath, MovesABaseThatFliesFreely) {
-  // Six joints of the library make a free body; another one stands.
+  // Six joints of one DOF each let a link move freely.
   for (const double height_over : {0.45, 0.2, 0.05}) {
     ModelBuilder<Triangle> build;
     build.add_primitive(world, {Vec3(-5, -5, 0), Vec3(5, -5, 0), Vec3(0, 8, 0)});
@@ -367,7 +369,7 @@ TEST(CertifiedPath, MovesABaseThatFliesFreely) {
   }
 }
 
-/// A sphere of triangles around a point.
+/// A sphere of triangles around `centre`.
 std::vector<Triangle> ball(const Vec3& centre, double radius, int around, int along) {
   const auto corner = [&](int i, int j) {
     const double a = 2 * pi * (i % around) / around, b = pi * j / along;
@@ -383,7 +385,8 @@ std::vector<Triangle> ball(const Vec3& centre, double radius, int around, int al
 }
 
 TEST(CertifiedPath, ProvesLinksOfManyTrianglesAsWholes) {
-  // One ball rolls and slides along another, closer than their triangles are long: many pairs are near at once.
+  // One ball rotates and slides along another at a distance below the size of their triangles, so many pairs are
+  // near.
   for (const double gap : {-0.2, -0.02, 1e-3, 0.05, 0.3}) {
     SCOPED_TRACE(gap);
     ModelBuilder<Triangle> build;
@@ -420,7 +423,7 @@ TEST(CertifiedPath, AnswersTheSameOnEveryEngine) {
     const PathAnswer a = by_brute.check(from, to), b = by_wide.check(from, to);
     EXPECT_EQ(a.verdict, b.verdict);
     EXPECT_EQ(a.parameter, b.parameter);
-    if (a.is_free()) {  // else the first pair found to collide ends it, and the order of pairs is the engine's
+    if (a.is_free()) {  // otherwise the first colliding pair ends the check, and engines order pairs differently
       EXPECT_EQ(a.counts.pairs_listed, b.counts.pairs_listed);
       ++free;
     }
@@ -430,7 +433,7 @@ TEST(CertifiedPath, AnswersTheSameOnEveryEngine) {
   EXPECT_GT(free, 5);
 }
 
-/// A point of a group, in the frame of another one.
+/// Point `local` of `group` in the frame of the group `held`, at configuration q.
 Vec3 seen_from(Bodies<Point>& hierarchy, const std::vector<double>& q, std::uint32_t held, std::uint32_t group,
                const Vec3& local) {
   hierarchy.update(q);
@@ -460,7 +463,7 @@ TEST(RelativeMotion, BoundsFiniteDifferences) {
       if (a == b) continue;
       detail::RelativeMotion motion;
       detail::FindRelativeMotion()(rates.groups(), a, b, half, motion);
-      // Lengths in the unit of the model.
+      // The test compares lengths in the model's unit.
       const double scale = rates.scale();
       double change = 0.0, bound = motion.points / scale;
       for (const bool second : {false, true}) {
@@ -480,18 +483,18 @@ TEST(RelativeMotion, BoundsFiniteDifferences) {
           largest = std::max(largest, norm(Vec3(seen(t + step) - 2.0 * seen(t) + seen(t - step))) / (step * step));
         change += largest;
       }
-      // Differences of second order are off by step^2 / 12 of the fourth derivative.
+      // Second differences have an error of step^2 / 12 times the fourth derivative.
       EXPECT_LE(change, bound * 1.001 + 1e-4) << a << ' ' << b;
       if (bound > 1e-3) tightest = std::max(tightest, change / bound);
       ++compared;
     }
   }
   EXPECT_GT(compared, 1000);
-  EXPECT_GT(tightest, 0.95);  // a bound half as large would not hold
+  EXPECT_GT(tightest, 0.95);  // the bound is nearly reached
 }
 
 TEST(RelativeMotion, BoundsHowTurningChanges) {
-  // Two joints across each other: the second axis turns with the first joint, so w' = r1 r2 (a1 x a2).
+  // Two revolute joints with perpendicular axes. The first one rotates the second axis, so w' = r1 r2 (a1 x a2).
   struct Joint {
     bool slides = false;
     double speed = 0.0;
@@ -503,7 +506,8 @@ TEST(RelativeMotion, BoundsHowTurningChanges) {
   pass_joint(Joint{false, 3.0}, 0.1, std::sqrt(13.0), change);
   EXPECT_EQ(change.turning_change, 6.0);
   EXPECT_EQ(change.turning, std::sqrt(13.0) + 0.1 * 6.0);
-  pass_joint(Joint{true, 5.0}, 0.1, 0.0, change);  // slides and turns nothing, but is turned
+  pass_joint(Joint{true, 5.0}, 0.1, 0.0,
+             change);  // a prismatic joint adds no rotation, but earlier joints rotate its axis
   EXPECT_EQ(change.point, 2.0 * 5.0 * change.turning);
 }
 
@@ -513,7 +517,7 @@ TEST(Displacements, BoundHowCloseGroupsAndPairsOfThemCome) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed + 9000);
-    // Every fifth of few groups of many points, whose largest speeds are found point by point.
+    // Every fifth model has few groups of many points; their largest speeds are computed point by point.
     Bodies<Point> plain = bodies(seed % 5 == 0 ? random_tree<Point>(random, 5, 40) : random_tree<Point>(random), 0.1);
     const auto& model = plain.model();
     std::vector<double> from(plain.dof_count()), to(from);
@@ -561,7 +565,7 @@ TEST(SampledPath, LooksNoFartherApartThanItSays) {
   EXPECT_TRUE(answer.is_free());
   EXPECT_EQ(answer.counts.configurations, 13U);
   EXPECT_EQ(answer.counts.segments, 12U);
-  // From one side of the ball to the other: only a fine sampling, or one with a state inside it, sees it.
+  // From one side of the collision to the other: a sampling finds it only with a state inside.
   const std::vector from{-1.3}, to{1.7};
   EXPECT_TRUE(check_sampled(plain, from, to, 4.0).is_free());
   const PathAnswer found = check_sampled(plain, from, to, 1.5);
@@ -569,7 +573,7 @@ TEST(SampledPath, LooksNoFartherApartThanItSays) {
   EXPECT_EQ(found.parameter, 0.5);
   EXPECT_NEAR(found.configuration.at(0), 0.2, 1e-15);
   EXPECT_TRUE(found.hit.has_value());
-  // The ends are states as well.
+  // The ends of the path are states as well.
   EXPECT_EQ(check_sampled(plain, std::vector{0.0}, std::vector{3.0}, 1.0).parameter, 0.0);
   EXPECT_EQ(check_sampled(plain, std::vector{3.0}, std::vector{0.0}, 1.0).parameter, 1.0);
   EXPECT_EQ(check_sampled(plain, std::vector{3.0}, std::vector{3.0}, 1.0).counts.configurations, 1U);

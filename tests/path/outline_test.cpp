@@ -23,7 +23,7 @@ TEST(Outline, BoundsTheSpeedOfEveryPoint) {
   for (std::uint64_t c = 0; c < 2000; ++c) {
     SCOPED_TRACE("seed 3, case " + std::to_string(c));
     Random random(seed + c);
-    const std::size_t count = c % 4 == 3 ? 300 : 12 + c % 40;  // more than 256: corners of a box
+    const std::size_t count = c % 4 == 3 ? 300 : 12 + c % 40;  // above 256 points the outline is the corners of a box
     const double unit = std::pow(10.0, random.uniform(-12.0, 0.0)), size = c % 3 == 0 ? 0.2 * unit : 0.0;
     const Vec3 shape(unit, unit * random.uniform(0.01, 1.0), unit * random.uniform(0.01, 1.0));
     std::vector<Vec3> points;
@@ -41,15 +41,15 @@ TEST(Outline, BoundsTheSpeedOfEveryPoint) {
     for (const Vec3& x : points)
       largest = std::max(largest, norm(Vec3(velocity / fast + cross(Vec3(turn / fast), Vec3(x - centre)))) * fast);
     EXPECT_GE(bound, largest);
-    // What is around the points can be faster by this.
+    // The ball of radius `size` around a point can be faster than the point by norm(turn) * size.
     EXPECT_GE(bound * (1.0 + 1e-12), std::min(loose, largest + norm(turn) * size));
     EXPECT_LE(bound, loose);
     if (size == 0.0 && count <= 256) {
-      EXPECT_LE(bound, largest * (1.0 + 1e-5) + 1e-5 * loose);  // the points themselves, but for floats
+      EXPECT_LE(bound, largest * (1.0 + 1e-5) + 1e-5 * loose);  // the points themselves, up to float rounding
       tight += bound < 0.8 * loose;
     }
   }
-  EXPECT_GT(tight, 100);  // worth having
+  EXPECT_GT(tight, 100);  // the outline is often much tighter than the loose bound
 }
 
 TEST(Outline, IsLeftOutForFewPoints) {

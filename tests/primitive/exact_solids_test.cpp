@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points, spheres and capsules against exact rationals: verdicts without tolerance, distances within the stated bounds.
-// Compiled a second time with fused multiply-adds wherever the compiler likes them: the answers are the same.
+// Points, spheres and capsules against exact rationals: collision decisions without tolerance, distances within the
+// stated bounds.
+// This file is compiled a second time with fused multiply-adds allowed, which must not change any answer.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,7 +39,7 @@ constexpr double half_ulp = 0x1p-53;
 constexpr std::uint64_t seed = 31;
 
 #ifdef __SANITIZE_ADDRESS__
-constexpr std::size_t most_cases = 10'000;  // ten times slower
+constexpr std::size_t most_cases = 10'000;  // AddressSanitizer is ten times slower
 #else
 constexpr std::size_t most_cases = 100'000;
 #endif
@@ -61,7 +62,7 @@ struct PointFamily {
   std::function<Points(Random&)> make;
 };
 
-/// Whole numbers whose squares add up to a square.
+/// A vector of integers whose length is an integer.
 Vec3 quadruple(Random& r) {
   // Lebesgue: (m^2 + n^2 - p^2 - q^2, 2 (m q + n p), 2 (n q - m p)) has the length m^2 + n^2 + p^2 + q^2.
   const auto one = [&r] { return static_cast<double>(r.below(1000)) - 500.0; };
@@ -138,7 +139,7 @@ std::vector<PointFamily> point_families() {
 
 // --- radii, and segments around the points ---
 
-/// Radii that meet, miss or overlap by about an ulp when `between` is the distance; sometimes none, or of another size.
+/// Radii for centres at distance `between`: both 0, of any size, or with a sum within about two ulps of the distance.
 std::array<double, 2> radii(Random& r, double between) {
   const std::size_t kind = r.below(6);
   if (kind == 0 || !(between <= std::numeric_limits<double>::max() / 4)) return {0.0, 0.0};
@@ -167,7 +168,7 @@ std::array<Vec3, 4> lattice_ends(Random& r) {
   return ends(r, [](Random& s) { return whole(s, 6); });
 }
 
-/// Segments on one line, parallel to each other, or nearly so.
+/// Segments on one line, parallel to each other, or nearly parallel.
 std::array<Vec3, 4> parallel_ends(Random& r, double apart, double turn) {
   const Vec3 a = whole(r, 16), way = whole(r, 16) + Vec3(1, 0, 0), by = Vec3(r.vector(1.0) * apart);
   const auto at = [&r] { return static_cast<double>(r.below(17)) / 4.0 - 2.0; };
@@ -175,7 +176,7 @@ std::array<Vec3, 4> parallel_ends(Random& r, double apart, double turn) {
   return {a, a + way, c, c + way * at() + r.vector(1.0) * turn};
 }
 
-/// Points inside both segments coincide, up to rounding or exactly.
+/// An inner point of one segment coincides with one of the other, exactly or up to rounding.
 std::array<Vec3, 4> crossing_ends(Random& r) {
   if (r.one_in(2)) {
     const Vec3 at = whole(r, 64), u = whole(r, 16), v = whole(r, 16);
@@ -237,7 +238,8 @@ std::vector<CapsuleFamily> capsule_families() {
 
 // --- checks ---
 
-/// In half ulps of the largest coordinate difference, of the distance of centres or axes, and of the gap; as stated.
+/// The documented error bound of distances, in half ulps of three lengths: the largest coordinate difference, the
+/// distance of centres or axes, and the gap.
 struct Bound {
   double size, between, gap;
 };
@@ -366,7 +368,7 @@ INSTANTIATE_TEST_SUITE_P(Solids, PointFamilies, testing::ValuesIn(point_families
 class CapsuleFamilies : public testing::TestWithParam<CapsuleFamily> {};
 
 TEST_P(CapsuleFamilies, EqualExactVerdictsAndDistances) {
-  // Rationals of thousands of digits take milliseconds.
+  // Rationals of thousands of digits take milliseconds each.
   const std::size_t count = GetParam().name == "any_doubles" ? std::min<std::size_t>(cases(), 5'000) : cases();
   const auto make = [](Random& r) {
     const auto [a, b, c, d] = GetParam().make(r);

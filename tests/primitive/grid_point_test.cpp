@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decimal ties: a million pairs on the grid of a PDB file against integers, where doubles toss a coin.
+// Decimal ties: a million pairs on the grid of a PDB file against integers. Decisions on doubles are random there.
 #include "hinge/detail/primitive/grid_point.hpp"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ detail::GridPoint moved(const detail::GridPoint& p, const Whole3& by) {
   return {{p.thousandths[0] + by[0], p.thousandths[1] + by[1], p.thousandths[2] + by[2]}};
 }
 
-/// A vector of whole length, m^2 + n^2 + p^2 + q^2 (Lebesgue).
+/// An integer vector whose length is the integer m^2 + n^2 + p^2 + q^2 (Lebesgue).
 Whole3 of_whole_length(Random& r, std::int64_t largest, std::int64_t& length) {
   const auto one = [&] { return static_cast<std::int64_t>(r.below(static_cast<std::size_t>(largest))); };
   const std::int64_t m = one(), n = one(), p = one(), q = one();
@@ -56,7 +56,7 @@ TEST(GridPoint, DecidesAMillionDecimalTiesAsIntegersDo) {
     const detail::GridPoint q = moved(p, of_whole_length(random, 45, length));
     const double m = static_cast<double>(length) / 1000.0;
     const double next = static_cast<double>(length + 1) / 1000.0;
-    // As thresholds are made: a product and a sum.
+    // Thresholds are computed like this, as a factor times a sum.
     const double made = 0.8 * (static_cast<double>(length) / 1600.0 + static_cast<double>(length) / 1600.0);
     wrong += closer_than(p, q, m) || closer_than(q, p, m) || closer_than(p, q, made) || !closer_than(p, q, next);
     if (length > 0) {
@@ -135,7 +135,7 @@ TEST(GridPoint, LeavesOtherCoordinatesToTheDoubles) {
 }
 
 #if __has_include(<boost/multiprecision/cpp_int.hpp>)
-/// Thresholds that are no decimals: the double itself counts.
+/// Thresholds that are not decimals: their value as a double decides.
 TEST(GridPoint, TakesOtherThresholdsForWhatTheyAre) {
   using Big = boost::multiprecision::cpp_int;
   Random random(seed + 3);
@@ -146,8 +146,8 @@ TEST(GridPoint, TakesOtherThresholdsForWhatTheyAre) {
     double m = std::sqrt(static_cast<double>(squared)) / 1000.0;
     for (std::size_t n = random.below(9); n > 0; --n) m = std::nextafter(m, random.one_in(2) ? 10.0 : 0.0);
     const double nanos = m * 1e9;
-    if (m < 0.01 || std::abs(nanos - std::nearbyint(nanos)) < 1e-4) continue;  // a decimal, or nearly
-    // m = whole 2^-60.
+    if (m < 0.01 || std::abs(nanos - std::nearbyint(nanos)) < 1e-4) continue;  // skip decimals and values near them
+    // whole = m * 2^60, an integer.
     const auto whole = static_cast<std::int64_t>(std::ldexp(m, 60));
     ASSERT_EQ(std::ldexp(m, 60), std::nearbyint(std::ldexp(m, 60)));
     Big square = whole, threshold = squared;

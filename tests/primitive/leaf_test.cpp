@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What leaves of trees prove in float must be true of the placed primitives, however close they come.
+// Pairs that tree leaves prove apart in float must be apart as placed primitives, however close they are.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace leaf_test {
 
 using test::Random;
 
-/// Two frames, and sixteen primitives in each, near touching in pairs of equal lane.
+/// Two frames with sixteen primitives each. Primitives of equal lane nearly touch.
 template <class P>
 struct Scene {
   Pose a, b;
@@ -32,7 +32,7 @@ Vec3 point_of(const Triangle& t, Random& random) {
   return t.a + (t.b - t.a) * u + (t.c - t.a) * v;
 }
 
-/// The gap left between two things meant to touch: none, a few ulps, or more.
+/// A gap between nearly touching primitives: 0, a few ulps, or more; negative for an overlap.
 double gap(Random& random, double size) {
   return random.one_in(4) ? 0.0 : random.uniform(-1.0, 1.0) * size * std::pow(10.0, random.uniform(-17.0, -1.0));
 }
@@ -49,7 +49,7 @@ Scene<Triangle> touching_triangles(Random& random, double size) {
     const Vec3 away = squared_norm(normal) > 0.0 ? Vec3(normal.normalized()) : side;
     Vec3 contact = random.one_in(3) ? p.b : random.one_in(2) ? Vec3((p.a + p.b) * 0.5) : point_of(p, random);
     contact = scene.a * Vec3(contact + away * gap(random, size));
-    // A corner there, or a point of an edge.
+    // A corner at the contact point, or an inner point of an edge.
     const Vec3 along = random.vector(edge);
     Triangle q{contact, contact + away * edge + random.vector(edge), contact + away * edge + random.vector(edge)};
     if (random.one_in(2)) q = {contact + along, contact - along, contact + away * edge + random.vector(edge)};
@@ -85,7 +85,7 @@ typename detail::Leaf<P>::Turned turned(const Packed<P>& theirs, const detail::R
   return {theirs.floats.data(), {turn.b_to_a.rotation, turn.b_to_a.size, turn.b_to_a.translation}};
 }
 
-/// Every pair within the margin is left; the share of the others that is left is returned.
+/// Expects that every pair within the margin is kept. Returns the share of the other pairs that is also kept.
 template <class P>
 double check(const Scene<P>& scene, double margin) {
   const Packed<P> mine(scene.mine), theirs(scene.theirs);
@@ -116,7 +116,7 @@ TEST(TriangleLeaf, KeepsEveryPairWithinTheMargin) {
     left += check(touching_triangles(random, size), random.one_in(2) ? 0.0 : gap(random, size) + size / 10) / scenes;
     if (HasFailure()) return;
   }
-  // It proves most pairs apart, else it would be of no use: the touching ones are one in sixteen.
+  // The leaf must prove most pairs apart to be useful. The touching pairs are one in sixteen.
   EXPECT_LT(left, 0.1);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Particular cases of the stock primitives; their laws are in laws/laws_test.cpp.
+// Particular cases of the stock primitives; laws/laws_test.cpp tests their laws.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -40,7 +40,7 @@ TEST(Point, KnowsWhenItLiesOnAnAxis) {
     EXPECT_TRUE(Point{a}.fixed_on_axis(a, axis));
     EXPECT_FALSE(Point{Vec3(b + axis.unitOrthogonal() * 1e-9)}.fixed_on_axis(a, axis));
   }
-  // Of any size: squares of these lengths are 0 or infinite.
+  // At any size: squares of these lengths underflow to 0 or overflow to infinity.
   for (const double size : {0x1p-1060, 1e-300, 1e-170, 1e170, 1e300}) {
     EXPECT_TRUE(Point{Vec3(0, 0, size)}.fixed_on_axis(Vec3(0, 0, -size), Vec3::UnitZ())) << size;
     EXPECT_FALSE(Point{Vec3(size / 4, 0, size)}.fixed_on_axis(Vec3(0, 0, -size), Vec3::UnitZ())) << size;
@@ -61,7 +61,7 @@ TEST(Sphere, HasBoundsThatHoldItAndNoMore) {
     const Sphere sphere{random.vector(1.0), random.uniform(0.0, size)};
     const Aabb box = sphere.bounds();
     for (int axis = 0; axis < 3; ++axis) {
-      // Whatever is off is off by less than the spacing of doubles there.
+      // The error of a bound is less than the spacing of doubles there.
       const detail::exact::ValueAndError low = detail::exact::two_difference(sphere.center[axis], sphere.radius);
       const detail::exact::ValueAndError high = detail::exact::two_sum(sphere.center[axis], sphere.radius);
       EXPECT_TRUE(box.lower[axis] < low.value || (box.lower[axis] == low.value && low.rest >= 0.0));
@@ -76,7 +76,7 @@ TEST(Sphere, HasBoundsThatHoldItAndNoMore) {
 }
 
 TEST(Sphere, TouchesOneAnotherOrNotByTheRealSumOfRadii) {
-  // These doubles add up to less than their rounded sum 0.1 + 0.2, and to more than the double 0.3.
+  // As real numbers, these doubles have a sum below the rounded sum 0.1 + 0.2 and above the double 0.3.
   EXPECT_FALSE(closer_than(Sphere{Vec3::Zero(), 0.1}, Sphere{Vec3(0.1 + 0.2, 0, 0), 0.2}, 0.0));
   EXPECT_GT(squared_distance(Sphere{Vec3::Zero(), 0.1}, Sphere{Vec3(0.1 + 0.2, 0, 0), 0.2}), 0.0);
   EXPECT_TRUE(closer_than(Sphere{Vec3::Zero(), 0.1}, Sphere{Vec3(0.3, 0, 0), 0.2}, 0.0));
@@ -134,10 +134,10 @@ TEST(Triangle, TakesDegenerateOnesForWhatTheySpan) {
   EXPECT_DOUBLE_EQ(squared_distance(point, segment), 0.0);
 }
 
-/// Alternating projection onto two convex sets, sampled starts: an independent, slow upper bound that converges.
+/// Distance by alternating projection onto both triangles from sampled starts: a slow upper bound that converges.
 double projected_distance(const Triangle& p, const Triangle& q) {
   const auto nearest_in = [](const Triangle& t, const Vec3& x) {
-    // Dense barycentric search with refinement, sharing nothing with the formula under test.
+    // Dense barycentric search with refinement, independent of the formula under test.
     double u0 = 0.0, v0 = 0.0, step = 0.5;
     Vec3 best = t.a;
     double least = (x - best).squaredNorm();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points, spheres and capsules in rationals (Boost.Multiprecision): the squared distance of two segments by the Gram
-// matrix of their directions, against sums of radii. Shares neither code nor formulas with the library.
+// Points, spheres and capsules in rationals (Boost.Multiprecision). The squared distance of two segments comes from
+// the Gram matrix of their directions and is compared with sums of radii. Shares neither code nor formulas with the
+// library.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +19,7 @@
 
 namespace hinge::test {
 
-/// Any two of the three primitives as segments with radii, in whole multiples of 2^unit.
+/// Two primitives of one kind as segments with radii, in integer multiples of 2^unit.
 class SolidOracle {
  public:
   using Big = boost::multiprecision::cpp_int;
@@ -45,25 +46,26 @@ class SolidOracle {
     radii_ = in_units(p.radius) + in_units(q.radius);
     const Vector u = minus(x[1], x[0]), v = minus(x[3], x[2]), w = minus(x[0], x[2]);
     const Big uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), uw = dot(u, w), vw = dot(v, w), ww = dot(w, w);
-    // |w + s u - t v|^2, stationary inside the square, inside its four edges, and at its corners.
+    // Minimum of |w + s u - t v|^2 over the unit square of (s, t): candidates are its corners, its edges and its
+    // interior.
     for (const int s : {0, 1})
       for (const int t : {0, 1}) take(ww + s * (uu + 2 * uw) + t * (vv - 2 * vw) - 2 * s * t * uv, 1);
     for (const int s : {0, 1}) {
-      const Big along = vw + s * uv, rest = ww + s * (uu + 2 * uw);  // of t
+      const Big along = vw + s * uv, rest = ww + s * (uu + 2 * uw);  // as a function of t
       if (along > 0 && along < vv) take(rest * vv - along * along, vv);
     }
     for (const int t : {0, 1}) {
-      const Big along = t * uv - uw, rest = ww + t * (vv - 2 * vw);  // of s
+      const Big along = t * uv - uw, rest = ww + t * (vv - 2 * vw);  // as a function of s
       if (along > 0 && along < uu) take(rest * uu - along * along, uu);
     }
     const Big det = uu * vv - uv * uv, s = uv * vw - vv * uw, t = uu * vw - uv * uw;
     if (det > 0 && s > 0 && s < det && t > 0 && t < det) take(ww * det + s * uw - t * vw, det);
   }
 
-  /// Do the closed solids share a point?
+  /// Whether the closed solids share a point.
   bool meet() const { return numerator_ <= radii_ * radii_ * denominator_; }
 
-  /// Strictly closer than both radii and m > 0.
+  /// Whether the gap is less than m, for m > 0.
   bool below(double m) const {
     const int shift = std::max(unit_ - lowest(m), 0);
     const Big reach = (radii_ << static_cast<unsigned>(shift)) +
@@ -71,7 +73,7 @@ class SolidOracle {
     return (numerator_ << static_cast<unsigned>(2 * shift)) < reach * reach * denominator_;
   }
 
-  /// To some 45 digits: of the segments, and from surface to surface (negative inside).
+  /// Distance of the segments and of the surfaces (negative for an overlap), to about 45 digits.
   Simd between() const { return ldexp(root(), unit_); }
   Simd gap() const {
     const Simd excess(Big(numerator_ - radii_ * radii_ * denominator_));
@@ -87,7 +89,7 @@ class SolidOracle {
     std::frexp(x, &exponent);
     return exponent - 53;
   }
-  /// Of which x is a whole multiple, not above the last of its 53 digits.
+  /// The exponent e of a power 2^e that divides x: that of the last of its 53 digits, at least -1074.
   static int lowest(double x) { return x == 0.0 ? 0 : std::max(exponent_of(x), -1074); }
   static Big mantissa(double x) { return x == 0.0 ? 0 : Big(static_cast<std::int64_t>(std::ldexp(x, -lowest(x)))); }
   Big in_units(double x) const { return x == 0.0 ? 0 : mantissa(x) << static_cast<unsigned>(lowest(x) - unit_); }

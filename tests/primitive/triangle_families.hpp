@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random pairs of triangles by family: what rounding, degeneracy and size make of them.
+// Random pairs of triangles by family; families stress rounding, degeneracy and size.
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ inline TrianglePairSample moved(const TrianglePairSample& s, const Vec3& by) {
   return {plus(s.first), plus(s.second)};
 }
 
-/// A few neighbouring doubles away, in some coordinates.
+/// Moves some coordinates by a few ulps.
 inline Vec3 nudged(Random& r, Vec3 p) {
   for (int k = 0; k < 3; ++k)
     for (std::size_t n = r.one_in(2) ? r.below(4) : 0; n-- > 0;) p[k] = std::nextafter(p[k], r.one_in(2) ? 4.0 : -4.0);
@@ -49,7 +49,7 @@ inline Vec3 along(Random& r, const Vec3& a, const Vec3& b) { return a + r.unifor
 
 inline Vec3 normal_of(const Triangle& t) { return Vec3(cross(Vec3(t.b - t.a), Vec3(t.c - t.a)).normalized()); }
 
-/// On the side of t its normal shows to, apart from `at`.
+/// A triangle with a corner at `at` and its other corners on the side of t to which n points.
 inline Triangle standing(Random& r, const Triangle& t, const Vec3& at, const Vec3& n) {
   const auto above = [&] {
     return Vec3(at + n * r.uniform(0.1, 1.0) + Vec3(t.b - t.a) * r.uniform(-1.0, 1.0) +
@@ -70,7 +70,7 @@ inline TrianglePairSample vertex_face(Random& r) {
   return {t, standing(r, t, at, normal_of(t))};
 }
 
-/// Two edges that cross within rounding, the triangles on opposite sides.
+/// Two edges that cross up to rounding, with the triangles on opposite sides.
 inline TrianglePairSample edge_edge(Random& r) {
   const Vec3 at = unit_vector(r), u = unit_vector(r), v = unit_vector(r), n = Vec3(cross(u, v).normalized());
   const double s = r.uniform(0.1, 1.0), t = r.uniform(0.1, 1.0);
@@ -93,7 +93,7 @@ inline TrianglePairSample lattice(Random& r) {
   return {p, t()};
 }
 
-/// Whole multiples of two vectors: exactly in one plane.
+/// Corners are exact multiples of u and v, so both triangles are exactly in one plane.
 inline TrianglePairSample coplanar(Random& r, const Vec3& u, const Vec3& v) {
   const auto point = [&] {
     return Vec3(u * (static_cast<double>(r.below(64)) / 8) + v * (static_cast<double>(r.below(64)) / 8));
@@ -115,11 +115,12 @@ inline TrianglePairSample sliver(Random& r) {
   return {p, Triangle{at, b, Vec3(along(r, at, b) + unit_vector(r) * std::pow(10.0, r.uniform(-16.0, -1.0)))}};
 }
 
-/// Segments and points, often touching.
+/// Triangles that are segments or points, often touching.
 inline TrianglePairSample zero_area(Random& r) {
   const auto flat = [&](const Triangle& t) {
     if (r.one_in(3)) return Triangle{t.a, t.a, t.a};
-    if (r.one_in(2)) return Triangle{t.a, t.a * 0.5 + t.b * 0.5, t.b};  // exact for the multiples below
+    if (r.one_in(2))
+      return Triangle{t.a, t.a * 0.5 + t.b * 0.5, t.b};  // the midpoint is exact for the even coordinates below
     return Triangle{t.a, t.b, t.a};
   };
   auto [p, q] = r.one_in(2) ? scaled(lattice(r), 2.0) : generic(r);
@@ -160,7 +161,8 @@ inline TrianglePairSample mixed_scale(Random& r) {
           Triangle{Vec3::Zero(), Vec3(q.b - at), Vec3(q.c - at)}};
 }
 
-/// Bisected to two neighbouring positions of which one touches, by the double distance; the verdict is the oracle's.
+/// Bisects a translation until two adjacent positions differ in touching by the double distance, and returns one of
+/// them. The oracle has the exact verdict.
 inline TrianglePairSample bisected(Random& r) {
   const Triangle p = any_triangle(r), q = any_triangle(r);
   const Vec3 way = unit_vector(r) * 4.0;
@@ -173,7 +175,7 @@ inline TrianglePairSample bisected(Random& r) {
   return {p, shifted(r.one_in(2) ? low : high)};
 }
 
-/// Every coordinate of any size a double has.
+/// Coordinates of any size that a double can have.
 inline TrianglePairSample any_doubles(Random& r) {
   const int low = r.one_in(2) ? -1073 : -300;
   const auto one = [&] {
@@ -188,7 +190,7 @@ inline TrianglePairSample any_doubles(Random& r) {
   return {{p[0], p[1], p[2]}, {p[3], p[4], p[5]}};
 }
 
-/// Powers of two, so that nothing is lost but below the smallest doubles.
+/// Scales by a power of two, which is exact except for denormal results.
 inline TrianglePairSample of_size(Random& r, int exponent) {
   return scaled(r.one_in(4) ? lattice(r) : third_of_each(r), std::ldexp(1.0, exponent));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The distance of two closed triangles in rationals (Boost.Multiprecision): the smallest of all feasible stationary
-// points over pairs of faces of the two simplices, by Gram systems. Shares neither code nor formulas with the library.
+// The distance of two closed triangles in rationals (Boost.Multiprecision): the smallest feasible stationary value
+// over all pairs of faces of the two simplices, by Gram systems. Shares neither code nor formulas with the library.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace hinge::test {
 using Big = boost::multiprecision::cpp_int;
 using Simd = boost::multiprecision::cpp_bin_float_50;
 
-/// Whole multiples of 2^unit.
+/// Coordinates are integer multiples of 2^unit.
 class OracleDistance {
  public:
   OracleDistance(const Triangle& x, const Triangle& y) {
@@ -37,7 +37,7 @@ class OracleDistance {
 
   bool meet() const { return numerator_ == 0; }
 
-  /// d < m, both as real numbers.
+  /// Whether d < m, both as real numbers.
   bool below(double m) const {
     if (!(m > 0.0)) return false;
     const int shift = lowest(m) - unit_;
@@ -49,7 +49,7 @@ class OracleDistance {
     return left < whole * whole * denominator_;
   }
 
-  /// To 50 digits.
+  /// Accurate to 50 digits.
   Simd distance() const { return ldexp(sqrt(Simd(numerator_) / Simd(denominator_)), unit_); }
 
  private:
@@ -87,8 +87,8 @@ class OracleDistance {
            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
   }
 
-  /// Where |w + sum share_i edge_i| is stationary, by Cramer's rule, if the shares are in both simplices. A singular
-  /// system's smallest value is also found on smaller faces; two faces that cross do so at an edge.
+  /// Takes the stationary point of |w + sum share_i edge_i| by Cramer's rule if its shares are in both simplices. For
+  /// a singular system, smaller faces have the same minimum; two crossing faces also cross at an edge.
   void take_stationary(const std::array<Point, 6>& p, const std::vector<std::size_t>& a,
                        const std::vector<std::size_t>& b) {
     std::vector<Point> edges;

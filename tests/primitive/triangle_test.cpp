@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangles against exact rationals: verdicts without tolerance, distances within the stated bound.
+// Triangles against exact rationals: collision decisions without tolerance, distances within the stated bound.
 #include "hinge/primitive/triangle.hpp"
 
 #include <gtest/gtest.h>
@@ -57,15 +57,15 @@ std::string text(const Triangle& p, const Triangle& q) {
   return out;
 }
 
-/// Errors of distances over families, in the stated bound's terms.
+/// Largest errors of distances over a family, as shares of the stated bound and of the target.
 struct Worst {
   double of_bound = 0.0;
   double of_target = 0.0;
   std::size_t together = 0;
 };
 
-/// Distances are stated to be right to 28 half ulps of the largest coordinate difference and 16 of themselves, where
-/// their squares are normal doubles.
+/// Checks the documented error of distances: 28 half ulps of the largest coordinate difference plus 16 half ulps of
+/// the distance, if the square of the distance is a normal double.
 void check_distance(const Triangle& p, const Triangle& q, const Simd& exact, Worst& worst) {
   constexpr double half_ulp = 0x1p-53;
   const Simd size = largest_difference(p, q);
@@ -104,7 +104,7 @@ void check_pair(const Triangle& p, const Triangle& q, Random& random, Worst& wor
     EXPECT_EQ(x, y);
     EXPECT_TRUE(closer_than(p, q, std::abs(random.uniform(-1.0, 1.0))));
     EXPECT_TRUE(closer_than(p, q, 0x1p-1074));
-    // A point of both, up to the rounding of its coordinates.
+    // A common point, up to the rounding of its coordinates.
     for (const Triangle* t : {&p, &q})
       EXPECT_LE(OracleDistance(*t, {x, x, x}).distance(), 0x1p-53 * 16 * far_from_zero(p, q) + ldexp(Simd(1), -1071));
     return;
@@ -145,7 +145,7 @@ TEST_P(Families, EqualExactVerdictsAndDistances) {
 INSTANTIATE_TEST_SUITE_P(Triangle, Families, testing::ValuesIn(test::triangle_families()),
                          [](const auto& family) { return family.param.name; });
 
-/// The value of `key` in a line of JSON whose numbers are strings and which has no such text elsewhere.
+/// Returns the value of `key` in one line of JSON. Numbers are stored as strings and the key's text occurs once.
 std::string field(const std::string& line, const std::string& key) {
   const std::size_t start = line.find("\"" + key + "\":");
   if (start == std::string::npos) return "";
@@ -186,8 +186,8 @@ TEST(TriangleFiles, AgreeWithStoredExactAnswers) {
   std::cout << cases << " stored cases, largest error " << worst.of_target << " of 16 ulp + 8 ulp of the size\n";
 }
 
-// A normal one of whose components overflows gives each corner a height that is infinite, with the sign of a term that
-// another one outweighs.
+// A component of the normal overflows, so the height of each corner is infinite, with the sign of a term that another
+// term outweighs.
 TEST(Triangles, MeetWhereANormalOverflows) {
   const double wide = 0x1p-448, low = 0x1p-1048;
   const Triangle large{{0, 0, 0}, {0, 0, -0x1p400}, {0x1p654, 0x1p531, 0}};
@@ -203,13 +203,13 @@ TEST(Triangles, MeetWhereANormalOverflows) {
   }
 }
 
-/// Grown points, segments and faces against the spheres and capsules they are, whose verdicts have rationals behind
-/// them elsewhere: at contact to the last bit, and a few ulps from it.
+/// Triangles with zero-length sides and radii against the equal spheres and capsules, at contact to the last bit and
+/// a few ulps from it. Other tests compare these solids with rationals.
 TEST(GrownTriangles, MeetAsTheSolidsTheyAreDo) {
   Random random(47);
   std::size_t touching = 0, hits = 0, cases = 0;
   for (std::size_t k = 0; k < 20'000; ++k) {
-    // A distance that is a double: along an axis, or five times one of few digits.
+    // A distance that is exact in double: along an axis, or a multiple of the vector (3, 4, 0).
     const bool slanted = random.one_in(2);
     const double scale = std::ldexp(1.0, static_cast<int>(random.below(40)) - 20);
     const double t = scale * static_cast<double>(1 + random.below(1'000'000));
@@ -217,7 +217,7 @@ TEST(GrownTriangles, MeetAsTheSolidsTheyAreDo) {
     const Vec3 p(0, 0, 0), q = slanted ? Vec3(3 * t, 4 * t, 0) : Vec3(t, 0, 0);
     const double m = random.one_in(3) ? distance * random.uniform(0.0, 0.5) : 0.0;
     const double r = (distance - m) * random.uniform(0.0, 1.0);
-    double s = distance - m - r;  // to half an ulp
+    double s = distance - m - r;  // accurate to half an ulp
     for (std::size_t n = random.below(4); n > 0; --n) s = std::nextafter(s, random.one_in(2) ? 1e300 : 0.0);
     s = std::max(s, 0.0);
     const RadiusSum reach{r, s, m};
@@ -229,7 +229,7 @@ TEST(GrownTriangles, MeetAsTheSolidsTheyAreDo) {
     const Vec3 along = Vec3(0, 0, random.uniform(0.1, 2.0) * distance), across = Vec3(-q[1], q[0], 0) * 0.5;
     ASSERT_EQ(closer_than(Triangle{p, p, p}, Triangle{q, q, q}, reach), expected) << k;
     ASSERT_EQ(closer_than(Triangle{q, q, q}, Triangle{p, p, p}, RadiusSum{s, r, m}), expected) << k;
-    // Their nearest points are p and q as well.
+    // The nearest points are still p and q.
     ASSERT_EQ(closer_than(Triangle{p, p, p + along}, Triangle{q, q, q}, reach), expected) << k;
     ASSERT_EQ(closer_than(Capsule{p, p + along, r}, Capsule{q, q, s}, m), expected) << k;
     if (!slanted) {

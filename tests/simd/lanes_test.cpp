@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lanes against the same thing done one by one.
+// Operations on lanes against the same operations on scalars.
 #include "hinge/detail/simd/lanes.hpp"
 
 #include <gtest/gtest.h>
