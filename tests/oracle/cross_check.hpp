@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One call that holds any Hierarchy of points or triangles against FCL at its present configuration. FCL is asked only
-// what it answers well: crossing surfaces, distance when disjoint, nothing within `margin` of touching.
+// Compares a Hierarchy of points or triangles with FCL at its current configuration. FCL is asked only for answers that
+// it computes reliably: crossing surfaces, and distances of disjoint shapes, with no pair within `margin` of touching.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@
 
 namespace hinge::oracle {
 
-/// Which pairs count at a configuration: the filter's, without those of constant distance.
+/// Returns a predicate for the pairs that count: admitted by the filter, and without a constant distance.
 template <class P, class F>
 auto counted_pairs(const SelectedModel<P>& model, const F& filter) {
   return [&model, &filter](std::size_t i, std::size_t j) {
@@ -30,14 +30,14 @@ auto counted_pairs(const SelectedModel<P>& model, const F& filter) {
   };
 }
 
-/// Points with one threshold m for all pairs are FCL spheres of radius m / 2.
+/// Compares points with FCL spheres of radius m / 2; m is the threshold of all pairs.
 class PointOracle {
  public:
   template <class F>
   PointOracle(const SelectedModel<Point>& model, const F& filter, double m)
       : m_(m), spheres_(std::vector<double>(model.size(), m / 2), counted_pairs(model, filter)) {}
 
-  /// True when the configuration was far enough from touching to be compared.
+  /// Returns true if the configuration was far enough from touching to be compared.
   template <class H>
   bool check(H& hierarchy, double margin) {
     std::vector<Position> positions;
@@ -67,7 +67,7 @@ class PointOracle {
   FclSpheres spheres_;
 };
 
-/// Triangles are FCL meshes, one per link; pairs of different links count where admits_links says so.
+/// Compares triangles with FCL meshes, one per link. admits_links says which pairs of links count.
 class TriangleOracle {
  public:
   explicit TriangleOracle(const Model<Triangle>& model) : model_(model), meshes_(split(model)) {}
@@ -76,7 +76,7 @@ class TriangleOracle {
   bool check(H& hierarchy, double margin, const AdmitsLinks& admits_links) {
     const auto closest = hierarchy.self_closest();
     for (const Hit& near : hierarchy.self_within(margin))
-      if (near.distance > 0.0) return false;  // a near miss
+      if (near.distance > 0.0) return false;  // too near to touching
     double nearest = std::numeric_limits<double>::infinity();
     Pairs pairs;
     for (std::size_t a = 0; a < of_link_.size(); ++a)

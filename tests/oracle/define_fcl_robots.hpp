@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bodies behind fcl_robots.hpp, for the two files that compile FCL: as Debian does, and for the machine at hand.
+// Definitions for fcl_robots.hpp, included by the two files that compile FCL: with Debian's flags, and for this CPU.
 #pragma once
 
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
@@ -51,7 +51,7 @@ std::shared_ptr<Tree> built(std::span<const Mesh> meshes) {
 
 template <class A, class B>
 bool touch(const A& a, const B& b) {
-  const fcl::CollisionRequest<double> request;  // one contact is enough, and not computed
+  const fcl::CollisionRequest<double> request;  // asks for one contact, without computing its geometry
   fcl::CollisionResult<double> result;
   return fcl::collide(a, b, request, result) > 0;
 }
@@ -123,19 +123,19 @@ void FclScene<build>::place(const Placement& at) {
 template <FclBuild build>
 struct FclRobot<build>::Impl {
   std::size_t count = 0;
-  std::vector<std::shared_ptr<Tree>> trees;  // by link; null where there are no triangles
+  std::vector<std::shared_ptr<Tree>> trees;  // by link; null if the link has no triangles
   std::vector<Transforms> postures;
-  const fcl::Transform3d* at = nullptr;  // of the links in the present posture
+  const fcl::Transform3d* at = nullptr;  // link poses of the current posture
   Pairs tested;
-  std::vector<bool> counts;  // by pair of links
+  std::vector<bool> counts;  // by link pair: is it tested?
   std::vector<std::unique_ptr<Object>> objects;
-  std::vector<std::size_t> link_of;  // what objects' user data points to
+  std::vector<std::size_t> link_of;  // user data of the objects points into this
   std::vector<std::size_t> with_mesh;
   Manager manager;
 
   struct Found {
     Impl* robot;
-    Pairs* pairs;  // null: the first ends it
+    Pairs* pairs;  // null: stop at the first pair
     bool any = false;
   };
   struct Nearest {

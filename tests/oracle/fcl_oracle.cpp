@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Implements the FCL oracle: spheres in a dynamic AABB tree, and triangle meshes.
 #include "oracle/fcl_oracle.hpp"
 
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
@@ -18,7 +19,7 @@ namespace {
 using Object = fcl::CollisionObject<double>;
 using Mesh = fcl::BVHModel<fcl::OBBRSS<double>>;
 
-/// FCL hands back a pointer of ours with each object: to its number.
+/// Returns the number of an object; its user data points to it.
 std::size_t number(const Object* object) { return *static_cast<const std::size_t*>(object->getUserData()); }
 
 fcl::Transform3d transform(const Placement& p) {
@@ -35,7 +36,7 @@ fcl::Transform3d transform(const Placement& p) {
 
 struct FclSpheres::Impl {
   std::vector<std::unique_ptr<Object>> objects;
-  std::vector<std::size_t> numbers;  // what the objects' user data points to
+  std::vector<std::size_t> numbers;  // user data of the objects points into this
   std::vector<double> radii;
   std::function<bool(std::size_t, std::size_t)> admits;
   fcl::DynamicAABBTreeCollisionManager<double> manager;
@@ -48,7 +49,7 @@ struct FclSpheres::Impl {
     double nearest = std::numeric_limits<double>::infinity();
   };
 
-  /// Spheres are judged by the exact formula: FCL's manager is the peer here, and its own sphere test says the same.
+  /// Spheres use the exact formula: this compares FCL's broad phase, and FCL's sphere test computes the same.
   double gap(std::size_t i, std::size_t j) const {
     return (objects[i]->getTranslation() - objects[j]->getTranslation()).norm() - (radii[i] + radii[j]);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FCL as Debian ships it.
+// FCL with the binaries and flags of Debian, and distances of FCL's own shapes.
 #include "oracle/fcl_robots.hpp"
 
 #include <fcl/geometry/shape/box.h>
@@ -20,7 +20,7 @@ namespace {
 template <class A, class B>
 double shape_distance(const A& a, const Placement& at_a, const B& b, const Placement& at_b) {
   fcl::DistanceRequest<double> request;
-  request.distance_tolerance = 1e-12;  // where libccd's iteration stops; its default, 1e-6, would be its error
+  request.distance_tolerance = 1e-12;  // tolerance of libccd's iteration and so its error; the default is 1e-6
   fcl::DistanceResult<double> result;
   return fcl::distance(&a, transform(at_a), &b, transform(at_b), request, result);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FCL asked about robots and their surroundings, as its users do it, behind plain arrays: an oracle and a peer.
+// FCL for robots and their surroundings, used as its users do, behind plain arrays: an oracle and a benchmark peer.
 #pragma once
 
 #include <array>
@@ -14,24 +14,24 @@
 
 namespace hinge::oracle {
 
-/// Nine numbers per triangle: three corners.
+/// Nine numbers per triangle: its three corners.
 using Mesh = std::vector<std::array<double, 9>>;
 
-/// Debian's library, or the same headers compiled for the machine at hand.
+/// Debian's library, or the same headers compiled for this CPU.
 enum class FclBuild : std::uint8_t { debian, native };
-/// A loop over the pairs, or DynamicAABBTreeCollisionManager, its update included. In a search for the minimum distance
-/// FCL's own callback hands one DistanceResult from pair to pair, whose bound stops traversals early; `unshared` is the
-/// manager without that, as many a program has it.
+/// A loop over the pairs, or DynamicAABBTreeCollisionManager with its update. In a search for the minimum distance,
+/// FCL's own callback passes one DistanceResult from pair to pair, and its bound prunes traversals. `unshared` is the
+/// manager without this, as in many programs.
 enum class FclManner : std::uint8_t { loop, manager, unshared };
 
-/// What building takes: filled with triangles beforehand, one BVHModel<OBBRSS<double>> per mesh.
+/// Measures building: triangles are given in advance, then one BVHModel<OBBRSS<double>> per mesh is built.
 template <FclBuild>
 class FclTrees {
  public:
   explicit FclTrees(std::span<const Mesh> meshes);
   FclTrees(FclTrees&&) noexcept;
   ~FclTrees();
-  /// Once.
+  /// Builds all trees; call it once.
   void build();
 
  private:
@@ -39,7 +39,7 @@ class FclTrees {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Meshes that stand still: as one BVH of all triangles for the loop, as one BVH each for the manager.
+/// Meshes at a fixed pose: one BVH of all triangles for the loop, one BVH each for the manager.
 template <FclBuild build>
 class FclScene {
  public:
@@ -55,8 +55,8 @@ class FclScene {
   std::unique_ptr<Impl> impl_;
 };
 
-/// A mesh per link (empty ones are passed over) and the pairs of links that count. Contacts are not computed: each pair
-/// is asked whether there is one.
+/// One mesh per link (empty meshes are ignored) and the tested pairs of links. Contacts are not computed: only whether
+/// a pair collides.
 template <FclBuild build>
 class FclRobot {
  public:
@@ -64,15 +64,15 @@ class FclRobot {
   FclRobot(FclRobot&&) noexcept;
   ~FclRobot();
 
-  /// World placements of every link, by posture; converted to FCL's here.
+  /// Sets the world poses of all links, by posture, and converts them to FCL's type.
   void set_postures(std::span<const std::vector<Placement>> postures);
-  /// The posture to ask about next. Objects and manager are brought up to date by the queries.
+  /// Selects the posture of the next queries. Queries update objects and manager.
   void take(std::size_t posture) noexcept;
 
   bool any(FclManner manner);
-  /// Colliding pairs of links i < j, in the order FCL finds them.
+  /// Appends colliding pairs of links i < j, in FCL's order.
   void all(FclManner manner, Pairs& pairs);
-  /// Smallest distance of tested pairs, 0 as soon as one collides.
+  /// Returns the smallest distance of tested pairs; 0 as soon as one collides.
   double distance(FclManner manner);
   bool hits(const FclScene<build>& scene, FclManner manner);
 
@@ -86,8 +86,8 @@ class FclRobot {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Shapes of FCL, through libccd. Capsules, boxes and cylinders are centred on their frame; capsules and cylinders lie
-/// along z, and a capsule's length is that of its segment.
+/// FCL's shapes, tested through libccd. Capsules, boxes and cylinders are centred at their frame's origin. Capsules and
+/// cylinders are along z; the length of a capsule is that of its segment.
 struct FclSphere {
   double radius;
 };
@@ -104,7 +104,7 @@ double distance(const FclSphere& a, const Placement& at_a, const FclSphere& b, c
 double distance(const FclCapsule& a, const Placement& at_a, const FclCapsule& b, const Placement& at_b);
 double distance(const FclBox& a, const Placement& at_a, const FclBox& b, const Placement& at_b);
 
-/// Shapes are solid to it.
+/// FCL treats these shapes as solid.
 using FclShape = std::variant<FclSphere, FclCapsule, FclBox, FclCylinder>;
 bool collide(const FclShape& a, const Placement& at_a, const FclShape& b, const Placement& at_b);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boxes, spheres and cylinders as solids, one inside another too, held against FCL's own shapes. Where the two differ,
-// fractions decide: separating axes of two boxes, the nearest point of a box.
+// Compares boxes, spheres and cylinders as solids, also nested, with FCL's shapes. If the two differ, rational
+// arithmetic decides: separating axes of two boxes, the nearest point of a box.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// Half edges in the world.
+/// Returns the half edges of the box in the world frame.
 std::array<Vector, 3> half_edges(const BoxShape& box, const Pose& at) {
   std::array<Vector, 3> edges;
   for (int k = 0; k < 3; ++k) {
@@ -49,7 +49,7 @@ std::array<Vector, 3> half_edges(const BoxShape& box, const Pose& at) {
   return edges;
 }
 
-/// Do they share a point? No axis separates them, of the faces or of two edges.
+/// Returns whether the boxes share a point: no face normal and no cross product of edges is a separating axis.
 bool meet(const BoxShape& a, const Pose& at_a, const BoxShape& b, const Pose& at_b) {
   const auto x = half_edges(a, at_a), y = half_edges(b, at_b);
   const Vector between = minus(exactly(at_b.translation), exactly(at_a.translation));
@@ -83,7 +83,7 @@ bool meet(const BoxShape& a, const Pose& at_a, const SphereShape& b, const Pose&
   return squared <= Fraction(b.radius) * Fraction(b.radius);
 }
 
-/// What fractions say; none: of cylinders, which have no formula of their own here.
+/// Decides exactly in rationals; nothing for cylinders, which have no exact formula here.
 struct Judge {
   const Pose &at_a, &at_b;
   template <class A, class B>
@@ -107,7 +107,7 @@ bool collide_for_fcl(const Shape& a, const Pose& at_a, const Shape& b, const Pos
                          oracle::placement(at_b));
 }
 
-/// As it is, a little larger or a little smaller on every side.
+/// Returns the shape with every side moved outward by `by`, which may be negative.
 Shape grown(Shape shape, double by) {
   if (auto* box = std::get_if<BoxShape>(&shape)) box->size += Vec3::Constant(2 * by);
   if (auto* sphere = std::get_if<SphereShape>(&shape)) sphere->radius += by;
@@ -123,7 +123,7 @@ Shape random_solid(Random& random, std::size_t kind) {
   return CylinderShape{size() / 2, size()};
 }
 
-/// Shape `a` on the root, shape `b` at a pose on the link behind two joints.
+/// A robot with shape `a` on the root and shape `b` at a pose on a link behind two joints.
 bool collide_for_hinge(const Shape& a, const Shape& b, const Pose& at_b, const std::string& engine, bool& surfaces) {
   RobotDescription pair{"pair", {{"a", {{a}}}, {"between"}, {"b", {{b}}}}, {}};
   pair.joints.push_back({"turn", JointType::continuous, "a", "between"});
@@ -140,8 +140,8 @@ struct Count {
   std::size_t asked = 0, together = 0, inside = 0, differ = 0;
 };
 
-/// One pair of solids at one pose. Cylinders are enclosed to 1 mm: where FCL says that this much decides, nothing is
-/// asked of them.
+/// Compares one pair of solids at one pose. Cylinders are enclosed to 1 mm: a pair is skipped if FCL's answer changes
+/// within this distance.
 void compare(const Shape& a, const Shape& b, const Pose& at_b, const std::string& engine, Count& count) {
   constexpr double enclosed = 2.5e-3;
   const std::optional<bool> exact = std::visit(Judge{Pose{}, at_b}, a, b);
@@ -199,7 +199,7 @@ TEST(FclSolids, AgreeWhereOneIsInsideTheOther) {
     };
     const Shape outer = solid(k % 3, size), inner = solid(k / 3 % 3, size / 8);
     const Pose pose = random.pose(size / 4);
-    // Either is the one on the root.
+    // Both shapes take a turn on the root.
     compare(outer, inner, pose, engines[k / 9 % 3], count);
     compare(inner, outer, pose, engines[k / 9 % 3], count);
     if (testing::Test::HasFatalFailure()) break;
@@ -209,8 +209,8 @@ TEST(FclSolids, AgreeWhereOneIsInsideTheOther) {
   EXPECT_EQ(count.differ, 0U);
 }
 
-/// Boxes and spheres that barely touch or barely do not: by 1e-3 to 1e-12 of their size. FCL's boxes and spheres have
-/// tolerances of their own there, so that fractions decide.
+/// Boxes and spheres that touch or miss by 1e-3 to 1e-12 of their size. FCL has its own tolerances there, so rationals
+/// decide.
 TEST(FclSolids, AreDecidedByFractionsWhereTheyBarelyTouch) {
   constexpr std::uint64_t seed = 8491;
   const std::size_t pairs = exhaustive() ? 20000 : 500;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hinge against FCL on a thousand configurations each, away from touching.
+// Compares Hinge with FCL on a thousand configurations per model, away from touching.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ namespace oracle_test {
 
 using test::Random;
 
-/// An octahedron-like mesh, stretched along x.
+/// A bipyramid with six sides, stretched along x.
 std::vector<Triangle> spindle(Random& random) {
   const double l = random.uniform(0.3, 0.6), w = random.uniform(0.05, 0.15);
   const Vec3 tip(l, 0, 0), tail(-0.1, 0, 0);
@@ -48,7 +48,7 @@ TEST(FclOracle, AgreesOnMeshRobots) {
     SCOPED_TRACE(seed);
     Random random(seed);
     ModelBuilder<Triangle> build;
-    const std::size_t links = seed == 0 ? 2 : 5;  // the first is a two-link robot
+    const std::size_t links = seed == 0 ? 2 : 5;  // the first robot has two links
     LinkId parent = world;
     std::vector<std::pair<LinkId, LinkId>> neighbours;
     for (std::size_t k = 0; k < links; ++k) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// placement, corners: poses and triangles as the plain arrays the oracles take.
+// Converts poses and triangles to the plain arrays of the oracles.
 #pragma once
 
 #include <array>

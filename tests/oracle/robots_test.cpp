@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Robots against FCL, pair of links by pair of links. FCL is no judge of touching: what they disagree on is settled by
-// exact arithmetic on the coordinates Hinge hands out, and printed.
+// Compares robots with FCL for every pair of links. FCL is unreliable near touching: exact arithmetic on Hinge's
+// coordinates settles and prints every disagreement.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,8 +37,7 @@ namespace robots_test {
 
 constexpr std::uint64_t seed = 2005;
 
-/// m. FCL may round, but not more than this; what is wider would be a mistake in how it is asked, not of its
-/// arithmetic.
+/// In m: the largest error that rounding in FCL can explain. A larger difference is a mistake in how FCL is called.
 constexpr double rounding = 1e-9;
 
 std::span<const Triangle> of_link(const robotics::Robot& robot, std::span<const Triangle> placed, std::size_t link) {
@@ -47,7 +46,8 @@ std::span<const Triangle> of_link(const robotics::Robot& robot, std::span<const 
   return placed.subspan(static_cast<std::size_t>(first - links.begin()), static_cast<std::size_t>(last - first));
 }
 
-/// Every triangle against every one: 0 exactly when the links share a point. Infinite above `farthest`, m.
+/// Returns the distance over all pairs of triangles: 0 if and only if the links share a point; infinity above
+/// `farthest` (m).
 double exact_distance(std::span<const Triangle> a, std::span<const Triangle> b, double farthest) {
   double least = std::numeric_limits<double>::infinity();
   for (const Triangle& s : a) {
@@ -61,13 +61,13 @@ double exact_distance(std::span<const Triangle> a, std::span<const Triangle> b, 
   return least;
 }
 
-/// Links that one calls in contact and the other not.
+/// Pairs of links that only Hinge or only FCL finds in contact.
 struct Disagreements {
   std::size_t hinge_only = 0, fcl_only = 0;
-  double widest = 0.0;  ///< m: how far apart the other one finds them, exact arithmetic or FCL
+  double widest = 0.0;  ///< m: largest distance of such a pair by the other method, exact arithmetic or FCL
 };
 
-/// One robot on one engine, and in FCL.
+/// One robot in an engine of Hinge and in FCL.
 template <template <class, class, class> class EngineOf>
 class Compared {
  public:
@@ -82,7 +82,7 @@ class Compared {
   std::size_t colliding() const noexcept { return colliding_; }
   const Disagreements& disagreements() const noexcept { return disagreements_; }
 
-  /// Links in contact by Hinge's account.
+  /// Returns the links that are in contact according to Hinge.
   const oracle::Pairs& contacts(std::span<const double> independent) {
     hierarchy_.update(robot_.expand(independent));
     hits_.clear();
@@ -149,10 +149,10 @@ class Compared {
   Disagreements disagreements_;
 };
 
-/// Five links of every shape on a chain, with a mesh that is not convex.
+/// A chain of five links with every shape, including a mesh that is not convex.
 robotics::Robot made_in_code() {
   using namespace robotics;
-  TriangleMesh fan;  // blades about the z axis, open
+  TriangleMesh fan;  // blades about the z axis, not closed
   for (int k = 0; k < 12; ++k) {
     const double angle = 0.6 * k;
     fan.triangles.push_back(
@@ -204,7 +204,7 @@ void compare_at_random(const char* engine, const robotics::Robot& robot, const r
   EXPECT_LT(compared.colliding(), configurations);
 }
 
-/// The paper's engine is slow on meshes, and sees fewer.
+/// The lazy engine is slow on meshes, so it gets fewer configurations.
 void compare_both(const robotics::Robot& robot, const robotics::LinkPairs& disabled, std::uint64_t configurations,
                   std::uint64_t lazy_configurations) {
   compare_at_random<Simd>("simd", robot, disabled, configurations);
@@ -228,8 +228,8 @@ TEST(FclRobots, AgreeOnTalos) {
   compare_both(robot, disabled, tries_all() ? 10'000 : 10, tries_all() ? 200 : 10);
 }
 
-/// Two configurations, one free and one not, brought together until no double lies between them: FCL rounds placements
-/// differently, so either answer can be had there. Hinge has to be right on the coordinates it hands out.
+/// Bisects between a free and a colliding configuration until no double is between them. FCL rounds poses differently,
+/// so its answer may differ there; Hinge must be right on its own coordinates.
 void settle_at_contact(const robotics::Robot& robot, const robotics::LinkPairs& disabled, std::uint64_t paths) {
   Compared<Simd> compared(robot, disabled);
   std::uint64_t bisected = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Distances of spheres, capsules and boxes against FCL's own shapes (libccd), well separated.
+// Compares distances of well separated spheres, capsules and boxes with FCL's shapes (libccd).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace shapes_test {
 
 constexpr std::uint64_t seed = 2005;
 
-/// Two poses, the second one `apart` (m) from the first in a random direction.
+/// Returns two poses; the second is `apart` (m) from the first in a random direction.
 std::pair<Pose, Pose> poses_apart(test::Random& random, double apart) {
   std::pair<Pose, Pose> poses(random.pose(1.0), random.pose(1.0));
   poses.second.translation = poses.first.translation + Vec3(random.vector(1.0).normalized() * apart);
@@ -60,7 +60,7 @@ TEST(FclShapes, CapsulesAreAsFarApart) {
   }
 }
 
-/// libccd stops its iteration at a tolerance: a millionth of a metre here.
+/// libccd stops its iteration at a tolerance, here a millionth of a metre.
 TEST(FclShapes, BoxesAreAsFarApart) {
   test::Random random(seed);
   for (int k = 0; k < shape_pairs; ++k) {

@@ -13,14 +13,14 @@
 
 namespace hinge::test {
 
-/// Samples enough to see what is common.
+/// Options with few samples (200); these are enough to find the pairs that collide often.
 inline robotics::MatrixOptions few_samples() {
   robotics::MatrixOptions options;
   options.samples = 200;
   return options;
 }
 
-/// Links named by letters, boxes on some of them.
+/// Builds a robot description: a chain of calls adds links, shapes and joints. A shape goes to the last link.
 class Builder {
  public:
   Builder& link(const std::string& name) {

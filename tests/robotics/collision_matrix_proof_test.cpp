@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the collision matrix claims to have proved, against samples and descents that try to refute it.
+// Tests the proofs of the collision matrix: random samples and descents try to refute them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ LinkPairs pairs_of_kind(const Robot& robot, const CollisionMatrix& matrix, PairK
   return pairs;
 }
 
-/// Looks for a configuration in which one of the pairs meets.
+/// Searches for a configuration in which one of the pairs collides. Searches return a description of it, or "".
 class Refuter {
  public:
   Refuter(const Robot& robot, const LinkPairs& pairs)
@@ -46,8 +46,8 @@ class Refuter {
     return "";
   }
 
-  /// Walks downhill on the distance of the closest pair, one joint at a time, with shrinking steps; from corners of the
-  /// limits as well as from inside.
+  /// Minimizes the distance of the closest pair, one joint at a time, with shrinking steps. Starts inside the limits
+  /// and at their corners.
   std::string downhill(std::size_t starts, std::size_t rounds) {
     for (std::size_t s = 0; s < starts; ++s) {
       SampleStream stream(seed + 1, s);
@@ -82,7 +82,7 @@ class Refuter {
   Hierarchy<Triangle, LinkPairFilter, LinkMargins> links_;
 };
 
-/// A tree of boxes, all joint types, followers included.
+/// Returns a random tree of boxes with joints of all types and with mimic joints.
 Robot random_robot(std::uint64_t number) {
   SampleStream stream(seed, number);
   const auto in = [&](double low, double high) { return low + stream.uniform() * (high - low); };
@@ -130,8 +130,7 @@ TEST(CollisionMatrix, NothingRefutesWhatItProved) {
   EXPECT_GT(proved, 150U);
 }
 
-/// The other way round: what a finer search finds to meet must not have been proved, and most of what is not seen to
-/// meet is proved.
+/// The converse: pairs that a finer search sees colliding are not proved, and most other pairs are.
 TEST(CollisionMatrix, LeavesLittleUndecidedOnSmallRobots) {
   std::size_t undecided = 0, all = 0;
   for (std::uint64_t number = 0; number < 20; ++number)
@@ -154,7 +153,7 @@ TEST_P(SharedMatrix, NothingRefutesWhatItProved) {
   EXPECT_GE(never.size(), 12U);
   EXPECT_NE(Refuter(robot, pairs_of_kind(robot, matrix, PairKind::sometimes)).random(1'000), "");
   EXPECT_NE(Refuter(robot, pairs_of_kind(robot, matrix, PairKind::sometimes)).downhill(20, 8), "");
-  const bool small = robot.model().size() < 10'000;  // distances of large meshes take their time
+  const bool small = robot.model().size() < 10'000;  // the distance of large meshes is slow
   EXPECT_EQ(Refuter(robot, never).random(small ? 100'000 : 10'000), "");
   EXPECT_EQ(Refuter(robot, never).downhill(small ? 20 : 1, 8), "");
 }

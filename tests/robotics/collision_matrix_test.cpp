@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Tests the collision matrix: kinds of pairs, proofs near contact, clearances, mimic joints, rejected input.
 #include "hinge/robotics/collision_matrix.hpp"
 
 #include <gtest/gtest.h>
@@ -33,8 +34,8 @@ PairKind kind(const Robot& robot, const MatrixOptions& options = few_samples()) 
   return entry_of(robot, "a", "c", options).kind;
 }
 
-/// a carries a wall whose near face is at x = wall; c is a rod on a two-joint arm, whose corner comes as far as
-/// 0.5 + sqrt(0.4^2 + 0.05^2) = 0.903113 m.
+/// Link a has a wall with its near face at x = wall. Link c is a rod on an arm with two joints; the largest x of its
+/// corners is 0.5 + sqrt(0.4^2 + 0.05^2) = 0.903113 m.
 Robot arm_before_wall(double wall, JointType type = JointType::revolute) {
   return Builder()
       .link("a")
@@ -52,7 +53,7 @@ TEST(CollisionMatrix, ProvesThatAnArmStaysShortOfAWall) {
     const MatrixEntry near = entry_of(arm_before_wall(0.9032, type), "a", "c", few_samples());
     EXPECT_EQ(near.kind, PairKind::never);
     ASSERT_TRUE(near.smallest_gap.has_value());
-    EXPECT_GE(*near.smallest_gap, 0.9032 - 0.903113);  // the true smallest one
+    EXPECT_GE(*near.smallest_gap, 0.9032 - 0.903113);  // the true smallest gap
     EXPECT_EQ(kind(arm_before_wall(1.5, type)), PairKind::never);
   }
 }
@@ -87,12 +88,12 @@ TEST(CollisionMatrix, LimitsDecide) {
         .joint(JointType::revolute, "b", "c", Vec3::Zero(), Vec3::UnitX(), -0.1, 0.1)
         .robot();
   };
-  // The drawer's face starts 0.85 m from the wall.
+  // The face of the drawer starts 0.85 m from the wall.
   EXPECT_EQ(kind(drawer(0.8499)), PairKind::never);
   EXPECT_EQ(kind(drawer(0.8501)), PairKind::sometimes);
 }
 
-/// A rod that turns down towards a floor and touches it at 1 rad; b only slides along the axis, from 0 to `slide`.
+/// A rod that rotates down to a floor and touches it at 1 rad. Link b only slides along the axis, from 0 to `slide`.
 Builder rod_above_floor(double slide, double lowest, const Shape& rod = BoxShape{{0.4, 0.1, 0.1}}) {
   const double floor = 0.5 - 0.4 * std::sin(1.0) - 0.05 * std::cos(1.0);
   Builder build;
@@ -113,7 +114,7 @@ TEST(CollisionMatrix, LimitsOfTurningDecide) {
   }
 }
 
-/// Two needles on one line, whose balls hold nothing but their ends there; one slides towards the other.
+/// Two needles on one line; their bounding balls touch only at the needle tips. One needle slides towards the other.
 TEST(CollisionMatrix, NeedlesMeetPointToPoint) {
   const auto needles = [](double travel) {
     TriangleMesh mesh;
@@ -135,7 +136,8 @@ TEST(CollisionMatrix, NeedlesMeetPointToPoint) {
   }
 }
 
-/// Every part of a triangle that has the tip has its middle nearer to the axis, and slower.
+/// Each piece of the triangle that contains the tip has its centre nearer to the axis, so the centre moves slower than
+/// the tip.
 TEST(CollisionMatrix, TipsThatOutrunTheirMiddlesCount) {
   TriangleMesh mesh;
   mesh.triangles.push_back({Vec3(0.2, -0.05, 0), Vec3(0.1, 0.02, 0.01), Vec3(0.1, -0.02, 0)});
@@ -146,7 +148,7 @@ TEST(CollisionMatrix, TipsThatOutrunTheirMiddlesCount) {
   }
 }
 
-/// A speck on a circle comes down to a wall across it at both limits.
+/// A tiny triangle moves on a circle and is nearest to the wall at both joint limits.
 TEST(CollisionMatrix, ArcsAreNotTakenForTheirTangents) {
   const auto speck = [](double wall) {
     TriangleMesh mesh;
@@ -188,7 +190,7 @@ TEST(CollisionMatrix, ClearanceCountsAsMeeting) {
     EXPECT_THROW(with(bad), ModelError);
 }
 
-/// Two fingers that slide (or turn) on a palm b; the second follows the first.
+/// Two fingers that slide or rotate on a palm b. With `follows`, the second is a mimic joint of the first.
 Robot gripper(bool follows, JointType type) {
   const double open = type == JointType::prismatic ? 0.1 : 1.0;
   Builder build;
@@ -268,7 +270,7 @@ TEST(CollisionMatrix, DefaultIsTheMiddleWhereZeroIsOutside) {
 }
 
 TEST(CollisionMatrix, LeavesOpenWhatRoundingCouldDecide) {
-  // World coordinates near 1e7 m are multiples of 2e-9 m.
+  // World coordinates near 1e7 m are multiples of 2e-9 m (double precision).
   const auto at = [](double gap) {
     return Builder()
         .link("root")

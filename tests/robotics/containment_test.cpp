@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Tests which meshes are closed, their components, and whether a point is inside, outside or on a surface.
 #include "hinge/robotics/containment.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@ namespace containment_test {
 constexpr std::uint64_t seed = 4096;
 using Mesh = std::vector<Triangle>;
 
-/// A box whose faces are cut into n x n cells of two triangles, outward. Corners on whole multiples of size / n.
+/// A box with faces of n x n cells of two triangles, normals outward. Corners are multiples of size / n.
 Mesh box(const Vec3& low, double size, int n) {
   Mesh mesh;
   const double step = size / n;
@@ -58,7 +59,7 @@ TEST(OpenEdge, IsNoneForABoxHoweverItIsTurned) {
   EXPECT_TRUE(closed(turned(box({0, 0, 0}, 1.0, 3))));
   EXPECT_TRUE(closed(box({0, 0, 0}, 1.0, 1) + box({5, 0, 0}, 1.0, 2)));
   EXPECT_TRUE(closed(Mesh{}));
-  // A zero-area triangle runs through its edge both ways.
+  // A triangle of zero area has each of its edges in both directions.
   EXPECT_TRUE(closed(box({0, 0, 0}, 1.0, 1) + Mesh{{{9, 9, 9}, {8, 8, 8}, {9, 9, 9}}}));
 }
 
@@ -74,7 +75,7 @@ TEST(OpenEdge, NamesWhatAMissingTriangleLeaves) {
     const auto from = std::find(corners.begin(), corners.end(), open->from);
     ASSERT_NE(from, corners.end());
     EXPECT_EQ(corners[static_cast<std::size_t>(from - corners.begin() + 1) % 3], open->to);
-    // The missing one has the edge the other way round.
+    // The missing triangle has this edge in the opposite direction.
     const std::array<Vec3, 4> lost{whole[gone].a, whole[gone].b, whole[gone].c, whole[gone].a};
     const std::array<Vec3, 2> back{open->to, open->from};
     EXPECT_NE(std::search(lost.begin(), lost.end(), back.begin(), back.end()), lost.end());
@@ -96,12 +97,13 @@ TEST(OpenEdge, TakesZeroesOfEitherSignForOnePoint) {
 }
 
 TEST(Parts, HangTogetherByVertices) {
-  const Mesh mesh = box({0, 0, 0}, 1.0, 2) + box({4, 0, 0}, 1.0, 1) + box({1, 1, 1}, 1.0, 1);  // the last at a corner
+  const Mesh mesh =
+      box({0, 0, 0}, 1.0, 2) + box({4, 0, 0}, 1.0, 1) + box({1, 1, 1}, 1.0, 1);  // the last box shares a corner
   EXPECT_EQ(parts(mesh), (std::vector<std::size_t>{0, 48}));
   EXPECT_TRUE(parts(Mesh{}).empty());
 }
 
-/// Rays from points of the grid pass through vertices and edges of the box.
+/// Rays from grid points pass through vertices and edges of the box.
 TEST(PlaceOf, IsRightWhereRaysMeetVerticesAndEdges) {
   constexpr int n = 4;
   for (const Mesh& mesh : {box({0, 0, 0}, n, n), turned(box({0, 0, 0}, n, n))})
@@ -116,7 +118,7 @@ TEST(PlaceOf, IsRightWhereRaysMeetVerticesAndEdges) {
         }
 }
 
-/// An octahedron whose apex and waist the rays meet: |x| + |y| + |z| <= 4.
+/// The octahedron |x| + |y| + |z| <= 4; rays hit its apex and its equator.
 TEST(PlaceOf, IsRightUnderTheApexOfAnOctahedron) {
   Mesh mesh;
   for (const double x : {-4.0, 4.0})
@@ -143,7 +145,7 @@ TEST(PlaceOf, AgreesWithHalfSpacesForRandomTetrahedra) {
   std::size_t inside = 0;
   for (std::uint64_t number = 0; number < 400; ++number) {
     SampleStream stream(seed, number);
-    // Whole numbers: long double decides the half-spaces exactly, and points on faces are not rare.
+    // Coordinates are integers: long double decides the half-spaces exactly, and points on faces are frequent.
     const auto whole = [&] {
       const Vec3 x = test::random_point(stream, 6.0);
       return Vec3(std::floor(x[0]), std::floor(x[1]), std::floor(x[2]));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The hull tier against half-spaces in extended precision.
+// Tests the hull tier against half-spaces in extended precision.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace hinge::robotics {
 namespace convex_hull_test {
 
-/// Least depth of the points behind the planes of the triangles, m.
+/// Returns the smallest depth of the points behind the planes of the triangles, m; negative if a point is in front.
 long double least_depth(std::span<const Triangle> hull, std::span<const Vec3> points) {
   long double least = std::numeric_limits<long double>::infinity();
   for (const Triangle& t : hull) {
@@ -47,7 +47,7 @@ std::vector<Vec3> corners(std::span<const Triangle> triangles) {
   return corners;
 }
 
-/// In every direction as far as the points, and hardly farther.
+/// In 200 directions the hull extends as far as the points, and at most `excess` farther.
 void expect_tight(std::span<const Triangle> hull, std::span<const Vec3> points, double excess) {
   const std::vector<Vec3> of_hull = corners(hull);
   for (const Vec3& direction : test::random_points(99, 200)) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Tests an environment of bodies that move, are removed, and are attached to links; against brute force.
 #include "hinge/robotics/environment.hpp"
 
 #include <gtest/gtest.h>
@@ -35,7 +36,7 @@ std::shared_ptr<const TriangleMesh> cube(double size) {
 
 Pose at(double x, double y = 0.0, double z = 0.0) { return {Mat3::Identity(), Vec3(x, y, z)}; }
 
-/// A unit cube that slides along x, on a root without geometry; a hand fixed to it at (0, 0, 2).
+/// A unit cube that slides along x on a root without geometry. A hand is fixed to the cube at (0, 0, 2).
 std::shared_ptr<const Robot> slider() {
   RobotDescription robot{"slider", {{"root"}, {"cube", {{BoxShape{}}}}, {"hand", {{BoxShape{}}}}}, {}};
   JointDescription slide{"slide", JointType::prismatic, "root", "cube"};
@@ -62,15 +63,15 @@ class EnvironmentOf : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(All, EnvironmentOf, testing::Values("simd", "lazy", "brute"),
                          [](const auto& engine) { return engine.param; });
 
-/// A body as the test knows it.
+/// The test's own record of a body in the environment.
 struct Known {
   BodyId id{};
   std::shared_ptr<const TriangleMesh> mesh;
-  Pose pose{};                        ///< in the world, or in the link it hangs on
-  std::optional<std::string> link{};  ///< that it hangs on
+  Pose pose{};                        ///< in the world, or in the frame of `link` if attached
+  std::optional<std::string> link{};  ///< the link that the body is attached to
 };
 
-/// Smallest d - M of every pair of link (or held body) and body that is tested, placed by Eigen.
+/// Returns the smallest d - M of every tested pair of a link (or attached body) and a body; Eigen computes the poses.
 std::vector<std::pair<Key, double>> gaps(const Robot& robot, const std::vector<double>& q,
                                          const std::vector<Known>& bodies, double m_links, double m_held) {
   std::map<std::string, double> values;
@@ -146,7 +147,7 @@ TEST_P(EnvironmentOf, AgreesWithAllPairsOneByOneWhileBodiesMoveComeAndGo) {
         least = std::min(least, gap);
       }
       EXPECT_EQ(checker.collides(environment), !hits.empty());
-      // An order changes no answer to come.
+      // Calibrating the order of the pairs must not change later answers.
       if (number % 2 == 0) checker.calibrate_pair_order(environment);
       EXPECT_EQ(keys(checker.collisions(environment)), hits);
       EXPECT_EQ(keys(checker.within(environment, 0.1)), near);
@@ -172,7 +173,7 @@ TEST_P(EnvironmentOf, MovesHeldBodiesWithTheirLink) {
   const BodyId tool = environment.add(cube(0.5), at(50), "tool"), wall = environment.add(cube(1.0), at(10), "wall");
   environment.attach(tool, robot, *robot->find_link("hand"), at(1, 0, -2));
   EXPECT_EQ(environment.attached_to(tool), robot->find_link("hand"));
-  // It overlaps the cube, which is of the hand's rigid group, and touches nothing else.
+  // The tool overlaps the cube, which is in the rigid group of the hand, and touches nothing more.
   EXPECT_FALSE(checker.collides(environment));
   EXPECT_EQ(environment.pose(tool).translation, Vec3(1, 0, 0));
   checker.update(std::vector<double>{8.5});
@@ -187,7 +188,7 @@ TEST_P(EnvironmentOf, MovesHeldBodiesWithTheirLink) {
   EXPECT_EQ(closest->distance, 1.25);
   EXPECT_EQ(closest->point1[0], 8.25);
   EXPECT_EQ(closest->point2[0], 9.5);
-  // Let go, it stays behind, and the cube runs into it.
+  // After detaching, the tool stays where it is, and the cube collides with it.
   environment.detach(tool);
   EXPECT_FALSE(environment.attached_to(tool).has_value());
   checker.update(std::vector<double>{7.5});
@@ -203,7 +204,7 @@ TEST(Environment, LetsHeldBodiesTouchTheLinksNamedAlone) {
   const LinkId hand = *robot->find_link("hand"), body = *robot->find_link("cube");
   RobotChecker checker = checker_of(robot);
   Environment environment;
-  const BodyId rod = environment.add(cube(2.0), at(0, 0, 1), "rod");  // meets hand and cube
+  const BodyId rod = environment.add(cube(2.0), at(0, 0, 1), "rod");  // collides with hand and cube
   EXPECT_EQ(keys(checker.collisions(environment)), (std::set<Key>{{{}, body, rod}, {{}, hand, rod}}));
   environment.attach(rod, robot, hand, at(0, 0, -1));
   EXPECT_TRUE(checker.collisions(environment).empty());
@@ -329,7 +330,7 @@ TEST(Containment, OfLinksAndBodiesIsReportedBothWays) {
     RobotChecker checker = checker_of(robot, 0.0, engine);
     Environment environment(0.0, engine);
     const BodyId room = environment.add(cube(20.0)), speck = environment.add(cube(0.25), at(0.125));
-    // The speck lies in a box, which is solid; the room is a mesh.
+    // The speck is in a box, which is solid. The room is a mesh, which is hollow.
     ASSERT_EQ(checker.collisions(environment).size(), 1U);
     EXPECT_EQ(checker.collisions(environment)[0].link, body);
     EXPECT_EQ(checker.collisions(environment)[0].body, speck);
@@ -347,7 +348,7 @@ TEST(Containment, OfLinksAndBodiesIsReportedBothWays) {
     EXPECT_EQ(held[2].held, speck);
     EXPECT_EQ(held[2].body, room);
     EXPECT_TRUE(held[2].body_is_outer);
-    // Out of the room: through its wall is a collision, outside is nothing.
+    // At 10 the cube crosses the wall of the room, which is a collision; at 30 it is outside, which is neither.
     checker.update(std::vector<double>{10.0});
     EXPECT_TRUE(checker.collides(environment));
     checker.update(std::vector<double>{30.0});

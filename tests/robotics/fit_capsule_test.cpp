@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The capsule tier: everything inside, and not much larger than needed.
+// Tests the capsule tier: it contains all points and is not much larger than necessary.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ Fitted fitted(std::span<const Vec3> points) {
   return {placed.origin * Vec3(-end), placed.origin * end, capsule.radius};
 }
 
-/// Of the point farthest out; below 0: inside.
+/// Returns how far the farthest point is outside the capsule; below 0 if all are inside.
 long double excess(const Fitted& capsule, std::span<const Vec3> points) {
   using Long = Eigen::Matrix<long double, 3, 1>;
   const Long a = capsule.a.cast<long double>(), along = capsule.b.cast<long double>() - a;
@@ -83,7 +83,7 @@ TEST(FitCapsule, IsAsSmallAsTheBestOfManyDirections) {
     for (unsigned k = 0; k < 8; ++k)
       box.emplace_back((k & 1U) != 0 ? size[0] : 0, (k & 2U) != 0 ? size[1] : 0, (k & 4U) != 0 ? size[2] : 0);
     const double found = fitted(box).volume();
-    // Around the box's centre line in each direction: a capsule any program could have found.
+    // The best capsule around the box's centre in 2000 directions.
     double best = std::numbers::pi * 4 / 3 * std::pow((size / 2).norm(), 3);
     for (const Vec3& direction : test::random_points(55, 2000)) {
       const Vec3 unit = direction.normalized(), centre = size / 2;

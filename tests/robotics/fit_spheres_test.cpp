@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The spheres tier: points all over the triangles are inside, and more spheres stand out less.
+// Tests the sphere tier: it contains points on all triangles, and more spheres fit closer.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,8 @@
 namespace hinge::robotics {
 namespace fit_spheres_test {
 
-/// How far the point farthest out is from the union of the balls, over a grid on each triangle; below 0: inside.
+/// Returns how far the farthest point of a grid on each triangle is outside the union of the spheres; below 0 if all
+/// are inside.
 double excess(std::span<const PlacedShape> spheres, std::span<const Triangle> triangles) {
   constexpr int parts = 24;
   double most = -1.0;
@@ -65,7 +66,7 @@ TEST(FitSpheres, HoldDegenerateTriangles) {
   EXPECT_LE(largest_radius(point), 2e-10);
 }
 
-/// Of the ball farthest out of the unit cube.
+/// Returns how far the spheres extend beyond the faces of the unit cube.
 double standing_out(std::span<const PlacedShape> spheres) {
   double most = -1.0;
   for (const PlacedShape& s : spheres) {
@@ -84,7 +85,7 @@ TEST(FitSpheres, StandOutLessTheMoreThereAre) {
     EXPECT_LT(out, before) << most;
     before = out;
   }
-  // One alone is the sphere around the cube. Nine to a face, centred on it, would stand out by sqrt(2) / 6 = 0.236.
+  // One sphere is the circumscribed sphere. Nine spheres per face, centred on it, would extend by sqrt(2) / 6 = 0.236.
   EXPECT_NEAR(standing_out(test::tiered(test::lone_link(cube), Tier::spheres, 1)), std::sqrt(3.0) / 2 - 0.5, 0.02);
   EXPECT_LT(before, 0.15);
 }
@@ -92,7 +93,7 @@ TEST(FitSpheres, StandOutLessTheMoreThereAre) {
 TEST(FitSpheres, FollowASlenderLink) {
   const std::vector<Triangle> rod = tessellate(BoxShape{{1.0, 0.02, 0.02}}).triangles;
   const auto spheres = test::tiered(test::lone_link(rod), Tier::spheres, 20);
-  EXPECT_LT(largest_radius(spheres), 0.04);  // a twentieth of the rod has half a diagonal of 0.029
+  EXPECT_LT(largest_radius(spheres), 0.04);  // half of the diagonal of a twentieth of the rod is 0.029
 }
 
 }  // namespace fit_spheres_test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shapes of size 0: points, segments and flat solids are judged as what they are, by every engine.
+// Tests shapes with a size of 0: every engine treats points, segments and flat solids exactly.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 namespace hinge::robotics {
 namespace flat_shapes_test {
 
-/// A link with the shape on a slide along x, before a ball of radius 0.5 in the origin.
+/// A robot whose link with the shape slides along x towards a ball of radius 0.5 at the origin.
 std::shared_ptr<const Robot> slider(const Shape& shape) {
   RobotDescription robot{"slider", {{"ball", {{SphereShape{0.5}}}}, {"between"}, {"shape", {{shape}}}}, {}};
   JointDescription still;
@@ -42,7 +42,7 @@ struct Case {
   double reach;  ///< from the slide's position back to the shape's nearest point
 };
 
-/// The disc is a prism of height 0 around the circle, at most 1 mm away from it.
+/// The disc is a prism of height 0 around the circle, at most 1 mm outside it.
 const std::vector<Case>& cases() {
   static const std::vector<Case> all = {
       {SphereShape{0}, 0},      {BoxShape{{0, 0, 0}}, 0},      {BoxShape{{0, 1, 0}}, 0}, {BoxShape{{0.5, 0, 0}}, 0.25},
@@ -99,7 +99,8 @@ TEST(FlatShapes, MayBeBodiesThemselves) {
       const BodyId body = environment.add(c.shape, {Mat3::Identity(), Vec3(3, 0, 0)}, "flat");
       for (const double x : {0.0, 1.0, 2.0, 2.75, 3.0}) {
         checker.update(std::vector<double>{0, x});
-        const double expected = std::clamp(std::abs(x - 3) - 0.25 - c.reach, 0.0, 2.5 - c.reach);  // the other ball
+        const double expected = std::clamp(std::abs(x - 3) - 0.25 - c.reach, 0.0,
+                                           2.5 - c.reach);  // the ball at the origin limits the distance
         EXPECT_EQ(checker.collides(environment), expected == 0.0) << engine << " case " << &c - cases().data();
         const auto closest = checker.closest(environment);
         ASSERT_TRUE(closest);
@@ -110,7 +111,7 @@ TEST(FlatShapes, MayBeBodiesThemselves) {
     }
 }
 
-/// Every tier encloses them; the matrix knows when they meet, and proves that they do not.
+/// Every tier encloses these shapes. The matrix finds the pairs that collide and proves that others never do.
 TEST(FlatShapes, AreTakenByTiersAndTheMatrix) {
   for (const Case& c : cases()) {
     const std::string which = "case " + std::to_string(&c - cases().data());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Link poses of the shared robots against Orocos KDL, its tree made from urdfdom's own reading of the file.
+// Tests link poses of the shared robots against Orocos KDL, whose tree is built from urdfdom's parse of the same file.
 #include <gtest/gtest.h>
 #include <urdf_model/joint.h>
 #include <urdf_model/link.h>
@@ -50,7 +50,7 @@ void add_below(const urdf::Link& link, KDL::Tree& tree) {
   }
 }
 
-/// Value of a joint as URDF defines it, followers followed one by one.
+/// Returns the value of a joint as URDF defines it; mimic joints are resolved recursively.
 double value_of(const urdf::ModelInterface& model, const urdf::Joint& joint, const std::map<std::string, double>& q) {
   if (!joint.mimic) return q.at(joint.name);
   return joint.mimic->multiplier * value_of(model, *model.getJoint(joint.mimic->joint_name), q) + joint.mimic->offset;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Tests LinkMargins: radii and clearances of links as thresholds.
 #include "hinge/robotics/link_margins.hpp"
 
 #include <gtest/gtest.h>

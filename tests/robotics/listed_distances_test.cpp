@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Distances of every pair of links within a margin: the same from every engine, to the triangle, and quick where
-// millions of pairs of triangles are within the margin.
+// Tests distances of all link pairs within a margin: equal for every engine, down to the triangles, and fast if
+// millions of triangle pairs are within the margin.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -71,7 +71,7 @@ TEST(ListedDistances, AreTheSameFromEveryEngine) {
   EXPECT_GT(with_body, 200U);
 }
 
-/// Meshes of 10 580 triangles each, all of them within the margin: 112 million pairs.
+/// Two meshes of 10 580 triangles each. All triangle pairs, 112 million, are within the margin.
 TEST(ListedDistances, OfFineMeshesAreQuick) {
   const Tessellation fine{Tessellation::Manner::circumscribed, 3e-4};
   const auto ball = std::make_shared<const TriangleMesh>(TriangleMesh{tessellate(SphereShape{0.5}, fine).triangles});

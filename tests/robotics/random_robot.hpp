@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small random robots made in code, and where their triangles are by Eigen's own geometry, apart from Hinge's.
+// Small random robots built in code, and their triangles in the world, computed by Eigen without Hinge's geometry.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -47,7 +47,7 @@ inline std::shared_ptr<robotics::TriangleMesh> random_mesh(SampleStream& stream,
   return mesh;
 }
 
-/// A tree of links with random meshes, here and there a ball; joints of every type, one follower.
+/// A tree of links with random meshes and some balls, joints of every type, and one mimic joint.
 inline robotics::RobotDescription random_description(SampleStream& stream, std::size_t links) {
   using namespace robotics;
   RobotDescription robot{"random", {}, {}};
@@ -82,20 +82,20 @@ inline Eigen::Isometry3d isometry(const Pose& pose) {
   return x;
 }
 
-/// A triangle with its radius, placed in the world.
+/// A triangle in the world, inflated by its radius.
 struct Grown {
   Triangle triangle;
   double radius = 0.0;
 };
 
-/// Distance of triangles less radii.
+/// Returns the distance of the triangles minus both radii.
 inline double apart(const Grown& x, const Grown& y) {
   return std::sqrt(squared_distance(x.triangle, y.triangle)) - x.radius - y.radius;
 }
 
 inline Triangle moved(const Triangle& t, const Eigen::Isometry3d& x) { return {x * t.a, x * t.b, x * t.c}; }
 
-/// By link name; values of joints by name, those of followers worked out.
+/// Returns link poses by link name. `values`: joint values by name; mimic joints are computed.
 inline std::map<std::string, Eigen::Isometry3d> frames_of(const robotics::RobotDescription& robot,
                                                           const std::map<std::string, double>& values) {
   using namespace robotics;
@@ -114,7 +114,7 @@ inline std::map<std::string, Eigen::Isometry3d> frames_of(const robotics::RobotD
   return frames;
 }
 
-/// By link of `robot`, which was made from the description; q: independent joints. Meshes and balls only.
+/// Returns triangles by link of `robot`. q: independent joints. Supports meshes and balls only.
 inline std::vector<std::vector<Grown>> grown_triangles(const robotics::Robot& robot, const std::vector<double>& q,
                                                        const Eigen::Isometry3d& base = Eigen::Isometry3d::Identity()) {
   using namespace robotics;
@@ -134,7 +134,7 @@ inline std::vector<std::vector<Grown>> grown_triangles(const robotics::Robot& ro
   return links;
 }
 
-/// The smallest distance between surfaces of two lists; infinite when one is empty.
+/// Returns the smallest distance of the surfaces of two lists; infinity if a list is empty.
 inline double apart(const std::vector<Grown>& x, const std::vector<Grown>& y) {
   double least = std::numeric_limits<double>::infinity();
   for (const Grown& a : x)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Tests reading of STL, OBJ, PLY and COLLADA meshes: triangles, notes, rejected input.
 #include "hinge/robotics/read_mesh.hpp"
 
 #include <gtest/gtest.h>
@@ -66,7 +67,7 @@ TEST(ReadMesh, TellsBinaryFromTextBySize) {
             1U);
 }
 
-/// A vertex three facets share, a facet twice, one without area: all of them stay.
+/// Duplicate facets, shared vertices and facets of zero area are all kept.
 TEST(ReadMesh, DropsJoinsAndMendsNothing) {
   const Facet flat = {0, 0, 0, 1, 1, 1, 2, 2, 2}, point = {1, 2, 3, 1, 2, 3, 1, 2, 3};
   const TriangleMesh mesh = read("a.stl", binary_stl({two_facets[0], two_facets[0], flat, point}));
@@ -104,9 +105,9 @@ double area(const std::vector<Triangle>& triangles) {
   return twice / 2;
 }
 
-/// Triangles that overlap or stand out have more area than their polygon.
+/// A wrong triangulation (overlaps, triangles outside the polygon) has more area than the polygon.
 TEST(ReadMesh, CutsThePolygonsOfAnObj) {
-  // An L whose inner corner lies between two others, in each plane and both ways round; area 3.
+  // An L with area 3 in each coordinate plane, in both orientations and from several first corners.
   const std::vector<std::array<int, 2>> corners = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
   for (const char* format : {"v %d %d 7\n", "v 7 %d %d\n", "v %d 7 %d\n"})
     for (const char* face : {"f 1 2 3 4 5 6\n", "f 6 5 4 3 2 1\n", "f 4 5 6 1 2 3\n"}) {
@@ -122,7 +123,7 @@ TEST(ReadMesh, CutsThePolygonsOfAnObj) {
     }
 }
 
-/// Stars with random radii around the origin never cross themselves; their area is a sum of wedges.
+/// Stars with random radii around the origin are simple polygons. Their area is a sum of triangles.
 TEST(ReadMesh, CutsRandomStars) {
   constexpr std::uint64_t seed = 7;
   for (std::uint64_t sample = 0; sample < 30; ++sample) {
@@ -132,7 +133,7 @@ TEST(ReadMesh, CutsRandomStars) {
     std::vector<Vec3> corner;
     for (std::size_t k = 0; k < n; ++k) {
       const double angle = 2 * std::acos(-1.0) * static_cast<double>(k) / static_cast<double>(n);
-      // Sixteenths are read without rounding.
+      // Multiples of 1/16 are read without rounding.
       const double radius = 16 + 100 * stream.uniform();
       const double x = std::round(radius * std::cos(angle)) / 16, y = std::round(radius * std::sin(angle)) / 16;
       corner.emplace_back(x, y, x + y);
@@ -147,7 +148,7 @@ TEST(ReadMesh, CutsRandomStars) {
   }
 }
 
-// A shape does not depend on its materials; assimp would refuse it with them.
+// A shape does not depend on its materials; with them assimp would reject the file.
 TEST(ReadMesh, LooksAtNoMaterialsOfAnObj) {
   const test::TemporaryFolder folder;
   folder.write("a.mtl", "newmtl gold\nKd x");
@@ -158,7 +159,7 @@ TEST(ReadMesh, LooksAtNoMaterialsOfAnObj) {
   EXPECT_EQ(refusal("a.obj", "mtllib a.mtl"), "a.obj: has no triangles");
 }
 
-/// What reading says besides the triangles, without the folder.
+/// Returns the notes of a read, without the folder's path.
 std::vector<std::string> notes_of(const std::string& name, const std::string& bytes, std::size_t triangles) {
   const test::TemporaryFolder folder;
   std::vector<std::string> notes;
@@ -167,14 +168,15 @@ std::vector<std::string> notes_of(const std::string& name, const std::string& by
   return notes;
 }
 
-// No surface: MoveIt and Coal leave them out, too. A polygon without area is one, of triangles without area.
+// Lines and points are no surface; MoveIt and Coal also drop them. A polygon without area is a surface, cut into
+// triangles without area.
 TEST(ReadMesh, LeavesLinesAndPointsOutWithANote) {
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   EXPECT_EQ(notes_of("a.obj", vertices + "f 1 2 3\nl 2 3\np 1\n", 1),
             (std::vector<std::string>{"a.obj: 2 lines or points are left out, they are no surface"}));
   EXPECT_TRUE(notes_of("a.obj", vertices + "f 1 2 3\nf 1 2 2\n", 2).empty());
   EXPECT_EQ(refusal("a.obj", vertices + "l 1 2 3\n"), "a.obj: has no triangles, only 2 lines or points");
-  EXPECT_EQ(read("a.obj", vertices + "f 1 2 3\nl 2 3\n").triangles.size(), 1U);  // notes are not asked for
+  EXPECT_EQ(read("a.obj", vertices + "f 1 2 3\nl 2 3\n").triangles.size(), 1U);  // notes are optional
 }
 
 TEST(ReadMesh, ReadsPly) {
@@ -185,7 +187,8 @@ TEST(ReadMesh, ReadsPly) {
   EXPECT_EQ(mesh.triangles.size(), 2U);
 }
 
-/// One triangle (0 0 0) (1 0 0) (0 1 2), shown by two nodes, one of them moved by (10 20 30) inside one that doubles.
+/// One triangle (0 0 0) (1 0 0) (0 1 2), instanced by two nodes. One node is translated by (10 20 30), inside a node
+/// that scales by 2.
 std::string collada(const std::string& unit, const std::string& axis) {
   return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'><asset>" +
          unit + "<up_axis>" + axis +
@@ -199,7 +202,7 @@ std::string collada(const std::string& unit, const std::string& axis) {
          "</visual_scene></library_visual_scenes><scene><instance_visual_scene url='#s'/></scene></COLLADA>";
 }
 
-/// What is said of that file with something else in a place.
+/// Returns the refusal of that file after one replacement.
 std::string refusal_with(const std::string& from, const std::string& to) {
   std::string text = collada("", "Z_UP");
   return refusal("a.dae", text.replace(text.find(from), from.size(), to));
@@ -215,7 +218,7 @@ TEST(ReadMesh, AppliesNodesAndUnitsOfADaeButNotItsUpAxis) {
   EXPECT_EQ(read("a.dae", collada("", "Y_UP")).triangles.at(1).b, Vec3(22, 40, 60));
 }
 
-// Of such scenes assimp makes a mesh of its own, a pyramid for every node.
+// From a scene without triangles assimp would make a mesh of its own, a pyramid per node.
 TEST(ReadMesh, InventsNoTrianglesForADaeThatShowsNone) {
   const std::string nothing = "a.dae: has no triangles";
   const std::string shown = "<instance_geometry url='#g'/>";
@@ -242,7 +245,7 @@ TEST(ReadMesh, LeavesTheLinesOfADaeOut) {
   std::string text = collada("", "Z_UP");
   const std::string lines = "<lines count='1'><input semantic='VERTEX' source='#v' offset='0'/><p>0 1</p></lines>";
   text.insert(text.find("</mesh>"), lines);
-  // Two nodes show the mesh.
+  // Two nodes instance the mesh, so its line is counted twice.
   EXPECT_EQ(notes_of("a.dae", text, 2),
             (std::vector<std::string>{"a.dae: 2 lines or points are left out, they are no surface"}));
 }
@@ -263,7 +266,7 @@ TEST(ReadMesh, InventsNoTrianglesForOtherFilesWithoutFaces) {
       (std::vector<std::string>{"a.ply: 1 lines or points are left out, they are no surface"}));
 }
 
-// assimp would look beyond the array.
+// assimp would read past the end of the array.
 TEST(ReadMesh, RefusesDaeInputsWithoutTheirNumbers) {
   EXPECT_EQ(refusal_with(" count='9'", ""), "a.dae:1: <float_array> has no count");
   EXPECT_EQ(refusal_with("stride='3'", "stride='4'"), "a.dae:1: <accessor> reaches beyond the 9 numbers of '#pa'");
@@ -283,7 +286,7 @@ TEST(ReadMesh, RefusesDaeInputsWithoutTheirNumbers) {
             "a.dae:1: <Name_array> is the second array with id=\"pa\"");
 }
 
-// assimp looks beyond the indices, or leaves out what it does not understand.
+// assimp reads past the end of the indices, or silently drops what it does not support.
 TEST(ReadMesh, RefusesDaePrimitivesWithoutTheirVertices) {
   const auto with = [](const std::string& kind, const std::string& input, const std::string& indices) {
     std::string text = collada("", "Z_UP");
@@ -341,7 +344,7 @@ TEST(ReadMesh, RefusesDaeVerticesAndInstancesThatWouldBeLeftOut) {
             "a.dae:1: <instance_node> has url=\"#q\", expected a <node> of this file");
   EXPECT_EQ(refusal_with("instance_geometry", "instance_controller"),
             "a.dae:1: <instance_controller> bends or blends a mesh, expected <instance_geometry>");
-  // What is no shape is not looked at, as a camera and a lamp that an exporter adds.
+  // Elements that are no shapes, such as cameras and lights, are not read.
   EXPECT_EQ(refusal_with("<instance_geometry url='#g'",
                          "<instance_camera url='#cam'/><instance_light url='#lamp'/>"
                          "<instance_geometry url='#g'"),
@@ -356,7 +359,7 @@ TEST(ReadMesh, RefusesDaeVerticesAndInstancesThatWouldBeLeftOut) {
             "");
 }
 
-// assimp would make room for as many elements as a name's digits say, and begins a line at every carriage return.
+// assimp would allocate as many elements as the digits in a name say, and treats every carriage return as a new line.
 TEST(ReadMesh, RefusesPlyElementsThatAreMisread) {
   const auto ply = [](const std::string& element) {
     return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n" + element +
@@ -369,7 +372,7 @@ TEST(ReadMesh, RefusesPlyElementsThatAreMisread) {
             "a.ply:7: a carriage return within the line, expected \\n or \\r\\n at its end");
 }
 
-// assimp hands on what a face says, and 0 for a coordinate that the file does not have.
+// assimp does not check vertex indices of faces, and sets missing coordinates to 0.
 TEST(ReadMesh, RefusesPlyFacesAndVerticesThatLackSomething) {
   const auto ply = [](const std::string& z, const std::string& face) {
     return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty " + z +

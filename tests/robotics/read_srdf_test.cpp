@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Tests reading of SRDF files: disabled pairs, groups, states, unknown names, rejected input.
 #include "hinge/robotics/read_srdf.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +13,7 @@
 namespace hinge::robotics {
 namespace read_srdf_test {
 
-/// Two fingers on a turning hand: root -turn- hand -left- l, hand -right- r (a follower); l -tip- t is fixed.
+/// Two fingers on a rotating hand: root -turn- hand -left- l, hand -right- r (a mimic joint). l -tip- t is fixed.
 Robot hand() {
   RobotDescription robot;
   robot.name = "hand robot";
@@ -105,7 +106,7 @@ TEST(ReadSrdf, ReadsNamedConfigurations) {
             (std::vector<std::string>{"r.srdf:3: joint 'world_joint': unknown, left out of groups and states"}));
 }
 
-/// What the file itself joins to the world is not unknown.
+/// The virtual joint of the file is a known name, so groups and states that contain it cause no note.
 TEST(ReadSrdf, PassesOverItsVirtualJoints) {
   const Srdf srdf = read(
       "<virtual_joint name='world_joint' type='floating' parent_frame='odom' child_link='root'/>\n"
@@ -126,7 +127,7 @@ TEST(ReadSrdf, RefusesWhatItCannotResolve) {
   EXPECT_EQ(refusal("<group>\n"), "r.srdf:2: is no XML: XML_ERROR_MISMATCHED_ELEMENT");
 }
 
-// No verdict depends on a group; SRDF files that serve several variants of a robot name what some of them lack.
+// No verdict depends on groups. SRDF files for several variants of a robot name links that some variants lack.
 TEST(ReadSrdf, NotesWhatGroupsAndStatesDoNotFind) {
   const Srdf chain = read("<group name='g'><chain base_link='x' tip_link='t'/><joint name='turn'/></group>\n");
   EXPECT_EQ(chain.groups.at(0).joints, (std::vector<std::size_t>{0}));
@@ -138,7 +139,7 @@ TEST(ReadSrdf, NotesWhatGroupsAndStatesDoNotFind) {
   EXPECT_EQ(read("<group name='g'><link name='x'/></group>\n").notes.size(), 1U);
 }
 
-/// Kinova's files have such states.
+/// The SRDF files of Kinova contain states without a group.
 TEST(ReadSrdf, KeepsAStateWithoutAGroupUnderItsName) {
   const Srdf srdf = read("<group_state name='home'><joint name='turn' value='0.5'/></group_state>\n");
   ASSERT_EQ(srdf.configurations.size(), 1U);

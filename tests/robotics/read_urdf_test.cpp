@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Tests reading of URDF files: geometry, joints, packages, notes, rejected input.
 #include "hinge/robotics/read_urdf.hpp"
 
 #include <gtest/gtest.h>
@@ -24,13 +25,13 @@ std::string robot_of(const std::string& body) {
   return "<?xml version='1.0'?>\n<robot name='r'>\n" + body + "</robot>\n";
 }
 
-/// Links a and b on lines 3 and 4, then joint j on line 5.
+/// Links a and b on lines 3 and 4, joint j on line 5.
 std::string two_links(const std::string& type, const std::string& inside) {
   return robot_of("<link name='a'/>\n<link name='b'/>\n<joint name='j' type='" + type +
                   "'><parent link='a'/><child link='b'/>" + inside + "</joint>\n");
 }
 
-/// Link a on line 3, its collision on line 4.
+/// Link a on line 3, its collision element on line 4.
 std::string one_shape(const std::string& shape) {
   return robot_of("<link name='a'>\n<collision><geometry>" + shape + "</geometry></collision>\n</link>\n");
 }
@@ -73,7 +74,8 @@ TEST(ReadUrdf, ReadsLinksAndJointsInTheOrderOfTheFile) {
   EXPECT_EQ(robot.joints[1].axis, Vec3::UnitX());
 }
 
-/// Fixed axes: roll about x first, yaw about z last; a permutation tells the order.
+/// The axes are fixed: roll about x is applied first, yaw about z last. The result permutes the axes, which shows the
+/// order.
 TEST(ReadUrdf, TurnsByRollPitchYawAboutFixedAxes) {
   const std::string quarter = "1.5707963267948966";
   const RobotDescription robot =
@@ -134,7 +136,7 @@ TEST(ReadUrdf, TakesRosPackagePathOnlyWhenAsked) {
   EXPECT_TRUE(ros_package_path().empty());
 }
 
-/// No part of URDF, but of what Bullet and Drake read; urdfdom alone would refuse it.
+/// Capsules are not part of URDF, but Bullet and Drake read them; urdfdom alone would reject them.
 TEST(ReadUrdf, ReadsCapsulesBesideOtherShapes) {
   const test::TemporaryFolder folder;
   const std::string urdf = robot_of(
@@ -178,13 +180,13 @@ TEST(ReadUrdf, SendsXacroInputToXacro) {
     EXPECT_NE(refusal(robot_of("<link name='a'/>\n" + std::string(element))).find("> needs xacro: run `xacro"),
               std::string::npos)
         << element;
-  // Where geometry belongs, a macro may stand for it.
+  // An unexpanded macro where geometry belongs may hide geometry, so it is an error.
   EXPECT_EQ(refusal(robot_of("<link name='a'>\n<xacro:foot/></link>\n")),
             "r.urdf:4: <xacro:foot> needs xacro: run `xacro FILE > FILE.urdf` first and read its output");
   EXPECT_NE(refusal(one_shape("<xacro:foot/>")).find("needs xacro"), std::string::npos);
   EXPECT_EQ(refusal(two_links("fixed", "<origin xyz='${p} 0 0'/>")),
             "r.urdf:5: <origin> needs xacro: run `xacro FILE > FILE.urdf` first and read its output");
-  // What xacro leaves behind is fine.
+  // The namespace declaration that xacro leaves in its output is accepted.
   EXPECT_EQ(refusal("<robot name='r' xmlns:xacro='http://www.ros.org/wiki/xacro'><link name='a'/></robot>"), "");
 }
 
@@ -209,7 +211,7 @@ TEST(ReadUrdf, RefusesWhatIsNoTree) {
             "r.urdf:4: link 'b': has no joint to a parent, but so has link 'a'; expected one root");
   EXPECT_EQ(refusal(robot_of("<link name='a'/>\n<link name='b'/>\n" + back)),
             "r.urdf:3: link 'a': its joints lead in a circle, expected a tree");
-  // urdfdom passes over a circle beside the tree.
+  // urdfdom ignores a cycle that is not connected to the tree.
   EXPECT_EQ(refusal(robot_of("<link name='c'/>\n<link name='a'/>\n<link name='b'/>\n" + back)),
             "r.urdf:5: link 'b': its joints lead in a circle, expected a tree");
   EXPECT_EQ(
@@ -246,7 +248,7 @@ TEST(ReadUrdf, RefusesNumbersThatAreNone) {
   EXPECT_NE(refusal(two_links("revolute", "")).find("does not specify limits"), std::string::npos);
 }
 
-/// urdfdom leaves most of these out and goes on.
+/// urdfdom silently drops most of these.
 TEST(ReadUrdf, RefusesShapesThatAreNone) {
   EXPECT_EQ(refusal(one_shape("<box size='1 1'/>")),
             "r.urdf:3: Parser found 2 elements but 3 expected while parsing vector [1 1]; Could not parse collision "
@@ -257,7 +259,7 @@ TEST(ReadUrdf, RefusesShapesThatAreNone) {
             "r.urdf:4: link 'a': sphere of radius -1, expected a finite length of at least 0");
   EXPECT_NE(refusal(one_shape("<sphere radius='nan'/>")).find("r.urdf:3: radius [nan] is not a valid float"),
             std::string::npos);
-  // What leaves the range of numbers is named here, not when triangles have been made of it.
+  // Sizes that overflow are rejected when reading, not later when they are tessellated.
   EXPECT_EQ(refusal(one_shape("<box size='1 1 1e308'/>")),
             "r.urdf:4: link 'a': box of size 1 1 1e+308, expected lengths of at most 2^1000");
   EXPECT_EQ(refusal(one_shape("<cylinder radius='1e302' length='1'/>")),
@@ -312,7 +314,7 @@ TEST(ReadUrdf, RefusesMeshesThatAreMissingOrBad) {
       "r.urdf:4: link 'a': a.stl: text STL with 1 facets, 0 of them ended, and no endsolid: cut short or damaged");
 }
 
-/// What was read of a file, its notes without the folder.
+/// Returns the parsed file; notes are without the folder's path.
 RobotDescription read_in(const test::TemporaryFolder& folder, const std::string& urdf,
                          const UrdfOptions& options = {}) {
   RobotDescription robot = read_urdf(folder.write("r.urdf", urdf), options);
@@ -347,13 +349,13 @@ TEST(ReadUrdfNotes, TakesSizesOfZeroOncePerLink) {
   EXPECT_EQ(notes_of(robot_of("<link name='foot'>\n" + point + point + point + "</link>\n")).size(), 1U);
 }
 
-/// As urdfdom does, which passes over them.
+/// urdfdom ignores these elements too.
 TEST(ReadUrdfNotes, PassesOverXacroThatCarriesNoGeometry) {
   const std::string sensors = "<link name='a'/>\n<xacro:imu port='1'/>\n";
   EXPECT_EQ(notes_of(robot_of(sensors)),
             (Notes{"r.urdf:4: <xacro:imu>, which xacro should have replaced, is left out"}));
   EXPECT_EQ(notes_of(robot_of("<xacro:property name='p' value='1'/>\n<link name='a'/>\n")).size(), 1U);
-  // Nobody looks at visuals, inertias and extensions.
+  // Visuals, inertias and extensions are not read.
   EXPECT_TRUE(notes_of(robot_of("<link name='a'><visual><xacro:grey/><origin xyz='${x}'/></visual></link>"
                                 "<gazebo><xacro:if value='$(arg x)'/></gazebo>\n"))
                   .empty());
@@ -398,7 +400,7 @@ TEST(ReadUrdfNotes, CallsANamelessRobotByItsFile) {
   EXPECT_EQ(robot.notes, (Notes{"r.urdf: the robot has no name, it is called by its file: 'r'"}));
 }
 
-// What urdfdom refuses or drops, and what can change no verdict.
+// urdfdom rejects or drops some of these, but none of them can change a verdict.
 TEST(ReadUrdf, TakesWhatChangesNoVerdict) {
   const auto expect_silence = [](const std::string& urdf) { EXPECT_TRUE(notes_of(urdf).empty()) << urdf; };
   expect_silence(two_links("prismatic", "<limit lower=' -1' upper='2 '/>"));  // no effort, no velocity
@@ -419,7 +421,7 @@ TEST(ReadUrdf, TakesWhatChangesNoVerdict) {
       "\xEF\xBB\xBF<?xml version='1.0' encoding='UTF-8'?>\r\n<robot name='r'>\r\n<link name='a'/>\r\n</robot>");
 }
 
-/// A file with meshes that are absent, empty and of another format, and a shape that nobody reads; b is whole.
+/// Link a has meshes that are missing, empty or in an unknown format, and an unknown shape. Link b has no defects.
 TEST(ReadUrdf, SkipsMissingMeshesWhenAsked) {
   const test::TemporaryFolder folder;
   folder.write("empty.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
@@ -439,7 +441,7 @@ TEST(ReadUrdf, SkipsMissingMeshesWhenAsked) {
   EXPECT_EQ(robot.links.at(0).geometry.size(), 1U);
   EXPECT_EQ(robot.notes, (Notes{"r.urdf:4: link 'a': 4 of 5 <collision> left out: mesh 'gone.stl': there is no file "
                                 "gone.stl"}));
-  // A damaged mesh is not a missing one.
+  // A damaged mesh is an error, even when missing meshes are skipped.
   folder.write("empty.obj", "v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n");
   EXPECT_NE(test::refusal(folder, [&] { read_in(folder, urdf, skip); }), "");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ten shared robots against their README and against reference_self.txt, on which two other engines agree.
+// Tests the ten shared robots against their README and reference_self.txt, on which two other engines agree.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -101,7 +101,7 @@ TEST_P(SharedRobots, LoadWithTheNumbersTheirReadmeStates) {
   EXPECT_EQ(tested_pairs(robot, disabled).size(), expected.pairs);
 }
 
-/// A shared robot in a hierarchy, and its reference.
+/// A shared robot in a hierarchy, with its reference.
 class ReferenceRun {
  public:
   explicit ReferenceRun(const std::string& name)
@@ -145,7 +145,7 @@ class ReferenceRun {
   test::LoadedRobot loaded_;
   Hierarchy<Triangle, LinkPairFilter, UniformClearance> hierarchy_;
   std::vector<ReferenceEntry> entries_;
-  std::vector<std::size_t> column_;  // of each independent joint in the reference
+  std::vector<std::size_t> column_;  // column of each independent joint in the reference
 };
 
 TEST_P(SharedRobots, CollideWhereTheReferenceSays) {
@@ -161,7 +161,7 @@ TEST_P(SharedRobots, AreAsFarFromThemselvesAsTheReferenceSays) {
     const double expected = run.entries()[c].distance;
     const auto closest = run.closest(run.entries()[c]);
     ASSERT_TRUE(closest.has_value());
-    // Text meshes: both readers round to single precision, each in its way. Twelve digits are printed.
+    // OBJ meshes: both readers round to single precision, each in its own way. The reference has twelve digits.
     EXPECT_NEAR(closest->distance, expected, GetParam().has_text_meshes ? 1e-7 : 1e-9 * expected) << "entry " << c;
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// robocd's output is a function of the question: the same bytes on every instruction set, thread count and engine.
+// Tests that robocd prints the same bytes on every instruction set, with every number of threads and every engine.
 #include <gtest/gtest.h>
 
 #include <string>

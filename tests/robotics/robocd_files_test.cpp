@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// robocd and the files around it: what --out may not destroy, and how outputs fail.
+// Tests robocd's files: output must not overwrite input, and failures of writing are reported.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -51,7 +51,7 @@ TEST(RobocdFiles, ClosedStandardOutputIsAnError) {
   EXPECT_EQ(said.status, 3);
   EXPECT_NE(said.out.find("standard output: cannot be written"), std::string::npos) << said.out;
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "q.csv"));
-  // A matrix goes to its file alone.
+  // With --out the matrix is not written to standard output, so a closed one does not matter.
   EXPECT_EQ(run_robocd("matrix" + folder.urdf() + " --samples 10 --cells 0 --out" + folder.file("m.srdf") +
                        " >&- 2>/dev/null")
                 .status,
@@ -94,7 +94,7 @@ TEST(RobocdFiles, NumbersAreCheckedBeforeAnythingElse) {
   refused("path --from zero --to zero", "--sampled", "nan inf 0 -1 1e308");
   refused("path --from zero --to zero", "--min-step", "nan inf 0 -1 2");
   EXPECT_EQ(run_robocd("path" + folder.urdf() + " --from zero --to 1e308,0 2>/dev/null").status, 2);
-  // A value that no joint can take, behind one that it can: no output, and file, line and column.
+  // A valid row, then a value out of range: no output, and an error with file, line and column.
   folder.write("q.csv", "shoulder,elbow\n0,0\n1e308,0\n");
   const std::string json = "check" + folder.urdf() + " --json --csv-in" + folder.file("q.csv");
   EXPECT_EQ(run_robocd(json + " 2>/dev/null").out, "");
@@ -103,7 +103,7 @@ TEST(RobocdFiles, NumbersAreCheckedBeforeAnythingElse) {
                                                 "number, at most 1e+15\n");
 }
 
-/// What is wrong deep in a file, or comes out of a file and an option together, is found before the first byte.
+/// Errors deep in a file, or in a file combined with an option, are found before any output.
 TEST(RobocdFiles, ConfigurationsAreCheckedBeforeTheFirstByte) {
   const test::ArmFolder folder;
   std::string rows = "shoulder,elbow\n";
@@ -130,7 +130,7 @@ TEST(RobocdFiles, ConfigurationsAreCheckedBeforeTheFirstByte) {
                                          "', expected a finite number, at most 1e+15\n");
     }
 
-  // The mast follows the elbow, here 1e300 times as far.
+  // The follower (mast) moves 1e300 times as far as the elbow.
   std::string urdf = test::arm_urdf;
   folder.write("far.urdf", urdf.replace(urdf.find("0.5\" offset"), 3, "1e300"));
   with_row("0,-1e15");
@@ -181,7 +181,7 @@ TEST(RobocdFiles, RefusalsAreOneLineThatNamesTheFile) {
   }
 }
 
-/// A pipe is read like a file, and called empty only when it is.
+/// A pipe is read like a file, and reported as empty only if it is.
 TEST(RobocdFiles, MayBePipes) {
   const test::ArmFolder folder;
   folder.write("q.csv", "shoulder,elbow\n0,0\n");
@@ -195,7 +195,7 @@ TEST(RobocdFiles, MayBePipes) {
             "robocd: /dev/stdin: is empty, expected XML with root element <robot>\n");
   EXPECT_EQ(said("check" + folder.urdf() + " --csv-in /dev/stdin"),
             "robocd: /dev/stdin: is empty, expected a header of joint names\n");
-  // Meshes have to be files: their readers go back and forth in them.
+  // Meshes must be regular files, because their readers seek.
   std::string urdf = test::arm_urdf;
   folder.write("arm.urdf", urdf.replace(urdf.find("cube.stl"), 8, "/dev/zero"));
   EXPECT_NE(run_robocd("info" + folder.urdf() + " 2>&1").out.find("/dev/zero is no regular file"), std::string::npos);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// robocd path and PathChecker: verdicts against brute force, alone, among bodies and holding one; the tool around it.
+// Tests robocd path and PathChecker against brute force: alone, among bodies, and with an attached body.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -46,7 +46,7 @@ TEST(RobocdPath, ExitsWithTheVerdict) {
   const Said sampled = run_robocd(path(arm, "--from zero --to 0,-1.3 --sampled 0.01"));
   EXPECT_EQ(sampled.status, 0);
   EXPECT_NE(sampled.out.find("what lies between them was not looked at"), std::string::npos);
-  // The fore link ends on the very face of the base's cube: touching collides, but nothing proves all up to there.
+  // The path ends where the fore link touches a face of the base: touching collides, so the path is colliding.
   EXPECT_EQ(run_robocd(path(arm, "--from zero --to 0,-1.3125")).status, 1);
   EXPECT_EQ(run_robocd(path(arm, "--from zero --to 0,-1.3 --clearance 0.5")).status, 1);
   const Said open = run_robocd(path(arm, "--from 0,0.9 --to 3.1,-1.3 --min-step 1 --json"));
@@ -84,15 +84,15 @@ TEST(RobocdPath, SeesWhatStandsAround) {
   const Said hit = run_robocd(path(arm, half_turn + " --json"));
   ASSERT_EQ(hit.status, 1);
   const Json json = Json::parse(hit.out);
-  // The upper link's cube passes the post.
+  // The cube of the upper link collides with the post.
   EXPECT_NEAR(json["values"][0].get<double>(), 1.5708, 0.13);
   ASSERT_EQ(json["environment_pairs"].size(), 1U);
   EXPECT_EQ(json["environment_pairs"][0]["link"], "upper");
   EXPECT_EQ(json["contact"]["first"], "upper");
-  // Two states, one on either side of it: sampling says free.
+  // The two nearest samples are on either side of the post, so sampling reports free.
   EXPECT_EQ(run_robocd(path(arm, half_turn + " --sampled 3")).status, 0);
   EXPECT_EQ(run_robocd(path(arm, "--from zero --to 1,0 --env" + arm.file("post.stl"))).status, 0);
-  // The base never moves, and touches: whatever the path, it collides.
+  // The base never moves and touches the foot: every path collides.
   const Json always =
       Json::parse(run_robocd(path(arm, "--from zero --to 1,0 --json --env" + arm.file("foot.stl"))).out);
   EXPECT_EQ(always["verdict"], "colliding");
@@ -180,11 +180,11 @@ TEST(RobotPathChecker, RefusesBadStepsEvenWhereABodyAlwaysCollides) {
   EXPECT_THROW(paths.certify(here, std::vector<double>{std::nan("")}), ConfigurationError);
 }
 
-/// A quarter of the robots each, so that none takes long; with HINGE_TEST_ALL 12 000 paths in all.
+/// A quarter of the robots each, to keep each test short; with HINGE_TEST_ALL there are 12 000 paths in all.
 class RobotPathCheckerSlice : public testing::TestWithParam<std::size_t> {};
 INSTANTIATE_TEST_SUITE_P(All, RobotPathCheckerSlice, testing::Range<std::size_t>(0, 4));
 
-/// Random robots among random bodies, one of them held: every verdict against states by brute force.
+/// Random robots among random bodies, one body attached: every verdict is compared with brute force on states.
 TEST_P(RobotPathCheckerSlice, AgreesWithBruteForce) {
   constexpr std::uint64_t seed = 421;
   const std::size_t robots = all_variants() ? 500 : 12, paths_each = all_variants() ? 24 : 16;

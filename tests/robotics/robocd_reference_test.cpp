@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// robocd on the shared robots against reference_self.txt, on which two other engines agree.
+// Tests robocd on the shared robots against reference_self.txt, on which two other engines agree.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ struct Expected {
 
 std::string ordered(const std::string& a, const std::string& b) { return std::min(a, b) + "," + std::max(a, b); }
 
-/// Rewrites the reference's joint values as a CSV file, and returns what else its lines say.
+/// Writes the joint values of the reference to a CSV file, and returns its expected answers.
 std::vector<Expected> rewrite_reference(const std::filesystem::path& path, std::size_t most, std::string& csv) {
   const auto joined = [](std::string words) {
     std::istringstream in(words);
@@ -85,7 +85,7 @@ TEST_P(RobocdReplay, AgreesWithTheReference) {
     EXPECT_EQ(pairs, expected[k].pairs);
     EXPECT_EQ(row.at("collides"), !pairs.empty());
     const double distance = closest["configurations"][k].at("closest").at("distance");
-    // Text meshes: both readers round to single precision, each in its way. Twelve digits are printed.
+    // OBJ meshes: both readers round to single precision, each in its own way. The reference has twelve digits.
     EXPECT_NEAR(distance, expected[k].distance, robot.has_text_meshes ? 1e-7 : 1e-9 * expected[k].distance);
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What robocd refuses: exit status 3 and one line that names file and element.
+// Tests input that robocd rejects: exit status 3 and one line that names file and element.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using test::ArmFolder;
 using test::run_robocd;
 using test::Said;
 
-/// The line on standard error, paths without the folder; an explanation when it is no such line.
+/// Returns the line on standard error without the folder's path; an explanation if the output is not such a line.
 std::string refusal(const ArmFolder& arm, const std::string& arguments) {
   Said said = run_robocd(arguments + " 2>&1 >/dev/null");
   const std::string prefix = arm.path().string() + "/";
@@ -85,7 +85,7 @@ TEST(RobocdCsv, MayHaveQuotesAndOtherColumns) {
   EXPECT_TRUE(note.ends_with("q.csv: columns that name no joint are left out: '', 'time'\n")) << note;
 }
 
-/// The arm with one part of its text replaced.
+/// Returns the refusal of the arm after one replacement in its URDF.
 std::string urdf_refusal(const std::string& from, const std::string& to) {
   const ArmFolder arm;
   std::string text = test::arm_urdf;
@@ -95,7 +95,7 @@ std::string urdf_refusal(const std::string& from, const std::string& to) {
   return refusal(arm, "info" + arm.urdf());
 }
 
-/// Every one of the words stands in the text.
+/// Expects every word in the text.
 void expect_words(const std::string& text, const std::vector<std::string>& words) {
   EXPECT_FALSE(text.starts_with("status") || text.starts_with("not one line") || text == "no such text") << text;
   for (const std::string& word : words) EXPECT_NE(text.find(word), std::string::npos) << word << " in: " << text;
@@ -194,7 +194,8 @@ TEST(RobocdUrdf, AsksWhereAFloatingBaseStandsInAnEnvironment) {
   const Said asked = run_robocd(env + " 2>&1");
   EXPECT_EQ(asked.status, 2);
   expect_words(asked.out, {"joint 'free'", "--floating-base fixed"});
-  EXPECT_EQ(run_robocd(env + " --floating-base fixed").status, 1);  // the cube is that of the base
+  EXPECT_EQ(run_robocd(env + " --floating-base fixed").status,
+            1);  // the path in the message is that of the base's cube
   EXPECT_EQ(run_robocd(env + " --floating-base free").status, 2);
 }
 

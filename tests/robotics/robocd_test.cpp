@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// robocd from outside: exit status, JSON contract, determinism, on a robot whose distances are known without it.
+// Tests robocd as a program: exit status, JSON, determinism, on a robot whose distances are known.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,14 +35,14 @@ std::set<std::string> keys(const Json& object) {
   return names;
 }
 
-/// "a b;c d;" of rows with two names.
+/// Returns "a b;c d;" for rows with two names.
 std::string pairs(const Json& rows, const char* first = "link1", const char* second = "link2") {
   std::string text;
   for (const Json& row : rows) text += row.at(first).get<std::string>() + " " + row.at(second).get<std::string>() + ";";
   return text;
 }
 
-/// The JSON of a check that is expected to end with this status.
+/// Returns the JSON of a check and expects its exit status.
 Json check(const std::string& arguments, int status) {
   const Said said = run_robocd("check" + arguments + " --json");
   EXPECT_EQ(said.status, status) << arguments;
@@ -102,7 +102,7 @@ TEST(Robocd, InformsAboutLinksJointsAndPairs) {
 
 TEST(Robocd, TellsOpenAndDegenerateMeshes) {
   const ArmFolder arm;
-  // The last triangle of the cube becomes a point.
+  // Sets all corners of the cube's last triangle to (0, 0, 0).
   std::string bytes = test::cube_stl(Vec3::Zero(), 0.125);
   for (int k = 0; k < 36; ++k) bytes[bytes.size() - 38 + static_cast<std::size_t>(k)] = '\0';
   arm.write("cube.stl", bytes);
@@ -126,7 +126,8 @@ TEST(Robocd, KnowsTheClosestPoints) {
   EXPECT_EQ(closest["point2"][0], 1.5 - 0.0625);
   EXPECT_EQ(closest["point1"][1], closest["point2"][1]);
 
-  // Seventeen digits must come back as the same double: sqrt(x^2 + y^2) of the turned frame has them all.
+  // Numbers have seventeen digits, so that they are read as the same double. sqrt(x^2 + y^2) of the rotated frame uses
+  // all of them.
   const Json turned = check(arm.urdf() + " --srdf" + arm.file("arm.srdf") + " --state all/turned --mode closest", 0);
   const Json& far = turned["configurations"][0]["closest"];
   double squared = 0.0;
@@ -169,7 +170,7 @@ TEST(Robocd, ReportsPairsWithinAMarginAndAClearance) {
   EXPECT_EQ(pairs(check(zero + "all --clearance 1.32", 1)["configurations"][0]["pairs"]), "base fore;");
   EXPECT_EQ(check(zero + "any --clearance 1.32", 1)["configurations"][0]["collides"], true);
   EXPECT_EQ(check(zero + "closest --clearance 1.3", 0)["configurations"][0]["closest"]["distance"], 1.3125);
-  // A file of pairs that are skipped counts like the SRDF's.
+  // Pairs in a file for --skip-pairs are skipped like pairs in the SRDF.
   arm.write("skip.txt", "# the closest ones\nfore base\n");
   EXPECT_EQ(
       pairs(check(zero + "all --clearance 1.32 --skip-pairs" + arm.file("skip.txt"), 0)["configurations"][0]["pairs"]),
@@ -190,7 +191,7 @@ TEST(Robocd, AsksTheEnvironmentToo) {
   const std::string name = (arm.path() / "env.stl").string();
   EXPECT_EQ(pairs(all[1]["environment_pairs"], "link", "body"), "fore " + name + ";");
   EXPECT_EQ(check(rows + env + " --mode any", 1)["configurations"][1]["collides"], true);
-  // The base stands nearest to the cube in the first row: from y = 0.125 to y = 1.5.
+  // In the first row the base is nearest to the cube: from y = 0.125 to y = 1.5.
   const Json closest = check(rows + env + " --mode closest", 1)["configurations"];
   EXPECT_EQ(closest[0]["environment_closest"]["link"], "base");
   EXPECT_EQ(closest[0]["environment_closest"]["body"], name);
@@ -204,7 +205,7 @@ TEST(Robocd, AsksTheEnvironmentToo) {
   EXPECT_EQ(within[0]["environment_pairs"][0]["distance"], 1.375);
   EXPECT_EQ(within[0]["environment_pairs"][0]["point2"][1], 1.5);
 
-  // A surface around the robot touches nothing.
+  // A mesh around the robot is hollow, so nothing touches it.
   EXPECT_EQ(check(rows + room + " --mode all", 0)["configurations"][0]["collides"], false);
   const Json inside = check(rows + room + " --mode all --contained", 1)["configurations"][0];
   EXPECT_EQ(inside["collides"], true);
@@ -229,7 +230,7 @@ TEST(Robocd, TakesPrimitivesPlacesAndNamesForBodies) {
     return check(zero + "closest --env '" + body + "'", status)["configurations"][0]["environment_closest"];
   };
   const std::string mesh = (arm.path() / "unit.stl").string();
-  // Each ends at y = 1.5; the base, which is nearest, at 0.125.
+  // Each body starts at y = 1.5. The base is the nearest link and ends at y = 0.125.
   for (const std::string& body :
        {std::string("it=box:0.25 0.25 0.25,xyz=0 1.625 0"), std::string("it=sphere:0.125,xyz=0 1.625 0"),
         std::string("it=cylinder:0.5 0.25,xyz=0 1.625 0,rpy=1.5707963267948966 0 0"),
@@ -275,11 +276,12 @@ TEST(Robocd, LeavesOutAllowedPairsOfLinkAndBody) {
   EXPECT_EQ(run_robocd(zero + table + " --allow base shelf 2>&1").status, 2);
   EXPECT_EQ(run_robocd(zero + table + " --allow legs table 2>&1").status, 2);
   EXPECT_EQ(run_robocd(zero + table + " --skip-pairs" + arm.file("wrong.txt") + " 2>&1").status, 3);
-  // The other links still meet it.
+  // Other links still collide with the body.
   EXPECT_EQ(run_robocd(zero + " --env 'table=box:4 4 0.25,xyz=0 0 -0.125' --allow base table 2>/dev/null").status, 1);
 }
 
-/// A ball in a box collides, in a closed mesh only with --contained: in check, path and matrix.
+/// A ball inside a box collides. Inside a closed mesh it collides only with --contained. Holds for check, path and
+/// matrix.
 TEST(Robocd, TakesPrimitivesForSolids) {
   const test::TemporaryFolder folder;
   folder.write("room.stl", test::cube_stl({0, 0, 0}, 2));
@@ -332,7 +334,7 @@ TEST(Robocd, SamplesWithinTheLimitsAndByIndexAlone) {
   EXPECT_LE(high[0], 3.14159265358979324);
   EXPECT_GE(low[1], -1.5);
   EXPECT_LE(high[1], 1.0);
-  // Of 2 000 samples the extremes are within 1 % of the limits: the chance of missing one is 2e-9.
+  // The extremes of 2 000 samples are within 1 % of the limits; the probability of missing one limit is 2e-9.
   EXPECT_LT(low[0], -3.08);
   EXPECT_GT(high[0], 3.08);
   EXPECT_LT(low[1], -1.475);
@@ -362,7 +364,7 @@ TEST(Robocd, WritesAMatrixThatItReads) {
   EXPECT_EQ(content(arm.path() / "out.srdf"), printed.out);
   const Json json = Json::parse(run_robocd("info --json" + arm.urdf() + " --srdf" + arm.file("out.srdf")).out);
   const std::string tested = pairs(json.at("tested_pairs"));
-  // Fore meets base and camera meets mast when the elbow is in. Upper stays at x = 1, mast on the axis.
+  // With the elbow in, fore collides with base and camera with mast. Upper stays at x = 1 and mast on the axis.
   EXPECT_NE(tested.find("base fore;"), std::string::npos) << tested;
   EXPECT_NE(tested.find("camera mast;"), std::string::npos) << tested;
   EXPECT_EQ(tested.find("upper mast;"), std::string::npos) << tested;
@@ -371,7 +373,7 @@ TEST(Robocd, WritesAMatrixThatItReads) {
 TEST(Robocd, AddsAMatrixToTheSrdfThatThereIs) {
   const ArmFolder arm;
   const std::string text = content(arm.path() / "arm.srdf");
-  std::string meeting = text;  // disables a pair that meets when the elbow is in
+  std::string meeting = text;  // disables a pair that collides with the elbow in
   meeting.insert(meeting.find("</robot>"), "  <disable_collisions link1=\"base\" link2=\"fore\" reason=\"mine\"/>\n");
   arm.write("arm.srdf", meeting);
   const std::string command = "matrix" + arm.urdf() + " --samples 500 --seed 2 --srdf" + arm.file("arm.srdf");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Tests RobotChecker with every engine against brute force: verdicts, distances, touching, containment.
 #include "hinge/robotics/robot_checker.hpp"
 
 #include <gtest/gtest.h>
@@ -36,7 +37,7 @@ std::shared_ptr<const Robot> random_robot(std::uint64_t number, std::size_t link
   return std::make_shared<const Robot>(test::random_description(stream, links));
 }
 
-/// Two unit cubes; the second slides along x, and touches the first at 1.
+/// Two unit cubes. The second slides along x and touches the first at 1.
 RobotDescription slider(const Shape& first = BoxShape{}, const Shape& second = BoxShape{}) {
   RobotDescription robot{"slider", {{"fixed", {{first}}}, {"between"}, {"sliding", {{second}}}}, {}};
   JointDescription joint{"turn", JointType::continuous, "fixed", "between"};
@@ -56,7 +57,7 @@ class EveryEngine : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(All, EveryEngine, testing::Values("simd", "lazy", "brute"),
                          [](const auto& engine) { return engine.param; });
 
-/// What pairs of grown triangles say one by one, placed by Eigen.
+/// Compares every answer with all pairs of inflated triangles; Eigen computes the poses.
 TEST_P(EveryEngine, AgreesWithAllPairsOneByOne) {
   SCOPED_TRACE(seed);
   std::size_t colliding = 0, free = 0;
@@ -99,7 +100,7 @@ TEST_P(EveryEngine, AgreesWithAllPairsOneByOne) {
       EXPECT_NEAR(std::sqrt(squared_norm(Vec3(closest->point1 - closest->point2))), closest->distance, 1e-12);
       const double m = margins.clearance(closest->link1, closest->link2);
       EXPECT_NEAR(closest->distance, std::max(0.0, least + m), 1e-12);
-      // Each point is on its link's surface, or inside both where they meet.
+      // Each point is on the surface of its link, or inside both links if they overlap.
       const auto off = [&](LinkId link, const Vec3& point) {
         return test::apart(links[index(link)], {{{point, point, point}, 0.0}});
       };
@@ -112,7 +113,7 @@ TEST_P(EveryEngine, AgreesWithAllPairsOneByOne) {
   EXPECT_GT(free, 20U);
 }
 
-/// Balls of radii r and s whose centres are x apart meet exactly when x <= r + s, a sum that is not rounded.
+/// Balls of radii r and s at centre distance x touch or overlap if and only if x <= r + s, with the exact sum.
 TEST_P(EveryEngine, LetsGrownShapesMeetWhenTheyTouchAndNotBefore) {
   SCOPED_TRACE(seed);
   SampleStream stream(seed + 9, 0);
@@ -130,10 +131,10 @@ TEST_P(EveryEngine, LetsGrownShapesMeetWhenTheyTouchAndNotBefore) {
   check(0.1, 0.1, 0.2, true);
   check(0.1, 0.1, std::nextafter(0.2, 1.0), false);
   check(0.1, 0.2, 0.3, true);
-  check(0.1, 0.2, 0.1 + 0.2, false);  // rounded up
+  check(0.1, 0.2, 0.1 + 0.2, false);  // the double sum is rounded up
   for (int k = 0; k < 40; ++k) {
     const double r = stream.uniform(), s = k % 4 == 0 ? r : stream.uniform(), x = r + s;
-    // What rounding left out, exactly (Knuth's two-sum).
+    // The exact rounding error of the sum (Knuth's two-sum).
     const double b = x - r, left_out = (r - (x - b)) + (s - b);
     exact_sums += left_out == 0.0 ? 1 : 0;
     touching += left_out >= 0.0 ? 1 : 0;
@@ -145,7 +146,7 @@ TEST_P(EveryEngine, LetsGrownShapesMeetWhenTheyTouchAndNotBefore) {
   EXPECT_LT(touching, 40U);
 }
 
-/// With a clearance contact is no special case: d < r + s + c.
+/// With a clearance c the criterion is strict: d < r + s + c.
 TEST_P(EveryEngine, AddsClearancesToRadiiWithoutRounding) {
   const auto collides = [&](double r, double s, double c, double x) {
     RobotChecker checker = slider_checker(slider(SphereShape{r}, SphereShape{s}), c, GetParam());
@@ -207,7 +208,7 @@ TEST_P(EveryEngine, TakesDistancesBelowTheClearanceOnly) {
   EXPECT_LT(checker.closest()->distance, 0.25);
 }
 
-/// Balls of radius 0.3 and 0.1: rounding makes what is the sum of the radii anything but sure.
+/// Balls of radii 0.3 and 0.1: neither radius is exact, so verdicts near x = 0.4 depend on rounding but must agree.
 TEST_P(EveryEngine, NeverContradictsItselfWhereBallsTouch) {
   RobotChecker checker = slider_checker(slider(SphereShape{0.3}, SphereShape{0.1}), 0.0, GetParam());
   double x = 0.4;
@@ -260,7 +261,7 @@ TEST_P(EveryEngine, MeetsAnotherRobotWhereAllPairsSay) {
   for (std::uint64_t number = 0; number < 10; ++number) {
     SampleStream stream(seed + 4, number);
     const auto robot = random_robot(2 * number), other = random_robot(2 * number + 1, 5);
-    // Of two clearances the larger counts.
+    // The larger of the two clearances counts.
     const double mine = number % 3 == 0 ? 0.0 : 0.03, theirs = number % 2 == 0 ? 0.0 : 0.07, m = std::max(mine, theirs);
     RobotChecker first(robot, tested_pairs(*robot), LinkMargins(*robot, mine), {GetParam()});
     RobotChecker second(other, tested_pairs(*other), LinkMargins(*other, theirs), {GetParam()});
@@ -405,7 +406,7 @@ TEST(Containment, OfLinksIsReportedWhereNothingTouches) {
     EXPECT_EQ(checker.robot().link_name(found[0].outer), "fixed");
     EXPECT_EQ(checker.robot().link_name(found[0].inner), "sliding");
     EXPECT_FALSE(found[0].whole);
-    // Surfaces that meet are a collision already.
+    // Intersecting surfaces are a collision, not a containment.
     checker.update(std::vector<double>{0.0, 2.0});
     EXPECT_TRUE(checker.collides());
     EXPECT_TRUE(checker.contained().empty());

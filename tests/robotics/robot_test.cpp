@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Tests Robot: its model, order of joints, mimic joints, limits, rejected descriptions.
 #include "hinge/robotics/robot.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +35,8 @@ JointDescription joint(const std::string& name, JointType type, const std::strin
   return joint;
 }
 
-/// Three rods of length 1 and width 0.1 in a row, turning about z; a plate fixed to the last; out of order on purpose.
+/// Three rods of length 1 and width 0.1 in a row, rotating about z. A plate is fixed to the last. The order is shuffled
+/// on purpose.
 RobotDescription arm() {
   const PlacedShape rod{BoxShape{{1.0, 0.1, 0.1}}, Pose{Mat3::Identity(), Vec3(0.5, 0, 0)}};
   RobotDescription robot;
@@ -77,7 +79,7 @@ TEST(Robot, KeepsIndependentJointsInTheOrderGiven) {
   EXPECT_EQ(robot.independent_name(1), "elbow");
   EXPECT_EQ(robot.lower()[0], -3.0);
   EXPECT_DOUBLE_EQ(robot.upper()[1], std::acos(-1.0));
-  // The model has the elbow first: parents first.
+  // The model orders parents first, so the elbow is first.
   EXPECT_EQ(robot.joint_of(DofId{0}), 2U);
   EXPECT_EQ(robot.expand(std::vector<double>{0.25, 0.5}), (std::vector<double>{0.5, 0.25}));
 }
@@ -87,7 +89,7 @@ TEST(Robot, CollidesWhenFoldedBackAndNotWhenStraight) {
   Hierarchy hierarchy(robot.model(), LinkPairFilter(robot, tested_pairs(robot)), UniformClearance(0.0));
   hierarchy.update(robot.expand(std::vector<double>{0.0, 0.0}));
   EXPECT_FALSE(hierarchy.self_collides());
-  // A triangle of three rods: the end comes back to the base.
+  // The three rods form a triangle: the end returns to the base.
   const double third = 2 * std::acos(-1.0) / 3;
   hierarchy.update(robot.expand(std::vector<double>{third, third}));
   EXPECT_TRUE(hierarchy.self_collides());
@@ -99,7 +101,7 @@ TEST(Robot, DrivesFollowersThroughChains) {
   description.links.push_back({"tip", {}});
   description.joints.push_back(joint("tip joint", JointType::prismatic, "plate", "tip"));
   description.joints.back().mimic = Mimic{"elbow", 3.0, 1.0};
-  description.joints.back().lower = 5.0;  // of no matter to a follower
+  description.joints.back().lower = 5.0;  // limits of a follower are ignored
   const Robot robot(description);
   ASSERT_EQ(robot.independent_joints().size(), 1U);
   // By DOF: elbow = -2 q + 0.5, wrist = q, tip = 3 elbow + 1.
@@ -205,7 +207,7 @@ TEST(Robot, GivesSpheresAndCapsulesTheirRadius) {
   EXPECT_LE((built.model().primitives()[13].a - Vec3(0, 2, 2)).norm(), 1e-15);
   EXPECT_LE((built.model().primitives()[13].b - Vec3(0, -2, 2)).norm(), 1e-15);
   EXPECT_EQ(built.radii()[14], 0.0);
-  // Points and segments with a radius are no defects.
+  // Points and segments with a radius do not count as degenerate.
   EXPECT_EQ(built.degenerate_count(), 0U);
   EXPECT_TRUE(Robot(robot, {Tessellation::Manner::inscribed}).radii().empty());
 }

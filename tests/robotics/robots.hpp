@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where tests find robots: the ten of the shared data when they are there, and folders that vanish with the test.
+// Robots for tests: the ten shared robots, if present, and temporary folders.
 #pragma once
 
 #include <unistd.h>
@@ -23,11 +23,11 @@
 
 namespace hinge::test {
 
-/// What the README of the shared robots says.
+/// Expected numbers of a shared robot, from the README of the shared data.
 struct SharedRobot {
   std::string name;
   std::size_t links, links_with_geometry, groups_with_geometry, dofs, triangles, pairs;
-  bool has_text_meshes;  ///< OBJ: coordinates in single precision
+  bool has_text_meshes;  ///< OBJ: readers round coordinates to single precision
 };
 
 inline const std::vector<SharedRobot>& shared_robots() {
@@ -44,7 +44,7 @@ inline std::filesystem::path shared_folder(const std::string& robot) {
   return std::filesystem::path(HINGE_SHARED_DATA) / "robots" / robot;
 }
 
-/// A robot tessellated as the reference is, and the pairs the reference skips.
+/// A robot tessellated as in the reference, and the pairs that the reference skips.
 struct LoadedRobot {
   robotics::Robot robot;
   robotics::LinkPairs disabled;
@@ -55,7 +55,7 @@ inline LoadedRobot load_shared(const std::string& name) {
   const std::filesystem::path stem = shared_folder(name) / name;
   const auto with = [&](const std::string& extension) { return std::filesystem::path(stem.string() + extension); };
   LoadedRobot loaded{Robot(read_urdf(with(".urdf")), {Tessellation::Manner::inscribed}), LinkPairs()};
-  // Baxter's SRDF names the links of another variant, too.
+  // The SRDF of Baxter also names links of another variant.
   loaded.disabled = std::filesystem::exists(with(".srdf"))
                         ? read_srdf(with(".srdf"), loaded.robot, UnknownLinks::noted).disabled
                         : LinkPairs(loaded.robot.link_count());
@@ -64,7 +64,7 @@ inline LoadedRobot load_shared(const std::string& name) {
   return loaded;
 }
 
-/// Values of the independent joints, uniform within their limits.
+/// Returns values of the independent joints, uniform within their limits.
 inline std::vector<double> random_configuration(const robotics::Robot& robot, SampleStream& stream) {
   std::vector<double> q;
   for (std::size_t k = 0; k < robot.lower().size(); ++k)
@@ -72,7 +72,7 @@ inline std::vector<double> random_configuration(const robotics::Robot& robot, Sa
   return q;
 }
 
-/// A folder of files, removed with the object.
+/// A temporary folder; the destructor removes it.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -97,7 +97,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// The message of the LoadError that `load` ends in, without the folder's path; empty when there is none.
+/// Returns the message of the LoadError that `load` throws, without the folder's path; empty if it throws none.
 template <class Load>
 std::string refusal(const TemporaryFolder& folder, const Load& load) {
   try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs robocd, on a small robot whose distances are known without it.
+// Runs robocd on a small robot whose distances are known.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ inline Said run_robocd(const std::string& arguments, const std::string& environm
   return run_tool(HINGE_ROBOCD, arguments, environment);
 }
 
-/// A binary STL of an axis-parallel cube, looking outwards.
+/// Returns a binary STL of an axis-parallel cube with outward normals. half: half the edge length.
 inline std::string cube_stl(const Vec3& center, double half) {
   constexpr std::array<std::array<unsigned, 3>, 12> corners = {{{0, 2, 3},
                                                                 {0, 3, 1},
@@ -35,7 +35,7 @@ inline std::string cube_stl(const Vec3& center, double half) {
   std::string bytes(80, ' ');
   bytes += std::string("\x0c\0\0\0", 4);
   for (const auto& triangle : corners) {
-    std::array<float, 12> numbers{};  // the normal is of no matter
+    std::array<float, 12> numbers{};  // the normal is not read
     for (std::size_t v = 0; v < 3; ++v)
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const double sign = (triangle[v] >> axis & 1U) != 0 ? 1.0 : -1.0;
@@ -48,10 +48,11 @@ inline std::string cube_stl(const Vec3& center, double half) {
   return bytes;
 }
 
-/// base: a cube of 0.25 m (a mesh), in the world. upper: a cube of 0.125 m at x = 1, turning about z (shoulder,
-/// continuous). fore: the like at x = 1.5 + elbow of the turned frame; camera: a ball of radius 0.0625 half a metre
-/// above it, fixed to fore. mast: the like cube at z = 1.25 + elbow / 2, its joint following the elbow.
-/// Tested pairs: base fore, base camera, upper mast, fore mast, camera mast. The numbers are exact in binary.
+/// base: a cube with half edge 0.125 m (a mesh), fixed to the world. upper: a box of edge 0.125 m at x = 1, rotating
+/// about z (shoulder, continuous). fore: the same box at x = 1.5 + elbow in the rotated frame. camera: a ball of radius
+/// 0.0625 m half a metre above fore, fixed to it. mast: the same box at z = 1.25 + elbow / 2; its joint mimics the
+/// elbow.
+/// Tested pairs: base fore, base camera, upper mast, fore mast, camera mast. All numbers are exact in binary.
 inline constexpr const char* arm_urdf = R"(<robot name="arm">
   <link name="base"><collision><geometry><mesh filename="cube.stl"/></geometry></collision></link>
   <link name="upper"><collision><origin xyz="1 0 0"/><geometry><box size="0.125 0.125 0.125"/></geometry></collision></link>
@@ -77,7 +78,7 @@ inline constexpr const char* arm_srdf = R"(<robot name="arm">
 </robot>
 )";
 
-/// The arm in a folder of its own.
+/// A temporary folder with the arm's files.
 class ArmFolder : public TemporaryFolder {
  public:
   ArmFolder() {
@@ -85,7 +86,7 @@ class ArmFolder : public TemporaryFolder {
     write("arm.urdf", arm_urdf);
     write("arm.srdf", arm_srdf);
   }
-  /// The path in quotes, with a blank in front.
+  /// Returns the quoted path after a space.
   std::string file(const std::string& name) const { return " '" + (path() / name).string() + "'"; }
   std::string urdf() const { return file("arm.urdf"); }
 };

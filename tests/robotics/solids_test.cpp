@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boxes, cylinders, spheres and capsules are solid everywhere: held against projections onto convex sets, which know
-// nothing of triangles.
+// Tests that boxes, cylinders, spheres and capsules are solid, against projections onto convex sets, which use no
+// triangles.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ namespace solids_test {
 constexpr std::uint64_t seed = 8489;
 using test::Random;
 
-/// The point of the solid nearest to x, in the solid's frame.
+/// Returns the point of the solid nearest to x, in the solid's frame.
 struct Nearest {
   Vec3 x;
   Vec3 operator()(const BoxShape& box) const { return x.cwiseMax(-box.size / 2).cwiseMin(box.size / 2); }
@@ -50,7 +50,7 @@ struct Nearest {
   Vec3 operator()(const MeshShape&) const { return x; }
 };
 
-/// From one solid to the other and back: ends in points that are as near as any.
+/// Returns the distance of two convex solids by alternating projections; 0 if they overlap.
 double distance_of_solids(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b) {
   Vec3 x = at_a.translation, y = x;
   for (int k = 0; k < 3000; ++k) {
@@ -72,7 +72,7 @@ Shape random_solid(Random& random, std::size_t kind) {
   return CapsuleShape{size() / 2, size()};
 }
 
-/// Shape `a` on the root, shape `b` at a pose on the link behind two joints.
+/// A robot with shape `a` on the root and shape `b` at pose `at_b` on a link behind two joints.
 std::shared_ptr<const Robot> pair_of(const Shape& a, const Shape& b, const Pose& at_b, double reach = 1.0) {
   RobotDescription robot{"pair", {{"a", {{a}}}, {"between"}, {"b", {{b}}}}, {}};
   JointDescription turn{"turn", JointType::continuous, "a", "between"};
@@ -130,7 +130,7 @@ TEST(Solids, CollideWhenTheyShareAPoint) {
       ++free;
     }
 
-    // The same shapes as a link and a body, and with the two exchanged.
+    // The same shapes as a link and a body, in both roles.
     const auto alone = pair_of(a, SphereShape{0.001}, at(100.0));
     RobotChecker one = checker_of(alone, engine);
     Environment environment(0.0, engine);
@@ -172,7 +172,7 @@ TEST(Solids, HoldMeshesAndTheirPartsButHollowMeshesHoldNothing) {
   const MeshShape parts{two}, room{mesh_of(BoxShape{Vec3::Ones()})};
   MeshShape solid_room = room;
   solid_room.solid = true;
-  for (const double x : {0.0, -5.0}) {  // the first part inside, then the second
+  for (const double x : {0.0, -5.0}) {  // the first component inside, then the second
     EXPECT_TRUE(checker_of(pair_of(BoxShape{}, parts, at(x))).collides());
     EXPECT_TRUE(checker_of(pair_of(parts, BoxShape{}, at(-x))).collides());
     EXPECT_TRUE(checker_of(pair_of(solid_room, parts, at(x))).collides());
@@ -187,7 +187,7 @@ TEST(Solids, HoldMeshesAndTheirPartsButHollowMeshesHoldNothing) {
   EXPECT_THROW(pair_of(solid_open, parts, {}), ModelError);
 }
 
-/// No tolerance: the last place of doubles decides.
+/// There is no tolerance: the last bit of a double decides.
 TEST(Solids, EndExactlyAtTheirSurface) {
   const Shape point = SphereShape{0x1p-60};
   EXPECT_TRUE(checker_of(pair_of(BoxShape{}, point, at(std::nextafter(0.5, 0.0)))).collides());
@@ -218,7 +218,7 @@ TEST(Solids, AreSolidOnCertifiedPaths) {
     }
     return answer.verdict;
   };
-  // From inside to inside, no surface is met on the way.
+  // Start and end are inside: no surface is crossed on the way.
   EXPECT_EQ(verdict(BoxShape{Vec3::Constant(4.0)}, {}), PathVerdict::colliding);
   EXPECT_EQ(verdict(CylinderShape{3.0, 4.0}, {}), PathVerdict::colliding);
   EXPECT_EQ(verdict(MeshShape{mesh_of(BoxShape{Vec3::Constant(4.0)})}, {}), PathVerdict::free);
@@ -301,7 +301,7 @@ TEST(EnvironmentBodies, ArePrimitivesThatLinksMayBeAllowedToTouch) {
   EXPECT_EQ(checker.closest(environment)->body, ball);
 }
 
-/// Bodies so far away that squares of lengths overflow.
+/// Bodies so far away that squared lengths overflow.
 TEST(EnvironmentBodies, HaveFiniteDistancesHoweverFar) {
   RobotChecker checker = checker_of(pair_of(BoxShape{}, SphereShape{0.1}, at(2.0)));
   Environment environment;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Robots of spheres as models of spheres: numbering, followers, refusal, and verdicts of sixteen at once.
+// Tests sphere models of robots: numbering, mimic joints, rejected shapes, verdicts of sixteen configurations at once.
 #include "hinge/robotics/sphere_model.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@
 namespace hinge::robotics {
 namespace sphere_model_test {
 
-/// Three links one above the other; the third turns twice as far as the second.
+/// Three links in a column. The top joint rotates twice as far as the middle joint.
 RobotDescription three_links() {
   RobotDescription robot{"three", {{"top"}, {"base"}, {"middle"}}, {}};
   for (LinkDescription& link : robot.links)
@@ -54,7 +54,7 @@ TEST(SphereModel, FollowersFollowInBatches) {
     const auto full = robot.expand({{angle}});
     block.insert(block.end(), full.begin(), full.end());
   }
-  // The top stands 3 * 1.3 rad from the upright: a ball of it is 0.18 m from one of the base.
+  // At 1.3 rad the top link is tilted by 3 * 1.3 rad: one of its balls is 0.18 m from a ball of the base.
   EXPECT_EQ(batch.each(block), 0b100U);
 }
 

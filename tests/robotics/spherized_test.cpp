@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Robots made of spheres: read exactly, and asked against every pair of balls.
+// Tests robots made of spheres: files are read exactly, and answers equal those of all pairs of balls.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace spherized_test {
 
 struct Spherized {
   std::string folder, file;
-  std::size_t spheres;  // <sphere> in the file
+  std::size_t spheres;  // number of <sphere> elements in the file
 };
 
 class SpherizedRobots : public testing::TestWithParam<Spherized> {
@@ -46,7 +46,7 @@ TEST_P(SpherizedRobots, AreReadAsExactSpheres) {
   EXPECT_EQ(robot.degenerate_count(), 0U);
 }
 
-/// |c - c'| - r - r', the smallest over the pairs of spheres of tested links.
+/// Returns the smallest |c - c'| - r - r' over all pairs of spheres of tested links.
 double smallest_gap(std::span<const Triangle> placed, const Robot& robot, const LinkPairs& tested) {
   const auto links = robot.model().links();
   double gap = std::numeric_limits<double>::infinity();
@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(All, SpherizedRobots,
                                          Spherized{"baxter", "baxter_spherized.urdf", 75}),
                          [](const auto& robot) { return robot.param.folder; });
 
-/// The same where no data is: an arm of balls with segments between them.
+/// The same without shared data: an arm of balls and capsules.
 TEST(RoundedRobot, IsAsFarFromItselfAsPointsAndSegmentsGrown) {
   RobotDescription description;
   description.name = "arm";
@@ -108,7 +108,7 @@ TEST(RoundedRobot, IsAsFarFromItselfAsPointsAndSegmentsGrown) {
   const LinkPairs tested = tested_pairs(robot);
   Hierarchy hierarchy(robot.model(), LinkPairFilter(robot, tested), LinkMargins(robot));
   SampleStream stream(6, 0);
-  // A segment's distance by sampling it: never too small, and off by the sampling at most.
+  // The distance of segments is found by sampling: never too small, and too large by at most the sampling error.
   constexpr int parts = 200;
   const auto at = [](const Triangle& t, int k) { return Vec3(t.a + (t.b - t.a) * (1.0 * k / parts)); };
   for (int k = 0; k < 20; ++k) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Tests tessellation of shapes: closed, circumscribed within the tolerance, flat shapes.
 #include "hinge/robotics/tessellate.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +22,7 @@ namespace tessellate_test {
 
 constexpr Tessellation inscribed{Tessellation::Manner::inscribed, 1e-3};
 
-/// The triangles of a shape that is given by triangles alone.
+/// Returns the triangles of a shape; expects a radius of 0.
 std::vector<Triangle> triangles_of(const Shape& shape, const Tessellation& tessellation) {
   const Surface surface = tessellate(shape, tessellation);
   EXPECT_EQ(surface.radius, 0.0);
@@ -33,7 +34,8 @@ Tessellation within(double tolerance) { return {Tessellation::Manner::circumscri
 using Point = std::tuple<double, double, double>;
 Point point(const Vec3& v) { return {v[0] + 0.0, v[1] + 0.0, v[2] + 0.0}; }
 
-/// Every edge belongs to two triangles, which run it in opposite ways: closed, and turned one way throughout.
+/// Expects every edge in exactly two triangles, in opposite directions: the surface is closed and consistently
+/// oriented.
 void expect_closed(const std::vector<Triangle>& triangles) {
   std::map<std::pair<Point, Point>, int> runs;
   for (const Triangle& t : triangles) {
@@ -46,7 +48,7 @@ void expect_closed(const std::vector<Triangle>& triangles) {
   }
 }
 
-/// Signed: above 0 when the triangles turn outward.
+/// Returns the signed volume: positive if normals point outward.
 double volume(const std::vector<Triangle>& triangles) {
   double six = 0.0;
   for (const Triangle& t : triangles) six += dot(t.a, cross(t.b, t.c));
@@ -99,7 +101,7 @@ TEST(Tessellate, HoldsTheCylinderAndStaysWithinTheTolerance) {
       expect_closed(triangles);
       EXPECT_LE(largest(triangles, from_axis), radius + tolerance + radius * 1e-14);
       EXPECT_EQ(largest(triangles, [](const Vec3& v) { return std::abs(v[2]); }), 1.5);
-      // Sides only: the nearest point of an upright rectangle to the axis.
+      // Side faces only: an upright rectangle is nearest to the axis where its projection onto the x-y plane is.
       for (const Triangle& t : triangles) {
         if (t.a[2] == t.b[2] && t.b[2] == t.c[2]) continue;
         Triangle flat = t;
@@ -118,7 +120,7 @@ TEST(Tessellate, TakesMoreTrianglesForLessErrorAndNoMoreThanNeeded) {
   EXPECT_LT(coarse.size(), 1000U);
 }
 
-/// The manner in which the published references were made.
+/// The reference data was tessellated in this manner.
 TEST(Tessellate, InscribesAsTheReferenceDoes) {
   const auto sphere = triangles_of(SphereShape{2.0}, inscribed);
   EXPECT_EQ(sphere.size(), 320U);
@@ -172,7 +174,7 @@ TEST(Tessellate, HoldsTheCapsuleAndStaysWithinTheTolerance) {
   EXPECT_LE(largest(rough, from_axis), 0.3 * (1 + 1e-14));
 }
 
-// No triangle twice, none without area but for a point and a segment.
+// No duplicate triangles; only points and segments have triangles without area.
 TEST(Tessellate, MakesFlatShapesOfTheFewestTriangles) {
   const auto count = [](const Shape& shape) { return triangles_of(shape, {}).size(); };
   const auto area = [](const Shape& shape) {

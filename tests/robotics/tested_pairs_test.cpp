@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Tests which pairs of links are tested by default.
 #include "hinge/robotics/tested_pairs.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@
 namespace hinge::robotics {
 namespace tested_pairs_test {
 
-/// Chain a -r- b -f- c -r- d -r- e; d has no geometry.
+/// Chain a -r- b -f- c -r- d -r- e (r: revolute, f: fixed). Link d has no geometry.
 Robot chain() {
   RobotDescription robot;
   for (const char* name : {"a", "b", "c", "d", "e"}) {

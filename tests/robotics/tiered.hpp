@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What tests of tiers need: a link of given triangles, and what a tier makes of it.
+// Helpers for tests of tiers: a link of given triangles, its tiers, and random points.
 #pragma once
 
 #include <array>
@@ -50,7 +50,7 @@ inline std::vector<Triangle> hull_of(std::span<const Vec3> points) {
   return std::get<robotics::MeshShape>(geometry.at(0).shape).mesh->triangles;
 }
 
-/// Every directed edge once, and once the other way round.
+/// Returns whether every directed edge occurs once, and once in the opposite direction.
 inline bool is_closed(std::span<const Triangle> triangles) {
   using Corner = std::tuple<double, double, double>;
   std::map<std::pair<Corner, Corner>, int> runs;
@@ -63,7 +63,7 @@ inline bool is_closed(std::span<const Triangle> triangles) {
   return true;
 }
 
-/// Each coordinate uniform in (-1, 1).
+/// Returns a point with coordinates uniform in (-1, 1).
 inline Vec3 random_point(SampleStream& stream) {
   const double x = stream.uniform(), y = stream.uniform(), z = stream.uniform();
   return {2 * x - 1, 2 * y - 1, 2 * z - 1};
@@ -76,7 +76,7 @@ inline std::vector<Vec3> random_points(std::uint64_t seed, std::size_t count) {
   return points;
 }
 
-/// Points that span no volume, or that repeat.
+/// Returns named point sets without volume, or with duplicates.
 inline std::vector<std::pair<std::string, std::vector<Vec3>>> degenerate_points() {
   std::vector<std::pair<std::string, std::vector<Vec3>>> cases = {
       {"one", {{1, 2, 3}}},

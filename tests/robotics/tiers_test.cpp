@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tiers never miss a contact of the exact surfaces, whatever is mixed; what they refuse; what they leave alone.
+// Tests that tiers miss no contact of the exact surfaces in any mix; rejected input; links that tiers do not change.
 #include "hinge/robotics/tiers.hpp"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ constexpr std::array<Tier, 4> every_tier = {Tier::mesh, Tier::hull, Tier::capsul
 
 using LinkSet = std::set<std::pair<LinkId, LinkId>>;
 
-/// A robot and the links that meet at a configuration.
+/// A robot in a hierarchy; returns the link pairs that collide at a configuration.
 class Asked {
  public:
   explicit Asked(const RobotDescription& description)
@@ -63,7 +63,7 @@ class Asked {
   LinkPairHits hits_;
 };
 
-/// A surface without much order, hollow or not.
+/// Returns a mesh with random size, holes and extra triangles.
 Shape random_mesh(SampleStream& stream) {
   auto mesh = std::make_shared<TriangleMesh>();
   const auto triangles = tessellate(SphereShape{1.0}, {Tessellation::Manner::circumscribed, 0.2}).triangles;
@@ -87,7 +87,7 @@ Shape random_shape(SampleStream& stream) {
   }
 }
 
-/// Seven links in a row with one to three shapes each.
+/// Seven links in a chain with one to three shapes each.
 RobotDescription random_chain(std::uint64_t seed) {
   SampleStream stream(seed, 0);
   RobotDescription robot;
@@ -122,7 +122,7 @@ Tiers random_tiers(const RobotDescription& robot, std::uint64_t seed) {
   return tiers;
 }
 
-/// Is all of link `inner` strictly behind every triangle of link `outer`?
+/// Returns whether all of link `inner` is strictly behind every triangle of the convex link `outer`.
 bool wholly_inside(Asked& robot, LinkId outer, LinkId inner) {
   const auto placed = robot.placed();
   const auto links = robot.robot().model().links();
@@ -140,7 +140,7 @@ bool wholly_inside(Asked& robot, LinkId outer, LinkId inner) {
   return true;
 }
 
-/// How pairs that meet by their meshes fare by their tiers.
+/// Counts the pairs that collide by their meshes, and those that their tiers miss because one is inside a hull.
 struct Tally {
   int met = 0, inside_a_hull = 0;
 
@@ -174,10 +174,10 @@ TEST(Tiers, MissNoContactOfTheMeshesWhateverIsMixed) {
   std::printf("%d contacts, %d inside a hull; %d more by tiers\n", tally.met, tally.inside_a_hull, more);
   EXPECT_GT(tally.met, 1000);
   EXPECT_LT(tally.inside_a_hull, tally.met / 10);
-  EXPECT_GT(more, 0);  // or nothing was coarser
+  EXPECT_GT(more, 0);  // otherwise no tier was coarser than its mesh
 }
 
-/// At the very configuration where meshes come to touch, to the last bit of the path parameter.
+/// Tests the configuration where meshes start to touch, found to the last bit of the path parameter.
 TEST(Tiers, MissNoContactThatHasJustBegun) {
   Tally tally;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
@@ -231,7 +231,7 @@ TEST(Tiers, HullsAreSurfacesCapsulesAndSpheresAreSolid) {
   EXPECT_FALSE(collides(nested));
   EXPECT_FALSE(collides(with_tiers(nested, all(Tier::hull))));
   EXPECT_TRUE(collides(with_tiers(nested, all(Tier::capsule))));
-  // Two walls and a rod that touches one of them from inside: contact of surfaces that the hulls miss, as stated.
+  // Two walls, and a box that touches one from inside: surface contact that the hulls miss, as documented.
   auto walls = std::make_shared<TriangleMesh>();
   for (const double side : {-0.5, 0.5})
     for (Triangle t : tessellate(BoxShape{{0.1, 1, 1}}).triangles) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Tests writing and merging of SRDF files: kinds of pairs, escaped names, kept text.
 #include "hinge/robotics/write_srdf.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@
 namespace hinge::robotics {
 namespace write_srdf_test {
 
-/// Seven links in a chain, with names that XML has to be told about; every kind of pair among the entries.
+/// Seven links in a chain, with names that XML must escape.
 Robot awkward_robot() {
   RobotDescription robot{"a \"robot\" & <co>", {}, {}};
   for (const char* name : {"a", "b--c", "<d>", "e & 'f'", "\"g\"", "h-", "i"}) {
@@ -76,7 +77,7 @@ TEST(WriteSrdf, ReadingBackGivesTheSameDisabledPairs) {
 
 TEST(WriteSrdf, SaysNeverOnlyOfProvedPairs) {
   const Robot robot = awkward_robot();
-  const CollisionMatrix matrix = every_kind();  // 21 pairs: 4 of the first three kinds, 3 of the others
+  const CollisionMatrix matrix = every_kind();  // 21 pairs: 4 of each of the first three kinds, 3 of each other
   const std::string safe = written(robot, matrix, UnseenPairs::tested);
   EXPECT_EQ(count(safe, "reason=\"Adjacent\""), 4U);
   EXPECT_EQ(count(safe, "reason=\"Always\""), 4U);
@@ -137,7 +138,7 @@ TEST(MergeSrdf, KeepsWhatTheFileHasAndAddsTheRest) {
     ASSERT_EQ(after.configurations.size(), 1U);
     EXPECT_EQ(after.configurations[0].full_name(), "arm/up");
   }
-  // A file with nothing in it.
+  // The SRDF has an empty <robot>.
   std::ostringstream out;
   const auto empty = folder.write("empty.srdf", "<robot name='r'/>");
   merge_srdf(empty, read_srdf(empty, robot), robot, every_kind(), out);
