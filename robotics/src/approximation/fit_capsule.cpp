@@ -21,11 +21,11 @@ using Points = std::vector<Vec3>;
 
 Vec3 unit(const Vec3& v) { return v / std::sqrt(squared_norm(v)); }
 
-struct Frame {
+struct SegmentFrame {
   Vec3 x, y, z;  // orthonormal, right-handed
 };
 
-Frame frame_along(const Vec3& direction) {
+SegmentFrame frame_along(const Vec3& direction) {
   const Vec3 z = unit(direction);
   int least = 0;
   for (int k = 1; k < 3; ++k)
@@ -35,7 +35,7 @@ Frame frame_along(const Vec3& direction) {
 }
 
 struct Capsule {
-  Frame frame;
+  SegmentFrame frame;
   Vec3 centre = Vec3::Zero();
   double half_length = 0.0;
   double radius = 0.0;
@@ -45,7 +45,7 @@ struct Capsule {
 double volume_of(double radius, double half_length) { return radius * radius * (2 * half_length + radius * (4.0 / 3)); }
 
 /// Returns the shortest capsule with the axis of `circle` and this radius, which must be at least that of the circle.
-Capsule with_radius(const Points& local, const Frame& frame, const Circle& circle, double radius) {
+Capsule with_radius(const Points& local, const SegmentFrame& frame, const Circle& circle, double radius) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Vec3& p : local) {
     const double x = p[0] - circle.x, y = p[1] - circle.y;
@@ -59,7 +59,7 @@ Capsule with_radius(const Points& local, const Frame& frame, const Circle& circl
 }
 
 Capsule along(const Points& points, const Vec3& direction) {
-  const Frame frame = frame_along(direction);
+  const SegmentFrame frame = frame_along(direction);
   Points local;
   std::vector<std::array<double, 2>> flat;
   for (const Vec3& p : points) {
@@ -94,7 +94,7 @@ Capsule refined(const Points& points, Capsule best) {
   for (double tilt = 0.3; tilt > 1e-3; tilt /= 2) {  // rad; below this the volume changes in the fifth digit
     for (bool better = true; better;) {
       better = false;
-      const Frame f = best.frame;
+      const SegmentFrame f = best.frame;
       for (const auto& [x, y] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}}) {
         const Capsule capsule = along(points, f.z + tilt * (f.x * x + f.y * y));
         if (!(capsule.volume < best.volume * (1 - 1e-6))) continue;

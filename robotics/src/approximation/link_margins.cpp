@@ -16,7 +16,7 @@ namespace {
 /// Keeps sums of two reaches above thresholds despite rounding: three roundings on one side, two on the other.
 constexpr double upward = 1.0 + 0x1p-50;
 
-bool is_length(double x) { return is_finite(x) && x >= 0.0; }
+bool is_margin(double x) { return is_finite(x) && x >= 0.0; }
 
 std::string pair_text(const Robot& robot, const PairClearance& pair) {
   const auto name = [&](LinkId link) {
@@ -36,14 +36,14 @@ LinkMargins::LinkMargins(const Robot& robot, double clearance, std::span<const P
   data.clearance = clearance;
   data.plain_reach = clearance / 2 * upward;
   data.link_count = robot.link_count();
-  if (!is_length(clearance))
+  if (!is_margin(clearance))
     throw ModelError("clearance of all links is " + number_text(clearance) + ": expected a finite length >= 0");
 
   const std::span<const LinkId> links = robot.model().links();
   bool grown = false;
   for (std::size_t i = 0; i < robot.radii().size(); ++i) {
     const double radius = robot.radii()[i];
-    if (!is_length(radius))
+    if (!is_margin(radius))
       throw ModelError("link '" + robot.link_name(links[i]) + "': radius of triangle " + std::to_string(i) + " is " +
                        number_text(radius) + ", expected a finite length >= 0");
     grown = grown || radius > 0.0;
@@ -56,7 +56,7 @@ LinkMargins::LinkMargins(const Robot& robot, double clearance, std::span<const P
     std::vector<bool> named(data.table.size(), false);
     for (const PairClearance& pair : overrides) {
       const std::string who = pair_text(robot, pair);
-      if (!is_length(pair.clearance))
+      if (!is_margin(pair.clearance))
         throw ModelError(who + " is " + number_text(pair.clearance) + ": expected a finite length >= 0");
       if (pair.link1 == pair.link2) throw ModelError(who + ": a link is not tested with itself");
       const std::size_t a = index(pair.link1), b = index(pair.link2);

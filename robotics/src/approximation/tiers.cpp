@@ -22,7 +22,7 @@ namespace hinge::robotics {
 
 namespace {
 
-constexpr std::array<std::pair<Tier, const char*>, 4> names = {
+constexpr std::array<std::pair<Tier, const char*>, 4> tier_names = {
     {{Tier::mesh, "mesh"}, {Tier::hull, "hull"}, {Tier::capsule, "capsule"}, {Tier::spheres, "spheres"}}};
 
 bool is_rounded(const Shape& shape) {
@@ -63,12 +63,12 @@ void check(const RobotDescription& robot, const Tiers& tiers) {
 }  // namespace
 
 Tier tier_named(std::string_view text) {
-  for (const auto& [tier, word] : names)
+  for (const auto& [tier, word] : tier_names)
     if (text == word) return tier;
   throw ModelError("tier '" + std::string(text) + "', expected mesh, hull, capsule or spheres");
 }
 
-const char* name(Tier tier) noexcept { return names[static_cast<std::size_t>(tier)].second; }
+const char* name(Tier tier) noexcept { return tier_names[static_cast<std::size_t>(tier)].second; }
 
 RobotDescription with_tiers(RobotDescription description, const Tiers& tiers) {
   check(description, tiers);
