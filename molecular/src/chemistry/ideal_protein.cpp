@@ -28,7 +28,7 @@ struct Internal {
 };
 
 // Rotamers without clashes with the backbone of helices and strands: chi1 is 180 for aromatic side chains and valine.
-constexpr std::array<Internal, 62> side_chains{{
+constexpr std::array<Internal, 62> side_chain_atoms{{
     {"ARG", "CG", "CB", "CA", "N", 1.520, 114.1, -65},
     {"ARG", "CD", "CG", "CB", "CA", 1.520, 111.3, 180},
     {"ARG", "NE", "CD", "CG", "CB", 1.461, 112.0, 180},
@@ -161,7 +161,7 @@ class Builder {
   }
 
   void add_side_chain(std::string_view name, bool hydroxyl) {
-    for (const Internal& atom : side_chains) {
+    for (const Internal& atom : side_chain_atoms) {
       const bool tyrosine_only = hydroxyl && std::string_view(atom.name) == "OH";
       if (atom.residue != name && !tyrosine_only) continue;
       add(atom.name, place(here_.at(atom.third), here_.at(atom.second), here_.at(atom.bonded), atom.length, atom.angle,

@@ -18,7 +18,7 @@ constexpr double weakest = -0.5;                  // kcal/mol; a bond needs a lo
 constexpr double strength = 0.42 * 0.20 * 332.0;  // two partial charges (e) times the Coulomb constant, kcal A/mol
 /// Largest distance from N to O (angstrom) at which the energy can be below `weakest`. H is 1 A from N and C at most
 /// 1.3 A from O, so E > -27.9 * (1/(r - 1) - 1/r + 1/(r - 1.3) - 1/r) > -0.5 for r >= 12 A.
-constexpr double farthest = 12.0;
+constexpr double largest_n_to_o = 12.0;
 /// Smaller distances (angstrom) are raised to this value, as in DSSP.
 constexpr double nearest = 0.5;
 
@@ -49,7 +49,7 @@ std::vector<HydrogenBond> find_hydrogen_bonds(const Structure& s) {
     const std::uint32_t c = first_is_c ? bond.first : bond.second, n = first_is_c ? bond.second : bond.first;
     before[s.atoms[n].residue] = carbonyl[s.atoms[c].residue];
   }
-  const CellGrid grid(x, oxygens, farthest);
+  const CellGrid grid(x, oxygens, largest_n_to_o);
   const auto inverse = [](const Vec3& a, const Vec3& b) { return 1.0 / std::max(norm(Vec3(a - b)), nearest); };
   std::vector<HydrogenBond> bonds;
   for (std::uint32_t r = 0; r < s.residues.size(); ++r) {

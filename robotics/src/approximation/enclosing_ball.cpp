@@ -20,10 +20,10 @@ double squared_distance(const Point& p, const Point& q) {
 }
 
 /// Relative tolerance. Without it, rounding puts the points that define the circle outside again and again.
-constexpr double slack = 1e-12;
+constexpr double circle_tolerance = 1e-12;
 
 bool holds(const Circle& c, const Point& p) {
-  return squared_distance({c.x, c.y}, p) <= c.radius * c.radius * (1 + slack);
+  return squared_distance({c.x, c.y}, p) <= c.radius * c.radius * (1 + circle_tolerance);
 }
 
 Circle around(const Point& p, const Point& q) {
@@ -37,7 +37,7 @@ Circle through(const Point& p, const Point& q, const Point& r) {
   const double x = (vy * uu - uy * vv) / (2 * twice_area), y = (ux * vv - vx * uu) / (2 * twice_area);
   const double radius = std::sqrt(x * x + y * y);
   // Nearly collinear points make the division meaningless.
-  if (std::abs(twice_area) > slack * (uu + vv)) return {p[0] + x, p[1] + y, radius};
+  if (std::abs(twice_area) > circle_tolerance * (uu + vv)) return {p[0] + x, p[1] + y, radius};
   return std::max({around(p, q), around(p, r), around(q, r)},
                   [](const Circle& a, const Circle& b) { return a.radius < b.radius; });
 }
