@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Neighbouring conformations sixteen at a time against one query each: 1MBN, yes/no, answers compared.
+// Yes/no queries on 1MBN: blocks of sixteen neighbouring conformations against single queries, answers compared.
 #include "batch.hpp"
 
 int main() { return hinge::bench::print_batches() == 0 ? 0 : 1; }

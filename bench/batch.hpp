@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Blocks of sixteen neighbouring conformations against one query each, forward kinematics included on both sides.
+// Blocks of sixteen neighbouring conformations against single queries; both times include forward kinematics.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +18,8 @@
 
 namespace hinge::bench {
 
-/// Blocks of sixteen: along straight paths between near-free conformations, 128 states each, or independent near-free
-/// conformations.
+/// Blocks of sixteen conformations: 128 states along straight paths between near-free conformations, or independent
+/// near-free conformations.
 inline std::vector<std::vector<double>> blocks_of(Scene& scene, bool along_paths, std::size_t count) {
   constexpr std::size_t size = 16, blocks_of_path = 8;
   const std::size_t dof = scene.dof_count();
@@ -39,7 +39,7 @@ inline std::vector<std::vector<double>> blocks_of(Scene& scene, bool along_paths
   return blocks;
 }
 
-/// Prints `batch any K single R` for one selection and both kinds of blocks; returns the number of wrong verdicts.
+/// Prints `batch any K single R` for one selection and both kinds of blocks. Returns the number of wrong verdicts.
 inline std::size_t print_batch(Scene& scene, const std::string& name) {
   constexpr std::size_t count = 40;
   constexpr int rounds = 7;
@@ -82,7 +82,7 @@ inline std::size_t print_batch(Scene& scene, const std::string& name) {
   return wrong;
 }
 
-/// 1MBN with 1, 10, 35 and all of its residues free; 1UBQ without the shared data.
+/// 1MBN with 1, 10, 35 and all residues free, or 1UBQ without the shared data. Returns the number of wrong verdicts.
 inline std::size_t print_batches() {
   const std::string shared = shared_molecule("paper/1mbn.pdb");
   const Protein protein = read_protein(shared.empty() ? ubiquitin() : shared, false);

@@ -19,14 +19,14 @@ namespace {
 using namespace hinge;
 using namespace hinge::bench;
 
-constexpr std::size_t large = 6000;  // atoms: brute force takes 10 ms there, and grows with the square
+constexpr std::size_t large = 6000;  // atoms; brute force takes 10 ms at this size and grows quadratically
 constexpr std::size_t engine_brute_share = 100;
 
 struct Count {
   long long answers = 0, differences = 0;
 };
 
-/// conformations: of each sampling. engine/brute is asked as well, at one conformation in a hundred.
+/// conformations: number per sampling. engine/brute is tested too, at one conformation in a hundred.
 Count check(Scene& scene, std::size_t conformations) {
   Contestant simd = engine<Simd>(scene, "simd", true), brute = engine<Brute>(scene, "brute", false);
   Reference reference(scene.input());
@@ -35,7 +35,7 @@ Count check(Scene& scene, std::size_t conformations) {
     std::vector<double> last;
     for (std::size_t k = 0; k < conformations; ++k) {
       std::vector<double> q = scene.configuration(sampling, k);
-      // Every other time half of the values stay, so that part of the model stands still in the update.
+      // Every second update keeps half of the values, so that part of the model does not move.
       if (k % 2 == 1) std::copy_n(last.begin(), q.size() / 2, q.begin());
       last = q;
       const Conformation c = scene.conformation(std::move(q));
@@ -65,7 +65,7 @@ int main(int argc, char** argv) {
     Scene scene(protein, setup.residues);
     const auto start = Clock::now();
     const auto wanted = static_cast<std::size_t>(arguments.number);
-    // A sample where each reference answer takes long.
+    // Uses fewer conformations if a reference answer takes long.
     const std::size_t conformations = scene.size() <= large ? wanted : std::max<std::size_t>(2, wanted / 200);
     const Count count = check(scene, conformations);
     total.answers += count.answers;

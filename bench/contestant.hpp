@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contestants: this project's engines and their peers behind one face, asked the same questions.
+// Contestants: the engines of this project and their peers with one interface, for the same queries.
 #pragma once
 
 #include <algorithm>
@@ -30,16 +30,16 @@ enum class Query : std::uint8_t { any, all, within, closest };
 inline constexpr Query all_queries[] = {Query::any, Query::all, Query::within, Query::closest};
 inline constexpr const char* query_names[] = {"any", "all", "within", "closest"};
 inline const char* name(Query q) { return query_names[static_cast<std::size_t>(q)]; }
-inline constexpr double margin = 1.0;  // angstrom: how near "within" looks, what native-contact lists ask for
+inline constexpr double margin = 1.0;  // angstrom: margin of "within" queries, usual for lists of native contacts
 
-/// What a contestant said, in whatever form it says it; canonical() after the clock has stopped.
+/// An answer in the form that the contestant returns. Call canonical() after the clock has stopped.
 struct Answer {
   bool collides = false;
   IndexPairs pairs;
   oracle::Pairs fcl_pairs;
   double gap = std::numeric_limits<double>::infinity();
 
-  /// All forms of a list become `pairs`, sorted.
+  /// Converts all lists to `pairs` and sorts them.
   void canonical() {
     for (const auto& [i, j] : fcl_pairs)
       pairs.emplace_back(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
@@ -48,20 +48,20 @@ struct Answer {
   }
 };
 
-/// tolerance: angstrom, of the gap; 0 for all who decide by the same formula in double.
+/// tolerance: of the gap, in angstrom; 0 for contestants that use the same formula in double.
 inline bool same(const Answer& a, const Answer& b, double tolerance = 0.0) {
   return a.collides == b.collides && a.pairs == b.pairs &&
          (a.gap == b.gap || std::abs(a.gap - b.gap) <= tolerance);  // infinite gaps are equal, their difference is NaN
 }
 
-/// prepare: hands over coordinates or poses, not timed. ask: own update and query, timed.
+/// prepare: passes coordinates or poses, not timed. ask: update and query, timed.
 struct Contestant {
   std::string name;
   std::function<void(const Conformation&)> prepare;
   std::function<void(Query, Answer&)> ask;
 };
 
-/// The pairs below a margin in the order they are found: nobody sorts while the clock runs.
+/// Collects pairs below a margin in the order found; sorting is not timed.
 class Pairs {
  public:
   static constexpr bool ranks = false;
@@ -95,7 +95,7 @@ void ask_hierarchy(H& hierarchy, Query query, Answer& answer) {
   }
 }
 
-/// A link of the rigid group whose pose is computed last: asking for its pose computes all.
+/// A link of the rigid group with the highest index. Computing its pose computes the poses of all groups.
 template <class H>
 LinkId last_link(const H& hierarchy) {
   const RigidGroups& groups = *hierarchy.model().groups();
@@ -106,7 +106,7 @@ LinkId last_link(const H& hierarchy) {
   return last;
 }
 
-/// Poses are ready before the clock; for engines that want coordinates (not `from_poses`) coordinates too.
+/// prepare() computes poses and, unless `from_poses`, coordinates, so both are outside the timed part.
 template <template <class, class, class> class EngineOf>
 Contestant engine(const Scene& scene, std::string name, bool from_poses) {
   const auto h = std::make_shared<Molecular<EngineOf>>(scene.make<EngineOf>());
@@ -138,7 +138,7 @@ Contestant peer(const Scene& scene, std::string name) {
           }};
 }
 
-/// No list within a margin; the closest pair only when nothing collides (its manager cannot rank penetrations).
+/// Has no `within` list. Finds the closest pair only if nothing collides: its manager cannot rank penetrations.
 inline Contestant fcl(const Scene& scene) {
   const auto input = scene.input();
   const auto manager = std::make_shared<oracle::FclSpheres>(scene.radii(), [input](std::size_t i, std::size_t j) {
@@ -161,7 +161,8 @@ inline Contestant fcl(const Scene& scene) {
           }};
 }
 
-/// FCL's two centres are added and subtracted in another order: agreement to rounding of coordinates of 1000 angstrom.
+/// FCL adds and subtracts the centres in another order. The tolerance covers rounding of coordinates of 1000
+/// angstrom.
 inline double gap_tolerance(const Contestant& c) { return c.name == "fcl" ? 1e-9 : 0.0; }
 
 inline bool answers(const Contestant& c, Query query, Sampling sampling) {
@@ -169,7 +170,7 @@ inline bool answers(const Contestant& c, Query query, Sampling sampling) {
   return query == Query::any || query == Query::all || (query == Query::closest && sampling == Sampling::near_free);
 }
 
-/// engine/simd first: the others are compared with it.
+/// engine/simd comes first: the others are compared with it.
 inline std::vector<Contestant> contestants(const Scene& scene) {
   return {engine<Simd>(scene, "simd", true),
           fcl(scene),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ensembles in files: reading, checking and filtering them, in seconds, frames per second and peak memory, beside plain
-// reading of their bytes. Every figure is of a process of its own, which reads the molecule, too. Arguments: number of
-// conformations (1000), residues (994), and a folder (the system's temporary one). Files are removed.
+// Ensembles in files: time, frames per second and peak memory to read, check and filter them, compared with reading
+// their bytes. Each measurement runs in its own process, which also reads the molecule. Arguments: number of
+// conformations (1000), residues (994), folder (the system's temporary one). The files are removed at the end.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -40,16 +40,16 @@ using namespace hinge::molecular;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t seed = 1;
-constexpr double sigma = 0.0005;  // rad; most conformations are free then
+constexpr double sigma = 0.0005;  // rad; most conformations are free at this value
 
-/// Side chains of ideal proteins clash here and there: those pairs do not count, so that conformations can be free.
+/// Side chains of ideal proteins clash in some places. These pairs are exempt, so that conformations can be free.
 CheckOptions rules() {
   CheckOptions options;
   options.exempt_reference = true;
   return options;
 }
 
-/// Helices of fourteen residues and bends of six, of the twenty amino acids in turn by chance.
+/// Random sequences of eighteen amino acids; helices of fourteen residues alternate with strands of six.
 std::shared_ptr<const Molecule> protein(std::size_t residues) {
   constexpr std::string_view letters = "ADEFGHIKLMNQRSTVWY";
   SampleStream stream(seed, 0);
@@ -87,7 +87,7 @@ void generate(const Files& files, std::size_t residues, std::size_t count) {
   if (!npy.flush() || !dcd.flush() || !xtc.flush()) throw std::runtime_error("the ensemble could not be written");
 }
 
-/// What a child tells its parent.
+/// The result that a child process sends to its parent.
 struct Told {
   double seconds = 0.0;
   std::uint64_t free = 0;
@@ -98,7 +98,7 @@ struct Measured {
   double peak_megabytes = 0.0;
 };
 
-/// Runs work() -> Told in a process of its own.
+/// Runs work(), which returns Told, in a child process.
 template <class Work>
 Measured measure(const Work& work) {
   int ends[2] = {};
@@ -148,7 +148,7 @@ Told read_frames(const std::filesystem::path& path, std::size_t residues) {
   return {since(start), sum > 0.0 ? 1U : 0U};
 }
 
-/// The seconds are those of opening the file and checking; `out`: where free frames go, or nothing.
+/// Times opening the file and checking all frames. Free frames are written to `out` unless it is empty.
 Told check_frames(const std::filesystem::path& path, std::size_t residues, unsigned threads,
                   const std::filesystem::path& out) {
   const auto molecule = protein(residues);
@@ -209,7 +209,7 @@ void run(const Files& files, std::size_t count, std::size_t residues) {
                   reading > 0.0 ? m.told.seconds / reading : 0.0, free.c_str());
       std::fflush(stdout);
     };
-    measure([&] { return read_bytes_of(path); });  // into the page cache
+    measure([&] { return read_bytes_of(path); });  // loads the file into the page cache
     row("read bytes", measure([&] { return read_bytes_of(path); }), "");
     row("read frames", measure([&] { return read_frames(path, residues); }), "");
     for (const unsigned threads : {1U, 2U}) {

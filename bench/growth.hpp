@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Growth: structures of any size (copies side by side, ideal helices), and what time and memory per atom they cost.
+// Growth: structures of any size (rows of copies, ideal helices), and their time and memory per atom.
 #pragma once
 
 #include <malloc.h>
@@ -22,7 +22,7 @@
 
 namespace hinge::bench {
 
-/// Copies in a row along x, too far apart to touch natively, chains renamed by a number: "A", "A2", "A3".
+/// Copies in a row along x, too far apart to touch natively. Chain names get a number: "A", "A2", "A3".
 inline molecular::Structure copies(const molecular::Structure& one, std::size_t count) {
   constexpr double gap = 10;  // angstrom between neighbours
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -69,13 +69,13 @@ inline Protein ideal_helix(std::size_t residues) {
   return make_protein(molecular::build_ideal_protein(std::string(residues, 'L'), std::string(residues, 'H')));
 }
 
-/// Bytes in use, as the allocator counts them.
+/// Allocated bytes, as counted by the allocator.
 inline double allocated() {
   const struct mallinfo2 info = mallinfo2();
   return static_cast<double>(info.uordblks + info.hblkhd);
 }
 
-/// Time of a yes/no query when nothing but the last ten residues of a helix moves: the static rest should not matter.
+/// Time of a yes/no query if only the last ten residues of a helix move; the static remainder should not matter.
 inline void run_tail(Results& results) {
   std::printf("\ntail: an ideal helix, its last ten residues free; yes/no, microseconds\n%8s %10s %10s %10s %10s\n",
               "atoms", "sampling", "simd", "lazy", "grid");
@@ -99,8 +99,8 @@ inline void run_tail(Results& results) {
   }
 }
 
-/// One residue in sixteen free, near-free: time per atom of yes/no and of all pairs, bytes per atom of the hierarchy
-/// (the molecule it shares not counted).
+/// One residue in sixteen free, near-free sampling: time per atom of yes/no and of all pairs, and bytes per atom of
+/// the hierarchy (without the shared molecule).
 inline void run_growth(Results& results, std::size_t most_atoms) {
   std::printf(
       "\ngrowth: one residue in 16 free, near-free; ns per atom, bytes per atom\n%-16s %8s %6s %10s %10s %10s %10s "
@@ -125,7 +125,7 @@ inline void run_growth(Results& results, std::size_t most_atoms) {
     const Conformation conformation = scene.conformation(Sampling::near_free, 0);
     const double before = allocated();
     std::vector<Contestant> all{engine<Simd>(scene, "simd", true)};
-    for (const Query query : all_queries) {  // scratch is made as it is needed
+    for (const Query query : all_queries) {  // scratch memory is allocated on first use
       Answer answer;
       all.front().prepare(conformation);
       all.front().ask(query, answer);

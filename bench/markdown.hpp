@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tables in Markdown, made of the rows the benchmarks wrote.
+// Markdown tables from rows that the benchmarks wrote.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +28,7 @@ inline std::string header(const Strings& cells) {
   return text.append("\n");
 }
 
-/// The rows of all files, by kind.
+/// The rows of all files, by program and kind.
 class Found {
  public:
   void read(const std::string& file) {
@@ -58,14 +58,14 @@ class Found {
   std::map<std::string, std::vector<Json>> rows_;
 };
 
-/// Structure, free residues, DOF and atoms: four cells.
+/// Structure, free residues, DOF and atoms, as four table cells.
 inline std::string setup_name(const Json& row) {
   const int free = row.at("free_residues").get<int>();
   return Found::text(row, "setup") + " | " + (free == 0 ? std::string("loops") : std::to_string(free)) + " | " +
          std::to_string(row.at("dof").get<int>()) + " | " + std::to_string(row.at("atoms").get<int>());
 }
 
-/// Rows as they are: texts and numbers by key.
+/// A table of unprocessed rows: the values of `keys` under `heads`.
 inline std::string plain(const std::vector<Json>& rows, const Strings& heads, const Strings& keys) {
   std::string out = header(heads);
   for (const Json& row : rows) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The price of a Monte Carlo move: 1MBN (153 residues) and 2D0F (637), all torsions free, D of them changed at a time.
+// The time of a Monte Carlo move: 1MBN (153 residues) and 2D0F (637), all torsions free, D of them changed per move.
 #include "moves.hpp"
 
 #include <cstdio>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Monte Carlo walks of collision-free moves from the native structure, every step priced for each contestant.
+// Monte Carlo walks of collision-free moves from the native structure; every step is timed for each contestant.
 #pragma once
 
 #include <algorithm>
@@ -23,28 +23,28 @@
 
 namespace hinge::bench {
 
-/// Everything included but, for the chain, forward kinematics: it is handed the frames.
-/// chain-skip: leaves compared one pair after the other, as published; chain16-skip: in lanes.
+/// Times include everything, except that the chains receive frames from forward kinematics.
+/// chain-skip tests leaves pair by pair, as published; chain16-skip tests them in SIMD lanes.
 enum Mover : std::size_t { mover_moves, mover_full, mover_moved_only, mover_chain_skip, mover_chain16_skip, movers };
 inline constexpr std::array<const char*, movers> mover_names = {"moves", "full", "moved-only", "chain-skip",
                                                                 "chain16-skip"};
 
 struct Walk {
   std::size_t steps = 0, accepted = 0, recalled = 0, full_queries = 0, differences = 0;
-  double blocks = 0.0;              ///< turned per step
+  double blocks = 0.0;              ///< moved per step
   std::array<double, movers> us{};  ///< per step
   std::array<double, movers> accepted_us{}, rejected_us{};
 
   double ratio(Mover m) const { return us[m] / us[mover_moves]; }
 };
 
-/// A step of the walk, as its contestants are given it.
+/// One step of the walk, as contestants receive it.
 struct Step {
   std::vector<DofChange> changes;
   bool is_free = false;
 };
 
-/// The price of a step for a chain: it places what moves, refits, searches, and takes back what collides.
+/// A step with a chain tree: place moved points, refit, search, and undo a move that collides.
 template <class Leaves>
 class ChainMover {
  public:
@@ -64,7 +64,7 @@ class ChainMover {
     for (const Point& p : frames_.placed()) xyz_.insert(xyz_.end(), {p.position[0], p.position[1], p.position[2]});
     tree_.update(xyz_);
   }
-  /// Frames and the bodies that move, for free. after: the configuration.
+  /// Computes frames and moving parts, not timed. after: the configuration after the step.
   void prepare(const Step& step, std::span<const double> after) {
     joints_.clear();
     for (const DofChange& change : step.changes) joints_.push_back(place_of_[change.dof]);
@@ -105,9 +105,9 @@ class ChainMover {
   std::span<const Frame> poses_;
 };
 
-/// Steps change `dofs` DOF by N(0, 3 degrees) each. A contestant goes through the walk three times in a row, as it
-/// would in practice: with its own data in the cache, and nobody else's. They take turns eight times, as the machine is
-/// now faster and now slower; the best time of each step counts.
+/// Each step changes `dofs` DOF by N(0, 3 degrees). A contestant does the walk three times in a row, as in practice:
+/// the cache holds its own data only. Contestants take turns eight times, because the speed of the machine varies;
+/// the best time of each step counts.
 inline Walk walk(Scene& scene, std::size_t dofs, std::size_t steps) {
   constexpr double sigma = 3.0 * std::numbers::pi / 180.0;
   auto full = scene.make<Simd>(), moved_only = full;
@@ -151,7 +151,7 @@ inline Walk walk(Scene& scene, std::size_t dofs, std::size_t steps) {
         mover_moves,
         [&] {
           moves.set(native);
-          moves.try_move(taken.front().changes);  // places all blocks, once for a walk of any length
+          moves.try_move(taken.front().changes);  // places all blocks, once per walk
           moves.reject();
         },
         nothing,
@@ -198,15 +198,15 @@ inline Walk walk(Scene& scene, std::size_t dofs, std::size_t steps) {
   return walk;
 }
 
-/// Prints `moves any Ddof PEER R`, R the peer's time per step over that of moves; returns the number of verdicts that
-/// differ.
+/// Prints `moves any Ddof PEER R`, where R is the peer's time per step over the time of `moves`. Returns the number
+/// of wrong verdicts.
 inline std::size_t print_walk(const Walk& walk, std::size_t dofs) {
   for (const Mover m : {mover_full, mover_moved_only, mover_chain_skip, mover_chain16_skip})
     std::printf("moves any %zudof %s %.1f\n", dofs, mover_names[m], walk.ratio(m));
   return walk.differences;
 }
 
-/// 1MBN with all torsions free, 1UBQ without the shared data.
+/// 1MBN with all torsions free, or 1UBQ without the shared data. Returns the number of wrong verdicts.
 inline std::size_t print_walks() {
   const std::string shared = shared_molecule("paper/1mbn.pdb");
   Scene scene(read_protein(shared.empty() ? ubiquitin() : shared, false), "all");

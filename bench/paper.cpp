@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The paper's set-ups in full, in microseconds: all samplings, queries and peers; rigid secondary structure; changing
-// the selection; warm and cold caches; one and two threads; growth.
+// The paper's set-ups in full, in microseconds: all samplings, queries and peers; rigid secondary structure; change
+// of the selection; warm and cold caches; one and two threads; growth.
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
@@ -46,7 +46,7 @@ void print_cell(const Setup& setup, const Scene& scene, Query query, Sampling sa
   std::fflush(stdout);
 }
 
-/// All samplings and queries of one scene; how many answers differ.
+/// Times all samplings and queries of one scene. Returns the number of answers that differ.
 int run_table(Results& results, const Setup& setup, Scene& scene, double seconds, Ratios* ratios) {
   std::vector<Contestant> all = contestants(scene);
   int differences = 0;
@@ -61,7 +61,7 @@ int run_table(Results& results, const Setup& setup, Scene& scene, double seconds
   return differences;
 }
 
-/// Microseconds to make a hierarchy for a selection, the molecule being there: the best of five.
+/// Time to make a hierarchy for a selection of an existing molecule, in microseconds; best of five.
 void run_selection_change(Results& results, const Setup& setup, const Scene& scene) {
   double simd = std::numeric_limits<double>::infinity(), lazy = simd;
   for (int k = 0; k < 5; ++k) {
@@ -76,7 +76,7 @@ void run_selection_change(Results& results, const Setup& setup, const Scene& sce
   results.add(std::move(row));
 }
 
-/// Writes over more than any cache of a core holds.
+/// Writes to more memory than all caches of a core hold.
 class Eviction {
  public:
   void run() {
@@ -88,7 +88,8 @@ class Eviction {
   std::vector<unsigned char> data_ = std::vector<unsigned char>(64 << 20);
 };
 
-/// Alone and warm, and with cold caches, near-free; the table has them interleaved.
+/// Times each contestant alone on near-free conformations, with warm and with cold caches. The table interleaves
+/// them.
 void run_caches(Results& results, const Setup& setup, Scene& scene) {
   constexpr std::uint64_t conformations = 20;
   Eviction eviction;
@@ -117,7 +118,7 @@ void run_caches(Results& results, const Setup& setup, Scene& scene) {
     }
 }
 
-/// Conformations per second of `threads` threads with a hierarchy each, yes/no from the torsions.
+/// Conformations per second of `threads` threads, each with its own hierarchy: yes/no queries from torsion angles.
 double throughput(Scene& scene, Sampling sampling, int threads) {
   constexpr double seconds = 1.0;
   std::vector<std::vector<double>> q;
@@ -131,7 +132,7 @@ double throughput(Scene& scene, Sampling sampling, int threads) {
       hierarchy.update(q[static_cast<std::size_t>(count) % q.size()]);
       colliding += hierarchy.self_collides() ? 1 : 0;
     }
-    total += colliding <= count ? count : 0;  // the answers count, so they are computed
+    total += colliding <= count ? count : 0;  // uses the answers, so that the compiler cannot remove the queries
   };
   std::vector<std::thread> running;
   for (int t = 0; t < threads; ++t) running.emplace_back(work);
@@ -169,7 +170,7 @@ int main(int argc, char** argv) {
   }
   ratios.print(results);
 
-  // One scene of each protein with secondary structure recorded: loops free, helices and strands rigid.
+  // One scene for each protein with a recorded secondary structure: loops free, helices and strands rigid.
   print_header("rigid secondary structure: only loops are free (free = 0)");
   for (std::size_t k = 0; k < setups.size(); ++k) {
     if (k > 0 && setups[k].name == setups[k - 1].name) continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Straight paths, proved free and looked at a tenth of a degree, one and five apart: times, what each misses, and
-// whether the query contradicts an answer; the set-ups of proteins.
+// Straight paths, certified and sampled at steps of 0.1, 1 and 5 degrees: times, missed collisions, and whether a
+// query contradicts an answer; and the set-ups of proteins.
 #pragma once
 
 #include <algorithm>
@@ -25,13 +25,13 @@
 namespace hinge::bench {
 
 inline constexpr double degree = std::numbers::pi / 180.0;
-inline constexpr int looked_at = 1000;  // states of every path that was called free
+inline constexpr int looked_at = 1000;  // states tested on every path that was called free
 
 struct Path {
   std::vector<double> from, to;
 };
 
-/// Time of this thread alone, microseconds: the machine is shared.
+/// CPU time of this thread in microseconds, because other programs share the machine.
 inline double thread_microseconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -45,9 +45,9 @@ inline constexpr std::array<double, path_methods> path_steps = {0.0, 0.1, 1.0, 5
 
 struct PathRow {
   int free = 0, colliding = 0, undecided = 0, wrong = 0;
-  std::array<double, path_methods> free_us{}, colliding_us{};  // sums
+  std::array<double, path_methods> free_us{}, colliding_us{};  // sums over paths
   std::array<int, path_methods> missed{};                      // colliding paths that were called free
-  double segments = 0.0, listed = 0.0;                         // of free paths
+  double segments = 0.0, listed = 0.0;                         // sums over free paths
 };
 
 template <class H>
@@ -58,7 +58,7 @@ bool collides_at(H& h, const Path& path, double t) {
   return h.self_collides();
 }
 
-/// All methods take turns on every path; the best of three counts.
+/// All methods take turns on every path; the best of three times counts.
 template <class H>
 PathRow measure_paths(const H& hierarchy, const std::vector<Path>& paths) {
   H h = hierarchy;
@@ -102,7 +102,7 @@ PathRow measure_paths(const H& hierarchy, const std::vector<Path>& paths) {
   return row;
 }
 
-/// The lines that say how much more time sampling takes.
+/// Prints sampling time over certification time, for free paths.
 inline void print_path_ratios(const std::string& set, const PathRow& row) {
   for (const PathMethod m : {sampled_tenth, sampled_one})
     if (row.free > 0)
@@ -126,14 +126,15 @@ inline void add_paths(Results& results, const std::string& set, std::size_t dof,
   results.add(std::move(json));
 }
 
-/// Paths of one set-up.
+/// The paths of one set-up.
 struct ProteinPaths {
   const char* name;
   std::string free;
   double amplitude;  // degrees
 };
 
-/// The set-ups of docs/explanation/certified_paths.md; without the shared data 1UBQ takes 1MBN's place, and it is said.
+/// The set-ups of docs/explanation/certified_paths.md. Without the shared data, 1UBQ replaces 1MBN and a line says
+/// so.
 inline std::pair<Protein, std::vector<ProteinPaths>> protein_paths() {
   std::string file = shared_molecule("paper/1mbn.pdb"), tail = "A:142-153";
   if (file.empty()) {
@@ -151,8 +152,8 @@ inline std::pair<Protein, std::vector<ProteinPaths>> protein_paths() {
            {"k153-1deg", "count:153", 1.0}}};
 }
 
-/// States of a walk from the native structure by free moves of one torsion each within +-amplitude, ten moves a torsion
-/// from one to the next; two states make a path.
+/// Paths between states of a random walk. The walk starts at the native structure; a move sets one torsion within
+/// +-amplitude (rad) and is kept if the state is free. There are ten moves per torsion between two states.
 template <class H>
 std::vector<Path> walk_paths(H& h, double amplitude, int count) {
   SampleStream random(seed, 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plots of the benchmarks as SVG: bars and dots over a logarithmic scale, a line for each decade.
+// SVG plots of the benchmarks: bars and dots on a logarithmic scale, with one line per decade.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace hinge::bench {
 
-/// As many decimals as make up the digits; large numbers whole.
+/// Text of x with `digits` significant digits; large numbers without decimals.
 inline std::string number(double x, int digits = 3) {
   char text[32];
   const int whole = x == 0.0 ? 1 : static_cast<int>(std::floor(std::log10(std::abs(x)))) + 1;

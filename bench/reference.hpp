@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The reference answers: every pair in double, all four modes from one pass, sharing no code with engines and peers.
+// Reference answers: every pair in double, all four modes in one pass, no code shared with engines or peers.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ class Reference {
         z_(input_->n),
         squared_(input_->n) {}
 
-  /// Answers in the order of all_queries; xyz in angstrom, 3 per atom.
+  /// Answers in the order of all_queries. xyz: coordinates in angstrom, 3 per atom.
   std::vector<Answer> ask(std::span<const double> xyz) {
     std::vector<Answer> answers(4);
     Answer &any = answers[0], &all = answers[1], &within = answers[2], &closest = answers[3];
@@ -45,7 +45,8 @@ class Reference {
       }
       for (std::size_t j = i + 1; j < n; ++j) {
         const double squared = squared_[j];
-        // Nothing to report beyond the margin, nor beyond the closest pair so far (1e-9 relative: a root is rounded).
+        // Skips pairs beyond both the margin and the closest pair so far; 1e-9 (relative) covers the rounding of a
+        // root.
         const double reach = largest_ + std::max(margin, closest.gap);
         if (squared > reach * reach * (1 + 1e-9)) continue;
         const auto a = static_cast<std::uint32_t>(i), b = static_cast<std::uint32_t>(j);
@@ -66,8 +67,8 @@ class Reference {
   std::vector<double> x_, y_, z_, squared_;
 };
 
-/// Differences from the reference over the four modes at one conformation, asked from mode number `first` on: what one
-/// mode leaves behind must not change the next one's answer.
+/// Number of modes whose answer differs from the reference at one conformation. Modes are asked in turn, starting
+/// with number `first`: one mode's cached data must not change the next answer.
 inline int count_differences(Contestant& contestant, const Conformation& conformation,
                              const std::vector<Answer>& expected, std::size_t first) {
   int differences = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes what the benchmarks found (their JSON files) into docs/explanation/benchmarks.md, between the page's markers
-// <!-- begin NAME --> and <!-- end NAME -->, and as plots into docs/images.
+// Writes benchmark results (JSON files) into docs/explanation/benchmarks.md, between the markers <!-- begin NAME -->
+// and <!-- end NAME -->, and as plots into docs/images.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -53,7 +53,7 @@ std::string ratios(const Found& found) {
   return out;
 }
 
-/// One table for each sampling and query the page shows; the program prints all.
+/// One table for each sampling and query that the page shows; the benchmark itself prints all of them.
 std::string times(const Found& found, bool loops) {
   const std::vector<std::pair<std::string, std::string>> shown =
       loops ? std::vector<std::pair<std::string, std::string>>{{"near-free", "any"}, {"random", "all"}}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Results: what a benchmark prints and writes: the machine, rows as JSON, geometric means.
+// Results that a benchmark prints and writes: the machine, rows as JSON, geometric means.
 #pragma once
 
 #include <cmath>
@@ -30,7 +30,7 @@ namespace hinge::bench {
 
 using Json = nlohmann::ordered_json;
 
-/// Everything a run of one program found, in the order it was found.
+/// All rows that one program measured, in order.
 class Results {
  public:
   explicit Results(const std::string& program) {
@@ -48,7 +48,7 @@ class Results {
     json_["rows"] = Json::array();
   }
   void add(Json row) { json_["rows"].push_back(std::move(row)); }
-  /// An empty name writes nothing. std::runtime_error: the file cannot be written.
+  /// Writes nothing if `file` is empty. Throws std::runtime_error if the file cannot be written.
   void write(const std::string& file) const {
     if (file.empty()) return;
     std::ofstream out(file);
@@ -71,7 +71,7 @@ inline Json describe(const Setup& setup, const Scene& scene) {
       {"setup", setup.name}, {"free_residues", setup.residues}, {"dof", scene.dof_count()}, {"atoms", scene.size()}};
 }
 
-/// Geometric mean of positive numbers collected one at a time.
+/// Geometric mean of positive numbers, added one at a time.
 class GeometricMean {
  public:
   void add(double x) {
@@ -86,13 +86,13 @@ class GeometricMean {
   int count_ = 0;
 };
 
-/// chain: ChainTree as published; chain16: with leaves of sixteen compared side by side, a design of this project's.
+/// chain: ChainTree as published. chain16: leaves of sixteen compared in SIMD lanes, a design of this project.
 inline constexpr const char* peer_names[] = {"fcl", "grid", "lazy", "chain", "chain16", "brute", "nanoflann", "gemmi"};
 
-/// Ratios of time to engine/simd's by query, sampling and peer, a value from each set-up.
+/// Ratios of peer time to engine/simd time, by query, sampling and peer; one value per set-up.
 class Ratios {
  public:
-  /// Of two chain trees, NAME-spheres and NAME-boxes, the better one counts, set-up by set-up.
+  /// For each set-up, only the better of the chain trees NAME-spheres and NAME-boxes counts.
   void add(Query query, Sampling sampling, const Cell& cell) {
     std::map<std::string, double> best;
     for (const Series& s : cell.series) {
@@ -138,12 +138,12 @@ inline void add_cell(Results& results, const Json& setup, Query query, Sampling 
   }
 }
 
-/// What programs take: an optional number, and --json FILE.
+/// Command-line arguments: an optional number, and --json FILE.
 struct Arguments {
   double number = 0.0;
   std::string json;
 
-  /// Ends the program on anything else.
+  /// Exits the program on other arguments.
   static Arguments parse(int argc, char** argv, double number, const char* meaning) {
     Arguments arguments{number, {}};
     for (int k = 1; k < argc; ++k) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Robots against FCL, as Debian ships it and compiled for this machine: self-collision, all pairs of links, minimum
-// distance, 1.26 million triangles around, building; five robots, poses given, warm and cold caches. Answers compared.
+// Five robots: Hinge against FCL, in Debian's build and compiled for this machine. Self-collision, all pairs of
+// links, minimum distance, a scene of 1.26 million triangles, and building; poses given, warm and cold caches,
+// answers compared.
 #include "results.hpp"
 #include "robots/run_robots.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Verdicts and distances of Hinge, of plain double decisions and of FCL against exact arithmetic, on families of pairs
-// made to be difficult; and what exact decisions cost on molecules and robots. Prints Markdown; --page puts it into
+// Decisions and distances of Hinge, of plain double arithmetic and of FCL against exact arithmetic, on families of
+// difficult pairs; and the cost of exact decisions on molecules and robots. Prints Markdown; --page writes it into
 // docs/explanation/robustness.md, between the page's markers.
 #include <cstddef>
 #include <cstdio>
@@ -80,7 +80,7 @@ int run(std::size_t cases, const std::string& file, const std::string& json) {
 
 }  // namespace
 
-/// Exit status 1: an answer of Hinge is wrong, or a file could not be written.
+/// Returns 1 if an answer of Hinge is wrong or a file cannot be written.
 int main(int argc, char** argv) {
   std::size_t cases = 20'000;
   std::string file, json;

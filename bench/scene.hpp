@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes: proteins with the rules all peers share, the paper's set-ups of free residues, and their conformations.
+// Scenes: proteins with the rules that all peers share, the paper's set-ups of free residues, and their
+// conformations.
 #pragma once
 
 #include <algorithm>
@@ -41,15 +42,15 @@ inline constexpr Sampling all_samplings[] = {Sampling::random, Sampling::five_de
 inline constexpr const char* sampling_names[] = {"random", "5deg", "near-free"};
 inline const char* name(Sampling s) { return sampling_names[static_cast<std::size_t>(s)]; }
 
-/// A structure and the rules of its pairs, the same for every selection of DOF.
+/// A structure and its pair rules, equal for every selection of DOF.
 struct Protein {
   std::shared_ptr<const molecular::Molecule> molecule;
   TypedThresholds thresholds;
   molecular::BondExclusions filter;
 };
 
-/// M(i, j) = r(i) + r(j), so that spheres of radius r (FCL's) say the same: 0.8 x Bondi, hydrogens 0.8 x 1.10 or, on N,
-/// O and S, 0.8 x 0.60 angstrom in place of a rule for hydrogen bonds.
+/// M(i, j) = r(i) + r(j), which spheres of radius r (FCL's) reproduce. r = 0.8 x Bondi radius; hydrogens 0.8 x 1.10
+/// angstrom or, on N, O and S, 0.8 x 0.60 angstrom, which replaces a rule for hydrogen bonds.
 inline TypedThresholds additive_thresholds(const molecular::Structure& structure) {
   constexpr double rho = 0.8, hydrogen = 1.10, polar_hydrogen = 0.60;
   molecular::ThresholdOptions options;
@@ -77,8 +78,8 @@ inline TypedThresholds additive_thresholds(const molecular::Structure& structure
   return {std::move(types), radius.size(), std::move(table)};
 }
 
-/// Pairs min_bonds apart or more count, without those closer than M + 0.05 angstrom in the native structure: they
-/// would collide whatever is sampled.
+/// Admits pairs at least min_bonds apart, except pairs closer than M + 0.05 angstrom in the native structure, which
+/// would collide in nearly every sample.
 inline molecular::BondExclusions exempt_native(const molecular::Molecule& molecule, const TypedThresholds& thresholds,
                                                int min_bonds) {
   constexpr double allowance = 0.05;
@@ -106,7 +107,7 @@ inline Protein read_protein(const std::string& file, bool hydrogens) {
   return make_protein(molecular::read_structure(file, options));
 }
 
-/// A file of the shared data, empty when it is not there.
+/// Path of a file of the shared data; empty if it does not exist.
 inline std::string shared_molecule(const std::string& name) {
   const auto path = std::filesystem::path(HINGE_SHARED_DATA) / "molecules" / name;
   return std::filesystem::exists(path) ? path.string() : std::string();
@@ -114,13 +115,13 @@ inline std::string shared_molecule(const std::string& name) {
 inline std::string ubiquitin() { return std::string(HINGE_SOURCE_DIR) + "/molecular/data/1ubq.pdb"; }
 
 struct Setup {
-  std::string name;  ///< as printed: "1mbn"
+  std::string name;  ///< name in the output: "1mbn"
   std::string file;
   bool hydrogens = false;
-  int residues = 0;  ///< free ones, at regular intervals
+  int residues = 0;  ///< number of free residues, at regular intervals
 };
 
-/// The 17 of docs/explanation/benchmarks.md; without the shared data 1UBQ takes their place, and it is said.
+/// The 17 set-ups of docs/explanation/benchmarks.md. Without the shared data, 1UBQ replaces them and a line says so.
 inline std::vector<Setup> paper_setups() {
   struct Source {
     const char *name, *file;
@@ -148,13 +149,13 @@ inline std::vector<Setup> paper_setups() {
   return setups;
 }
 
-/// What every peer is handed, outside the clock.
+/// One conformation as the input of every peer; not timed.
 struct Conformation {
   std::vector<double> q;    ///< rad, one per selected DOF
   std::vector<double> xyz;  ///< angstrom, 3 per atom
 };
 
-/// A protein with some DOF free: what peers are made from, and where conformations come from.
+/// A protein with some free DOF: makes peers and conformations.
 class Scene {
  public:
   Scene(Protein protein, DofSelection selection)
@@ -165,7 +166,7 @@ class Scene {
       if (source_.model().group_of(a) != GroupId{0}) moved_.push_back(i);
     }
   }
-  /// residues: free ones, at regular intervals, phi, psi, omega and all chi.
+  /// residues: number of free residues, at regular intervals, with phi, psi, omega and all chi.
   Scene(const Protein& protein, int residues) : Scene(protein, "count:" + std::to_string(residues)) {}
   Scene(const Protein& protein, const std::string& words)
       : Scene(protein, protein.molecule->select(molecular::select_torsions(*protein.molecule, words, true))) {}
@@ -180,9 +181,9 @@ class Scene {
   std::size_t size() const { return protein_.molecule->model().size(); }
   std::size_t dof_count() const { return selection_.size(); }
   const std::shared_ptr<const PeerInput>& input() const { return input_; }
-  /// angstrom
+  /// Radii r with M(i, j) = r(i) + r(j), angstrom.
   std::span<const double> radii() const { return radii_; }
-  /// Atoms outside the rigid group that stands still.
+  /// Atoms outside the static rigid group.
   std::span<const std::size_t> moved() const { return moved_; }
 
   std::vector<double> configuration(Sampling sampling, std::uint64_t k) {
@@ -195,15 +196,15 @@ class Scene {
     for (const Point& p : source_.placed()) c.xyz.insert(c.xyz.end(), {p.position[0], p.position[1], p.position[2]});
     return c;
   }
-  /// Gaussian about the native structure, rad: the largest sigma, to 2 %, at which at most a quarter of the
-  /// conformations collide. No sigma above 0.2 is looked at.
+  /// Sigma (rad) of Gaussian conformations about the native structure: the largest, to 2 %, at which at most a
+  /// quarter of the conformations collide. At most 0.2.
   double near_free_sigma() {
     if (!sigma_) sigma_ = find_sigma(0.25);
     return *sigma_;
   }
   /// The same for another share of colliding conformations.
   double find_sigma(double share) const {
-    const std::uint64_t samples = size() > 20'000 ? 20 : 100;  // large scenes take their time
+    const std::uint64_t samples = size() > 20'000 ? 20 : 100;  // large scenes take long
     const double allowed = share * static_cast<double>(samples);
     auto asked = make<Simd>();
     double low = 1e-8, high = 0.2;
@@ -229,7 +230,8 @@ class Scene {
     return {seed, near_free_sigma()};
   }
 
-  /// Pairs of constant distance in different groups: an atom on the axis between two groups is at rest in both.
+  /// Excludes pairs in different groups whose distance is constant: an atom on the axis between two groups is fixed
+  /// in both.
   std::shared_ptr<const PeerInput> make_input() const {
     PeerInput input;
     const auto& model = source_.model();
@@ -237,7 +239,7 @@ class Scene {
     input.n = size();
     input.type_count = protein_.thresholds.type_count();
     input.table.resize(input.type_count * input.type_count);
-    std::vector<std::vector<std::uint32_t>> fixed_too(model.groups()->size());  // beside the group's own atoms
+    std::vector<std::vector<std::uint32_t>> fixed_too(model.groups()->size());  // besides the group's own atoms
     for (std::size_t i = 0; i < input.n; ++i) {
       input.type.push_back(protein_.thresholds.type(atom(i)));
       input.group.push_back(static_cast<std::uint32_t>(index(model.group_of(atom(i)))));

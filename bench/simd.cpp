@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Why hinge::simd stands on <experimental/simd>: two inner loops with it and with Highway, in turns, at three levels.
+// The choice of <experimental/simd> for hinge::simd: two inner loops with it and with Highway, interleaved, at three
+// levels.
 #include <algorithm>
 #include <bit>
 #include <chrono>
@@ -23,12 +24,12 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t n = detail::simd::width;
 constexpr std::uint64_t seed = 1;
-/// Everything stays in the first-level cache: 96 blocks are 20 KiB, 48 rows are 18 KiB.
+/// All data fit into the first-level cache: 96 blocks are 20 KiB, 48 rows are 18 KiB.
 constexpr std::size_t block_count = 96, task_count = 480, row_count = 48, box_count = 10;
-/// A clock reading costs tens of nanoseconds; this many passes between two of them take some 20 us or more.
+/// Reading the clock takes tens of nanoseconds; this many passes between two readings take at least about 20 us.
 constexpr int passes = 20, repetitions = 400;
 
-/// Made so that about one lane in sixteen is near or touching, as in a sweep over a protein.
+/// Random data in which about one lane in sixteen is near or touching, as in the sweep over a protein.
 struct Input {
   std::vector<float> packed = std::vector<float>(block_count * 3 * n), squares = std::vector<float>(n * n);
   std::vector<std::uint8_t> classes = std::vector<std::uint8_t>(block_count * n);
@@ -83,7 +84,7 @@ struct Answers {
   }
 };
 
-/// Nanoseconds of one "one against sixteen": the least of all repetitions, the two libraries in turns.
+/// Nanoseconds of one "one against sixteen" test, the minimum over all repetitions. The two libraries take turns.
 template <class Pass>
 void measure(const char* level, const char* what, std::size_t calls, const Kernels (&libraries)[2], const Pass& pass) {
   double best[2] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
@@ -98,7 +99,7 @@ void measure(const char* level, const char* what, std::size_t calls, const Kerne
               libraries[1].target);
 }
 
-/// Returns whether both libraries answer as `expected`.
+/// Returns whether the answers of both libraries equal `expected`.
 template <detail::simd::InstructionSet Level>
 bool run(const Input& in, const Answers& expected) {
   const std::string level(detail::simd::name(Level));

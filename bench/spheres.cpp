@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sphere models: sixteen configurations at once against one at a time, kinematics included, on independent samples and
-// on short segments; nanoseconds of thread time per configuration, answers compared.
+// Sphere models: sixteen configurations at once against one at a time, kinematics included, on independent samples
+// and on short segments. Times are nanoseconds of thread time per configuration; answers are compared.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -31,10 +31,10 @@ using namespace hinge;
 using namespace hinge::robotics;
 
 constexpr std::uint64_t seed = 16;
-constexpr std::size_t blocks = 1000;  // 16 000 configurations: 0.9 MB, read once a pass
-constexpr int passes = 20;            // the best one counts
+constexpr std::size_t blocks = 1000;  // 16 000 configurations, 0.9 MB, read once per pass
+constexpr int passes = 20;            // the best pass counts
 
-/// Eight links of eight spheres when the shared data is absent.
+/// An arm with eight spheres per link, used if the shared data is absent.
 RobotDescription generated_arm() {
   RobotDescription arm{"generated", {}, {}};
   for (int l = 0; l < 8; ++l) {
@@ -87,7 +87,7 @@ Configurations independent(const Robot& robot, std::uint64_t stream_number) {
   return all;
 }
 
-/// Sixteen states along a segment, at most 0.3 rad (or m) in each joint.
+/// Blocks of sixteen states along a segment of at most 0.3 rad (or m) per joint.
 Configurations edges(const Robot& robot) {
   SampleStream stream(seed, 2);
   Configurations all;
@@ -106,7 +106,7 @@ Configurations edges(const Robot& robot) {
   return all;
 }
 
-/// Nanoseconds per configuration of the best of some passes over all blocks.
+/// Nanoseconds per configuration, in the best of `repetitions` passes over all blocks.
 template <class Ask>
 double time(std::size_t count, int repetitions, const Ask& ask) {
   double best = 1e300;
@@ -118,7 +118,7 @@ double time(std::size_t count, int repetitions, const Ask& ask) {
   return 1e9 * best / static_cast<double>(count * SphereBatch::size);
 }
 
-/// Returns wrong answers.
+/// Returns the number of wrong answers.
 int compare(const char* name, const Subject& robot, SphereBatch& batch, const Configurations& all) {
   constexpr std::size_t n = SphereBatch::size;
   const std::size_t dof = batch.dof_count();

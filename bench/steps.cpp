@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The steps of one query on 1UBQ, one at a time: forward kinematics, placing, each mode, changing the selection.
+// The steps of one query on 1UBQ, timed separately: forward kinematics, placement, each mode, change of the
+// selection.
 #include <benchmark/benchmark.h>
 
 #include <cstdint>
@@ -27,7 +28,8 @@ const Molecule& ubiquitin() {
   return molecule;
 }
 
-/// 0.2 degrees (sigma) about the native structure, where most conformations are free: the worst case of a yes/no query.
+/// Gaussian about the native structure, sigma 0.2 degrees. Most conformations are free, the worst case of a yes/no
+/// query.
 std::vector<std::vector<double>> conformations(std::size_t dof) {
   std::vector<std::vector<double>> all;
   for (std::uint64_t k = 0; k < 64; ++k) all.push_back(sample_configuration({1, 0.0035}, k, dof));
@@ -78,7 +80,7 @@ BENCHMARK(within)->Arg(1)->Arg(10)->Arg(76)->Unit(benchmark::kMicrosecond);
 BENCHMARK(closest)->Arg(1)->Arg(10)->Arg(76)->Unit(benchmark::kMicrosecond);
 BENCHMARK(change_selection)->Arg(1)->Arg(76)->Unit(benchmark::kMicrosecond);
 
-/// Growth: an ideal helix of this many residues, its last ten free.
+/// Growth: an ideal helix of n residues with the last ten free.
 void tail(benchmark::State& state) {
   const auto n = static_cast<std::size_t>(state.range(0));
   const Molecule m(build_ideal_protein(std::string(n, 'L'), std::string(n, 'H')));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Time ratios of every peer to engine/simd, geometric means over the paper's set-ups, in ten minutes on two slow cores;
-// then those of FCL on robots, in two more. Answers are checked first, and again while timing.
+// Time ratios of every peer to engine/simd: geometric means over the paper's set-ups, in ten minutes on two slow
+// cores. Then ratios of FCL on robots, in two more minutes. Answers are checked before and during timing.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -28,15 +28,16 @@ using namespace hinge::bench;
 
 constexpr int checked_conformations = 20;
 constexpr double robot_seconds = 3.0;  // for each query of each robot
-constexpr int paths_of_set = 60;       // half a minute for all sets
-constexpr std::size_t small = 1500;    // atoms, up to which engine/brute is asked too: 3 ms an answer
+constexpr int paths_of_set = 60;       // takes half a minute for all sets
+constexpr std::size_t small = 1500;    // atoms; engine/brute is checked up to this size, where an answer takes 3 ms
 
 struct Checked {
   int conformations = 0;
   int differences = 0;
 };
 
-/// engine/simd against the reference, the SIMD brute force and, for small scenes, engine/brute, samplings in turn.
+/// Compares engine/simd, the SIMD brute force and, for small scenes, engine/brute with the reference. Samplings
+/// alternate.
 Checked check(Scene& scene, std::vector<Contestant>& all) {
   Reference reference(scene.input());
   std::vector<Contestant> asked{
@@ -52,7 +53,8 @@ Checked check(Scene& scene, std::vector<Contestant>& all) {
   return checked;
 }
 
-/// Microseconds of each work, taking turns on every conformation; the mean of the best times.
+/// Microseconds of each of N tasks: the mean over conformations of the best time. Tasks take turns on every
+/// conformation.
 template <std::size_t N, class Work>
 std::array<double, N> take_turns(Scene& scene, Sampling sampling, int conformations, const Work& work) {
   std::vector<std::vector<double>> q;
@@ -68,7 +70,7 @@ std::array<double, N> take_turns(Scene& scene, Sampling sampling, int conformati
   return sums;
 }
 
-/// Everything included: yes/no from the torsions over forward kinematics and coordinates alone.
+/// Time of a yes/no query from torsion angles over the time of forward kinematics and coordinates alone.
 double floor_ratio(Scene& scene, Results& results, const Json& setup) {
   Molecular<Simd> asked = scene.make<Simd>(), placed = scene.make<Simd>();
   bool collides = false;
@@ -91,7 +93,7 @@ double floor_ratio(Scene& scene, Results& results, const Json& setup) {
   return us[0] / us[1];
 }
 
-/// Yes/no straight from random torsions, forward kinematics included on both sides (the faster one, for FCL too).
+/// Time of FCL over the time of engine/simd, yes/no from random torsions. Both include the same, faster kinematics.
 double torsions_ratio(Scene& scene, Results& results, const Json& setup, double fcl_us) {
   Molecular<Simd> asked = scene.make<Simd>(), placed = scene.make<Simd>();
   Contestant manager = fcl(scene);
@@ -161,7 +163,7 @@ int main(int argc, char** argv) {
       }
     torsions.add(torsions_ratio(scene, results, described, fcl_us));
     const double ratio = floor_ratio(scene, results, described);
-    // The set-up of most free residues of the paper's myoglobin (or of what takes its place).
+    // The largest set-up of the paper's myoglobin, or of 1UBQ, which replaces it without the shared data.
     if ((setup.name == "1mbn" || setup.name == "1ubq") && scene.dof_count() > floor_dof) {
       floor = ratio;
       floor_dof = scene.dof_count();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Timing: all contestants interleaved on the same conformations, with their answers compared.
+// Timing: all contestants interleaved on the same conformations, with a comparison of their answers.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ inline double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Microseconds of one call.
+/// Time of one call in microseconds.
 template <class Work>
 double microseconds(const Work& work) {
   const auto start = Clock::now();
@@ -31,34 +31,34 @@ double microseconds(const Work& work) {
   return 1e6 * seconds_since(start);
 }
 
-/// One pre-emption spoils a mean, so for each conformation the best of three counts.
+/// The best of three times counts per conformation, because a single pre-emption distorts a mean.
 inline constexpr int repetitions = 3;
 
-/// One contestant's times in one cell of the table (set-up, sampling, query).
+/// Times of one contestant in one cell of the table (set-up, sampling, query).
 struct Series {
   std::string name;
   double us = 0.0;       ///< mean of the best times
-  double simd_us = 0.0;  ///< the first contestant's mean over the same conformations
+  double simd_us = 0.0;  ///< mean of the first contestant over the same conformations
   int conformations = 0;
-  double spent = 0.0;  ///< seconds, preparing included
+  double spent = 0.0;  ///< seconds, including preparation
 
   double ratio() const { return us / simd_us; }
 };
 
 struct Cell {
-  std::vector<Series> series;  ///< the first contestant's first; those that do not answer are missing
+  std::vector<Series> series;  ///< the first contestant comes first; contestants without an answer are missing
   int conformations = 0;
-  int colliding = 0;    ///< of those conformations
-  int differences = 0;  ///< answers that are not the first contestant's
+  int colliding = 0;    ///< number of conformations that collide
+  int differences = 0;  ///< answers that differ from the first contestant's
 };
 
 struct Limits {
-  double seconds = 2.0;     ///< for the cell; shared evenly, so slow contestants see fewer conformations
-  int conformations = 100;  ///< at most
+  double seconds = 2.0;     ///< for the cell; divided evenly, so slow contestants get fewer conformations
+  int conformations = 100;  ///< upper limit
 };
 
-/// Contestants take turns on one conformation, conformations on one block, and blocks are gone through `repetitions`
-/// times, so that nobody is asked twice running and each repetition pays for its update at another configuration.
+/// Contestants take turns on each conformation of a block, and a block is repeated `repetitions` times. So no
+/// contestant is asked twice in a row, and each repetition includes the update from another configuration.
 class Measurement {
  public:
   Measurement(Scene& scene, std::vector<Contestant>& contestants, Query query, Sampling sampling)
@@ -72,7 +72,7 @@ class Measurement {
       if (answers(contestants_[c], query_, sampling_)) active.push_back(c);
     }
     const double share = limits.seconds / static_cast<double>(active.size());
-    int block = 2;  // two conformations tell what a contestant costs
+    int block = 2;  // two conformations show the cost of a contestant
     for (int first = 0; first < limits.conformations && active.size() > 1; first += block, block = 4) {
       run_block(first, first == 0 ? 2 : 4, active, cell);
       std::erase_if(active, [&](std::size_t c) { return c != 0 && cell.series[c].spent > share; });

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What speed buys in accuracy and back: cheaper ways of asking, with their errors against a reference beside their
-// times.
+// The trade between speed and accuracy: cheaper ways to query, their times, and their errors relative to a reference.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -29,7 +28,8 @@ using namespace hinge;
 using namespace hinge::bench;
 using molecular::Molecule;
 
-/// Turns from the reference by (residue, torsion name), so that molecules that differ in atoms can be moved alike.
+/// Torsion angles relative to the reference, by (residue, torsion name). Molecules with different atoms can be moved
+/// alike.
 using Turns = std::map<std::pair<std::uint32_t, std::string>, double>;
 
 Turns turns(const Molecule& molecule, const DofSelection& selection, const std::vector<double>& q) {
@@ -41,7 +41,7 @@ Turns turns(const Molecule& molecule, const DofSelection& selection, const std::
   return all;
 }
 
-/// The turns a selection can make; those it keeps rigid are left out.
+/// The values of a selection's torsions. Angles of other torsions are dropped; torsions without an angle are 0.
 std::vector<double> configuration(const Molecule& molecule, const DofSelection& selection, const Turns& turns) {
   std::vector<double> q;
   for (const DofId dof : selection.dofs()) {
@@ -55,7 +55,7 @@ std::vector<double> configuration(const Molecule& molecule, const DofSelection& 
 struct Outcome {
   bool collides = false;
   double gap = 0.0;
-  double any_us = 0.0, closest_us = 0.0;  // from the torsions, everything included
+  double any_us = 0.0, closest_us = 0.0;  // from torsion angles to the answer, everything included
 };
 
 struct Variant {
@@ -63,7 +63,7 @@ struct Variant {
   std::function<Outcome(const Turns&)> ask;
 };
 
-/// Best of the repetitions, the reference configuration in between so that nothing is kept.
+/// Best time of the repetitions. `away` moves to the reference in between, so that no earlier result can be reused.
 template <class Away, class Work>
 double best_time(const Away& away, const Work& work) {
   double best = std::numeric_limits<double>::infinity();
@@ -74,7 +74,7 @@ double best_time(const Away& away, const Work& work) {
   return best;
 }
 
-/// engine/simd, exact.
+/// engine/simd with exact decisions.
 Variant asked_exactly(std::string name, const Protein& protein, const DofSelection& selection) {
   const auto h =
       std::make_shared<Molecular<Simd>>(protein.molecule->model(), selection, protein.filter, protein.thresholds);
@@ -100,7 +100,7 @@ Variant asked_exactly(std::string name, const Protein& protein, const DofSelecti
 }
 
 struct Errors {
-  double false_accepts = 0.0, false_rejects = 0.0;  // of the conformations the reference finds colliding, free
+  double false_accepts = 0.0, false_rejects = 0.0;  // percent of the colliding, of the free conformations
   double mean_gap = 0.0, largest_gap = 0.0;         // angstrom
   double any_us = 0.0, closest_us = 0.0;
 };
@@ -124,7 +124,7 @@ Errors compare(const std::vector<Outcome>& reference, const std::vector<Outcome>
   return e;
 }
 
-/// The first variant is the reference. Gaussian conformations of `selection` such that half of them collide there.
+/// The first variant is the reference. Conformations are Gaussian, with the sigma at which half of them collide.
 void run(Results& results, const char* title, const Protein& protein, const DofSelection& selection,
          std::vector<Variant> variants, int conformations) {
   const double sigma = Scene(protein, selection).find_sigma(0.5);
@@ -156,7 +156,7 @@ void run(Results& results, const char* title, const Protein& protein, const DofS
   std::fflush(stdout);
 }
 
-/// The same file under a radii set's own rules.
+/// The same file with the radii and rules of a named set.
 Protein with_radii(const std::string& file, bool hydrogens, const char* set) {
   molecular::ReadOptions options;
   options.keep_hydrogens = hydrogens;
@@ -173,7 +173,7 @@ DofSelection select(const Protein& protein, const char* words) {
   return protein.molecule->select(molecular::select_torsions(*protein.molecule, words, true));
 }
 
-/// Of the paths that certification proves to collide, those that sampling calls free, beside what either takes.
+/// Times of certified and sampled paths, and the share of colliding paths that sampling calls free.
 void trade_paths(Results& results, int count) {
   std::printf("\nwhat sampling misses of straight paths, %d of each set-up\n%-12s %-16s %10s %10s %10s %9s %8s\n",
               count, "", "", "free us", "colliding", "us each", "missed", "of them");

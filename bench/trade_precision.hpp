@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// trade_precision: what deciding in float buys and costs, on either side, beside exact answers on the same
+// trade_precision: times and errors of decisions in float, to either side, relative to exact answers on the same
 // conformations.
 #pragma once
 
@@ -24,13 +24,13 @@ inline constexpr std::array precisions = {Precision::exact, Precision::never_mis
 inline constexpr std::array precision_names = {"exact", "float, never miss", "float, never cry wolf"};
 
 struct PrecisionTotals {
-  std::array<double, 3> us{};                          // any, all, within: means of the best, from the torsions
-  std::uint64_t accepts = 0, rejects = 0;              // conformations wrongly said to be free, to collide
-  std::uint64_t missed = 0, added = 0, undecided = 0;  // colliding pairs
-  double largest_error = 0.0;                          // angstrom, of a distance within the margin
+  std::array<double, 3> us{};                          // any, all, within: from torsion angles; mean of the best times
+  std::uint64_t accepts = 0, rejects = 0;              // conformations wrongly called free, wrongly called colliding
+  std::uint64_t missed = 0, added = 0, undecided = 0;  // numbers of colliding pairs
+  double largest_error = 0.0;                          // largest error of a distance within the margin, angstrom
 };
 
-/// Hits with their distances, in the order they are found: nobody sorts while the clock runs.
+/// Collects hits with their distances in the order found; sorting is not timed.
 class FoundHits {
  public:
   static constexpr bool ranks = false;
@@ -44,7 +44,8 @@ class FoundHits {
   std::vector<Hit>& out_;
 };
 
-/// Pairs of `hits` that `others` does not have; both sorted. `both` is given the distances of those that it has.
+/// Number of pairs of `hits` that are not in `others`; both lists are sorted. Calls `both` with the two distances of
+/// each common pair.
 template <class Both>
 std::uint64_t missing(const std::vector<Hit>& hits, const std::vector<Hit>& others, const Both& both) {
   std::uint64_t count = 0;
@@ -139,7 +140,7 @@ inline void trade_precision(Scene& scene, Sampling sampling, std::size_t count, 
   std::fflush(stdout);
 }
 
-/// All torsions of a protein, all samplings.
+/// All torsions of a protein, with all samplings.
 inline void trade_precision(const Protein& protein, const DofSelection& selection, std::size_t count,
                             Results& results) {
   std::printf("\n%zu conformations decided in float; microseconds from the torsions\n", count);

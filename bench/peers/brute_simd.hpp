@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// BruteSimd: every pair, sixteen at a time in float, hits decided in double.
+// BruteSimd: tests every pair, sixteen at a time in float, and decides candidates in double.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace hinge::bench {
 class BruteSearch {
  public:
   explicit BruteSearch(std::shared_ptr<const PeerInput> input) : rules_(std::move(input)) {
-    // Fixed points first: blocks of them are nobody's partners but the moving points'.
+    // Fixed points come first: their blocks are tested against moving points only.
     const PeerInput& in = rules_.input();
     points_.resize(in.n);
     std::size_t k = 0;
@@ -40,7 +40,7 @@ class BruteSearch {
   void update(std::span<const double> xyz) {
     xyz_ = xyz;
     if (points_.size == 0) return;
-    // Fixed points keep the origin they were rounded about.
+    // Fixed points keep the origin that they were rounded about.
     const std::size_t from = placed_ ? fixed_ : 0;
     if (fixed_ == 0 || !placed_)
       for (std::size_t a = 0; a < 3; ++a) origin_[a] = xyz[3 * std::size_t{points_.index(points_.size / 2)} + a];
@@ -55,7 +55,7 @@ class BruteSearch {
     extent_ = std::max(fixed_extent_, extent(fixed_, points_.size));
   }
 
-  /// No gap is larger than the diagonal of a cube twice the extent.
+  /// No gap exceeds the diagonal of a cube of edge 2 * extent_.
   double everything() const { return 4.0 * double{extent_} + 1.0; }
 
   template <class Answer>
@@ -81,7 +81,7 @@ class BruteSearch {
   }
 
  private:
-  /// Largest magnitude of a coordinate.
+  /// Largest magnitude of a coordinate of points first .. last - 1.
   float extent(std::size_t first, std::size_t last) const {
     float most = 0.0f;
     for (const auto* column : {&points_.x, &points_.y, &points_.z}) {

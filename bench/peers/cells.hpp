@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cells: points counted into boxes of about the cut-off, columns sorted by cell, so that cells next to each other along
-// x are one run.
+// Cells: points in a grid with cells of about the cutoff. Columns are sorted by cell, so that neighbouring cells
+// along x are one contiguous run.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace hinge::bench {
 
 class Cells {
  public:
-  /// Which points, by index.
+  /// Selects the points by their indices.
   void assign(const PeerInput& input, std::vector<std::uint32_t> members) {
     members_ = std::move(members);
     for (auto* columns : {&taken_, &points_}) columns->resize(members_.size());
@@ -29,7 +29,7 @@ class Cells {
     cell_of_.resize(members_.size());
   }
 
-  /// New coordinates; cells are void until prepare().
+  /// Stores new coordinates. Cells are invalid until prepare().
   void take(const double* xyz) {
     edge_ = 0.0f;
     if (members_.empty()) return;
@@ -51,7 +51,7 @@ class Cells {
     }
   }
 
-  /// Sorts the points into cells at least `cutoff` wide, unless they are.
+  /// Sorts the points into cells at least `cutoff` wide, unless the present cells are wide enough.
   void prepare(float cutoff) {
     if (cutoff <= edge_ && edge_ > 0.0f) return;
     choose_edges(cutoff);
@@ -71,7 +71,7 @@ class Cells {
     occupied_.resize(occupied);
     std::uint32_t sum = 0;
     for (std::uint32_t& c : start_) c = sum += c;
-    // start_[cell + 1] is where the next point of the cell goes, and in the end where the cell after it begins.
+    // start_[cell + 1] is the index for the next point of the cell; after the loop it is the start of the next cell.
     for (std::size_t k = 0; k < n; ++k) {
       const std::size_t to = start_[cell_of_[k] + 1]++;
       points_.x[to] = taken_.x[k];
@@ -84,11 +84,11 @@ class Cells {
 
   const Columns& points() const { return points_; }
   const std::vector<std::uint32_t>& occupied() const { return occupied_; }
-  /// Position of the first point of a cell; of the one after the last point of the cell before.
+  /// Index of the first point of a cell, which is the end of the previous cell.
   std::size_t begin_of(std::uint32_t cell) const { return start_[cell]; }
-  /// Largest coordinate of a point from the origin; 0 without points.
+  /// Largest edge of the bounding box of the points; 0 without points.
   double extent() const { return members_.empty() ? 0.0 : std::max({size_[0], size_[1], size_[2]}); }
-  /// What is added to coordinates here to have them in another's frame.
+  /// The offset that converts coordinates relative to this origin into coordinates relative to the origin of `other`.
   std::array<float, 3> shift_to(const Cells& other) const {
     std::array<float, 3> shift{};
     for (std::size_t a = 0; a < 3; ++a) shift[a] = static_cast<float>(origin_[a] - other.origin_[a]);
@@ -101,8 +101,8 @@ class Cells {
     return sum;
   }
 
-  /// run(first, last, begin, end): the members first .. last - 1 of a cell, and a run of points of this and later
-  /// cells. The own row comes first and begins with the cell itself.
+  /// Calls run(first, last, begin, end): points first .. last - 1 of the cell against points begin .. end - 1 of this
+  /// and later cells. The run in the cell's own row comes first and starts with the cell itself.
   template <class Run>
   void half_shell(std::uint32_t cell, const Run& run) const {
     const std::size_t row = cell / nx_, cx = cell % nx_;
@@ -115,7 +115,7 @@ class Cells {
     }
   }
 
-  /// run(begin, end) of the points here that may be closer than `cutoff` to the points first .. last - 1 of others.
+  /// Calls run(begin, end) for points here that may be closer than `cutoff` to points first .. last - 1 of `others`.
   template <class Run>
   void around(const Columns& others, std::size_t first, std::size_t last, const std::array<float, 3>& shift,
               float cutoff, const Run& run) const {
@@ -123,7 +123,7 @@ class Cells {
     const std::array<const float*, 3> column{others.x.data(), others.y.data(), others.z.data()};
     for (std::size_t a = 0; a < 3; ++a) {
       const auto [least, most] = std::minmax_element(column[a] + first, column[a] + last);
-      // A thousandth covers what shifting and subtracting round away of lengths within the box.
+      // 0.1 % covers the rounding of shifts and differences of lengths within the box.
       const float from = *least + shift[a] - 1.001f * cutoff, to = *most + shift[a] + 1.001f * cutoff;
       if (to < 0.0f || from > static_cast<float>(size_[a]) * 1.001f) return;
       const float inverse = a == 0 ? inverse_x_ : inverse_;
@@ -150,14 +150,14 @@ class Cells {
   void choose_edges(float cutoff) {
     double edge = edge_per_cutoff * cutoff, edge_x = edge_x_per_cutoff * cutoff;
     if (!(edge > 1e-3)) edge = edge_x = 1e-3;
-    // Open chains leave most cells empty: as many cells as pay, and not more.
+    // Open chains leave most cells empty, so the number of cells is limited.
     const double most = 8.0 * static_cast<double>(members_.size()) + 512.0;
     const auto along = [](double size, double e) { return std::floor(size / e * (1.0 + 1e-6)) + 1.0; };
     while (along(size_[0], edge_x) * (along(size_[1], edge) + 2.0) * (along(size_[2], edge) + 2.0) > most) {
       edge *= 1.2;
       edge_x *= 1.2;
     }
-    edge_ = static_cast<float>(0.98 * std::min(edge, edge_x));  // slots round, the more the farther out
+    edge_ = static_cast<float>(0.98 * std::min(edge, edge_x));  // slot() rounds, with larger errors far from the origin
     inverse_ = static_cast<float>(1.0 / edge);
     inverse_x_ = static_cast<float>(1.0 / edge_x);
     nx_ = slot(static_cast<float>(size_[0]), inverse_x_) + 1;
@@ -166,7 +166,7 @@ class Cells {
   }
 
   std::vector<std::uint32_t> members_;
-  Columns taken_, points_;  // in the order of members_, and sorted by cell
+  Columns taken_, points_;  // in the order of members_; sorted by cell
   std::array<double, 3> origin_{}, size_{};
   float edge_ = 0.0f, inverse_ = 0.0f, inverse_x_ = 0.0f;
   std::size_t nx_ = 1, ny_ = 1, nz_ = 1;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ChainTree: a balanced binary hierarchy over points in chain order, refitted for every configuration and traversed
-// against itself (Lotan, Schwarzer, Halperin, Latombe, "Algorithm and data structures for efficient energy maintenance
-// during Monte Carlo simulation of proteins", 2004). Leaves are compared sixteen points at a time or, as published, one
-// pair after the other.
+// against itself (Lotan, Schwarzer, Halperin, Latombe, "Algorithm and data structures for efficient energy
+// maintenance during Monte Carlo simulation of proteins", 2004). Leaves are tested sixteen points at a time, or pair
+// by pair as published.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@
 
 namespace hinge::bench {
 
-/// Sixteen points to a leaf, compared in lanes. Volume: SphereVolume or BoxVolume.
+/// Sixteen points per leaf, tested in SIMD lanes. Volume: SphereVolume or BoxVolume.
 template <class VolumeType>
 struct LaneLeaves {
   using Volume = VolumeType;
@@ -32,7 +32,7 @@ struct LaneLeaves {
   static constexpr std::size_t points_per_leaf_log2 = 4;
 };
 
-/// Eight points to a leaf (fastest of 4, 8, 16), compared one by one.
+/// Eight points per leaf (the fastest of 4, 8 and 16), tested pair by pair.
 template <class VolumeType>
 struct ScalarLeaves {
   using Volume = VolumeType;
@@ -74,11 +74,11 @@ class ChainSearch {
     extent_ = volumes_.back().extent();
   }
 
-  // --- Monte Carlo moves: only nodes above moved points are refitted, pairs of nodes that moved as one body are
-  // skipped, and a rejected move is taken back. update() first; no other search afterwards. ---
+  // --- Monte Carlo moves: refits only nodes above moved points and skips pairs of nodes that move together; a
+  // rejected move is undone. Call update() first, and no other search afterwards. ---
 
-  /// What the next move does: per point, the body it moves with, 0 for what stands still. Not timed: a chain knows it
-  /// from the places of its changed joints.
+  /// Announces the next move. `body`: for each point the index of its moving part, 0 if it stays fixed. Not timed,
+  /// because a chain knows the parts from the indices of the changed joints.
   void prepare_move(std::span<const std::uint32_t> body) {
     part_.resize(group_.size());
     for (std::size_t level = 0; level < levels_.size(); ++level) {
@@ -99,7 +99,7 @@ class ChainSearch {
       }
     }
   }
-  /// xyz: after the move.
+  /// xyz: coordinates after the move, angstrom.
   bool move_collides(std::span<const double> xyz) {
     xyz_ = xyz;
     saved_.clear();
@@ -113,7 +113,7 @@ class ChainSearch {
         refit(level, k);
       }
     if (volumes_.back().extent() > move_extent_) {
-      move_extent_ = extent_ = 1.5 * volumes_.back().extent();  // thresholds are set rarely
+      move_extent_ = extent_ = 1.5 * volumes_.back().extent();  // 1.5 makes new thresholds rare
       rules_.set_margin(0.0, extent_);
     }
     AnyPair answer;
@@ -150,16 +150,16 @@ class ChainSearch {
   static constexpr std::size_t leaf_size = std::size_t{1} << Leaves::points_per_leaf_log2;
   static constexpr std::uint32_t mixed = 0xffffffffu;
   struct Level {
-    std::size_t first, count;                  // of its nodes; leaves are level 0
-    std::vector<std::uint32_t> every, moving;  // places of its nodes; of those with a point that moves
-    std::vector<std::uint32_t> changed{};      // of those that the present move refits
+    std::size_t first, count;                  // index of its first node, number of its nodes; leaves are level 0
+    std::vector<std::uint32_t> every, moving;  // indices of all nodes; of nodes with a moving point
+    std::vector<std::uint32_t> changed{};      // indices of the nodes that the present move refits
   };
   struct Pair {
-    std::uint32_t a, b;  // places in one level
+    std::uint32_t a, b;  // node indices in one level
   };
 
   std::size_t node(std::size_t level, std::size_t k) const { return levels_[level].first + k; }
-  /// The group of all points below, or `mixed`.
+  /// The common group of all points below a node, or `mixed`.
   std::uint32_t common_group(std::size_t level, std::size_t k) const {
     if (level != 0) {
       const std::size_t left = node(level - 1, 2 * k), right = 2 * k + 1 < levels_[level - 1].count ? left + 1 : left;
@@ -189,7 +189,7 @@ class ChainSearch {
     volume.enclose(points_, begin, end);
   }
 
-  /// Pairs within a subtree, those nearest along the chain first; true when the answer wants no more.
+  /// Tests pairs within a subtree, close pairs along the chain first. Returns true when the answer needs no more.
   template <class Answer>
   bool self(std::size_t level, std::size_t k, Answer& answer) {
     if (group_[node(level, k)] != mixed || moves_as_one(node(level, k), node(level, k))) return false;
@@ -205,7 +205,7 @@ class ChainSearch {
     return tasks_.size() > flush_at && flush(answer);
   }
 
-  /// Pairs between two subtrees of a level: level by level down to the leaves, without a branch per pair.
+  /// Tests pairs between two subtrees of a level: descends level by level to the leaves, without a branch per pair.
   void cross(std::size_t level, std::size_t left, std::size_t right) {
     front_.assign(1, {static_cast<std::uint32_t>(left), static_cast<std::uint32_t>(right)});
     if (!near(level, left, right)) return;
@@ -217,7 +217,7 @@ class ChainSearch {
         for (const std::uint32_t a : {2 * p.a, 2 * p.a + 1})
           for (const std::uint32_t b : {2 * p.b, 2 * p.b + 1}) {
             next_[count] = {a, b};
-            count += b < below && near(level - 1, a, b);  // a is left of b
+            count += b < below && near(level - 1, a, b);  // b exists; a is left of b, so a exists too
           }
       next_.resize(count);
       std::swap(front_, next_);
@@ -245,7 +245,7 @@ class ChainSearch {
       return mask & ~first_lanes(static_cast<std::ptrdiff_t>(i + 1 - begin));
     });
   }
-  /// The points of one leaf that are near the volume of the other, from the side that has fewer.
+  /// Tests points of one leaf that are near the volume of the other leaf, from the leaf with fewer such points.
   void test_leaves(std::size_t a, std::size_t b) {
     const float cutoff = rules_.cutoff();
     if constexpr (!Leaves::lanes) {
@@ -290,15 +290,15 @@ class ChainSearch {
     return stop;
   }
 
-  static constexpr std::size_t flush_at = 48;  // candidates are looked at this many tasks at a time
+  static constexpr std::size_t flush_at = 48;  // the number of tasks after which candidates are decided
 
   PairRules rules_;
   Columns points_;
   std::vector<Level> levels_;
   std::vector<std::uint32_t> group_;  // per node
   std::vector<Volume> volumes_;       // per node
-  std::vector<std::uint32_t> part_;   // per node: the body it moves with in the present move, or `mixed`; empty: none
-  std::vector<Volume> saved_;         // of the nodes that the present move refitted
+  std::vector<std::uint32_t> part_;   // per node: its moving part in the present move, or `mixed`; empty without a move
+  std::vector<Volume> saved_;         // volumes of the refitted nodes before the present move
   std::vector<std::array<float, 3>> saved_points_;
   double move_extent_ = 0.0;
   bool has_fixed_ = false, placed_ = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What ChainTree's nodes are bounded by: boxes, or spheres about the middle of such a box.
+// Bounding volumes for the nodes of ChainTree: boxes, or spheres centred in a box.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace hinge::bench {
 
-/// Four floats of one 128-bit register; the last is not used.
+/// Four floats in one 128-bit register; the last one is not used.
 using Quad = float __attribute__((vector_size(16)));
 
 inline Quad larger(Quad a, Quad b) { return a > b ? a : b; }
@@ -22,7 +22,7 @@ struct BoxVolume {
   void enclose(const Columns& p, std::size_t begin, std::size_t end) {
     const auto span = [&](const std::vector<float>& column, int axis) {
       Lanes low = Lanes::load(&column[begin]), high = low;
-      if (end - begin < lane_count) {  // the padding is far away
+      if (end - begin < lane_count) {  // repeats the last point, because the padding is far away
         float c[lane_count];
         for (std::size_t k = 0; k < lane_count; ++k) c[k] = column[std::min(begin + k, end - 1)];
         low = high = Lanes::load(c);
@@ -52,7 +52,7 @@ struct BoxVolume {
     gap *= gap;
     return gap[0] + gap[1] + gap[2] <= cutoff * cutoff;
   }
-  /// Which of sixteen points are.
+  /// The bits of sixteen points that are closer than `cutoff` to the box.
   std::uint32_t near(const Columns& p, std::size_t block, float cutoff) const {
     const auto gap = [&](const std::vector<float>& column, int axis) {
       const Lanes c = Lanes::load(&column[block]);
@@ -72,7 +72,7 @@ struct BoxVolume {
   Quad low_{}, high_{};
 };
 
-/// Radii are of the points below, not of the spheres below: tighter, and still a sixteenth of a point per level.
+/// Radii bound the points of a node, not its child spheres. This is tighter and costs one step per sixteen points.
 struct SphereVolume {
   void enclose(const Columns& p, std::size_t begin, std::size_t end) {
     box_.enclose(p, begin, end);
@@ -117,7 +117,7 @@ struct SphereVolume {
       squared(p, k).store(s);
       rest = *std::max_element(s, s + (end - k));
     }
-    // Grown by the rounding of the squares and sums of some ten operations.
+    // Inflated for the rounding of about ten operations in squares and sums.
     radius_ = std::sqrt(std::max(most.highest(), rest)) * 1.000002f;
   }
 

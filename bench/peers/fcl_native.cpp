@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FCL compiled for the machine at hand. Its headers declare their templates `extern`, to be taken from the library.
-// Here that word goes, so that they are compiled in this file, and the namespaces of FCL and Eigen, whose types depend
-// on flags, get names of their own, so that nothing of this file is taken for the library's, or the library's for it.
+// FCL compiled for this machine. FCL's headers declare their templates `extern`, so that they come from the library.
+// This file removes that keyword and compiles them. It also renames the namespaces of FCL and Eigen, whose types
+// depend on compiler flags, so that the linker never mixes symbols of this file and of the library.
 #include <octomap/octomap.h>
 #include <algorithm>
 #include <array>
@@ -55,7 +55,7 @@
 #undef extern
 // NOLINTEND(bugprone-macro-parentheses)
 
-// Functions that are no templates are in the library only.
+// The library alone defines functions that are not templates, so they are repeated here.
 namespace fcl {
 
 bool BVNodeBase::isLeaf() const { return first_child < 0; }
@@ -70,7 +70,7 @@ void Triangle::set(std::size_t p1, std::size_t p2, std::size_t p3) {
 }
 std::size_t Triangle::operator[](int i) const { return vids[i]; }
 
-// Queries of meshes without fronts need no more of these than this.
+// Mesh queries without front lists never call these functions.
 namespace detail {
 void updateFrontList(BVHFrontList* fronts, int, int) {
   if (fronts != nullptr) std::abort();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// GemmiNeighbors: models of moving and of fixed points, their positions changed in place, marks populated anew.
+// GemmiNeighbors: one model of the moving and one of the fixed points; positions change in place, marks are
+// repopulated.
 #include "gemmi_neighbors.hpp"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ namespace hinge::bench {
 
 namespace {
 
-/// Points that gemmi searches: atoms of a single residue, so that an atom's number is the point's.
+/// Points for gemmi to search: atoms of one residue, so that the index of an atom is the index of its point.
 class Marked {
  public:
   void assign(std::vector<std::uint32_t> members) {
@@ -51,11 +52,11 @@ class Marked {
   /// Marks every atom, in cells at least `radius` wide.
   void populate(double radius) {
     const double volume = (size_[0] + 3 * radius) * (size_[1] + 3 * radius) * (size_[2] + 3 * radius);
-    // Open chains leave most cells empty, and each is a vector: wider ones then.
+    // Open chains leave most cells empty, and each cell is a vector: limits the number of cells.
     radius = std::max(radius, std::cbrt(volume / (4.0 * static_cast<double>(members_.size()) + 1000.0)));
     if (fresh_ && radius <= search_.radius_specified) return;
     if (fits(radius))
-      for (auto& marks : search_.grid.data) marks.clear();  // keeps their memory
+      for (auto& marks : search_.grid.data) marks.clear();  // keeps the allocated memory
     else
       search_ = gemmi::NeighborSearch(model_, gemmi::UnitCell(), radius);
     search_.populate();
@@ -75,8 +76,8 @@ class Marked {
   double extent() const { return std::max({size_[0], size_[1], size_[2]}); }
 
  private:
-  /// The cell repeats in space: the last one does when it holds the points and a gap of the radius, and is not much
-  /// larger than a new one would be.
+  /// The grid repeats periodically. The last grid can be reused if its cell holds the points plus a gap of the radius
+  /// and is not much larger than a new cell.
   bool fits(double radius) const {
     const auto& cell = search_.grid.unit_cell;
     if (search_.model == nullptr || radius > search_.radius_specified || search_.radius_specified > 1.5 * radius)
@@ -114,7 +115,7 @@ struct GemmiNeighbors::Impl {
   void search(Answer& answer) {
     for (Marked* partners : {&moving, &fixed}) {
       if (partners->members().empty() || moving.members().empty()) continue;
-      // Marks are floats: eight roundings of a coordinate in the cell, whose edge is at most this.
+      // Marks are floats: allow for eight roundings of a coordinate in the cell, whose edge has this upper bound.
       const double highest_radius = std::max(highest + answer.margin, 0.0);
       const double band = 8.0 * 0x1p-24 * (partners->extent() + 5.0 * (highest_radius + partners->extent())) + 1e-9;
       partners->populate(highest_radius + band);
@@ -135,7 +136,7 @@ struct GemmiNeighbors::Impl {
   }
 
   std::shared_ptr<const PeerInput> input;
-  std::vector<double> reach;  // largest M of a type
+  std::vector<double> reach;  // largest threshold M of a type
   double highest = 0.0;
   Marked moving, fixed;
   bool fixed_taken = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// GemmiNeighbors: gemmi's NeighborSearch over a model built once and moved. gemmi's headers stay in the .cpp.
+// GemmiNeighbors: gemmi's NeighborSearch on a model that is built once and then moved. Only the .cpp includes gemmi.
 #pragma once
 
 #include <memory>

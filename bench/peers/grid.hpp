@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grid: a SIMD cell grid rebuilt for every configuration; points that never move have a grid of their own, built once.
+// Grid: a SIMD cell grid, rebuilt for every configuration. Points that never move have a second grid, built once.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ class GridSearch {
     const PeerInput& in = rules_.input();
     std::vector<std::uint32_t> fixed, moving;
     for (std::uint32_t i = 0; i < in.n; ++i) (in.group[i] == 0 ? fixed : moving).push_back(i);
-    // Few fixed points are cheaper among the moving ones; pairs of one group never pass.
+    // It is cheaper to treat few fixed points as moving ones. Pairs of one group are never admitted.
     if (fixed.size() < moving.size()) {
       moving.resize(in.n);
       for (std::uint32_t i = 0; i < in.n; ++i) moving[i] = i;
@@ -34,7 +34,7 @@ class GridSearch {
     moving_.assign(in, std::move(moving));
   }
 
-  /// Cells are sorted by the first query, for its cut-off.
+  /// The first query sorts the points into cells for its cutoff.
   void update(std::span<const double> xyz) {
     xyz_ = xyz;
     moving_.take(xyz.data());
@@ -66,7 +66,7 @@ class GridSearch {
   }
 
  private:
-  static constexpr std::size_t flush_at = 192;  // candidates are looked at this many tasks at a time
+  static constexpr std::size_t flush_at = 192;  // the number of tasks after which candidates are decided
 
   void set_margin(double margin) { rules_.set_margin(margin, moving_.extent() + fixed_.extent()); }
 
@@ -79,7 +79,8 @@ class GridSearch {
     return stop;
   }
 
-  /// Moving points first .. last - 1 against begin .. end - 1, the own cell at the beginning of its run included.
+  /// Moving points first .. last - 1 against points begin .. end - 1. The run starts with the cell of the moving
+  /// points.
   void test(std::size_t first, std::size_t last, std::size_t begin, std::size_t end) {
     const Columns& p = moving_.points();
     for (std::size_t block = begin; block < end; block += lane_count) {
@@ -99,7 +100,7 @@ class GridSearch {
     }
   }
 
-  /// The moving points of a cell against the fixed ones around them.
+  /// The moving points of a cell against the fixed points around them.
   void near_fixed(std::uint32_t cell) {
     const Columns &p = moving_.points(), &q = fixed_.points();
     const std::size_t first = moving_.begin_of(cell), last = moving_.begin_of(cell + 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sixteen float lanes: the few operations the peers' inner loops are made of. One 512-bit register, two of 256 bits, or
-// a plain loop.
+// Sixteen float lanes with the few operations that inner loops of the peers need: one 512-bit register, two 256-bit
+// registers, or a plain loop.
 #pragma once
 
 #include <algorithm>
@@ -18,11 +18,11 @@ inline constexpr std::size_t lane_count = 16;
 
 #if defined(__AVX512F__)
 
-// The forms with a zeroing mask, all lanes selected: the same instructions, without g++ 12's warnings about the operand
-// its plain forms leave undefined.
+// Intrinsics with a zeroing mask of all lanes generate the same instructions as the plain ones, but g++ 12 warns
+// about an undefined operand of the plain ones.
 inline constexpr __mmask16 every_lane = 0xffff;
 
-/// Sixteen lookups in a table of sixteen floats: only the low four bits of a tag select.
+/// Sixteen indices into a table of sixteen floats; only the low four bits of a tag are used.
 struct Tags {
   __m512i v;
   static Tags load(const std::uint32_t* p) { return {_mm512_loadu_si512(p)}; }
@@ -38,7 +38,7 @@ struct Lanes {
   void store(float* p) const { _mm512_storeu_ps(p, v); }
   friend Lanes operator-(Lanes a, Lanes b) { return {_mm512_sub_ps(a.v, b.v)}; }
   friend Lanes operator*(Lanes a, Lanes b) { return {_mm512_mul_ps(a.v, b.v)}; }
-  /// a * b + c, contracted or not.
+  /// a * b + c, with one or two roundings.
   friend Lanes multiply_add(Lanes a, Lanes b, Lanes c) { return {_mm512_fmadd_ps(a.v, b.v, c.v)}; }
   friend Lanes larger(Lanes a, Lanes b) { return {_mm512_maskz_max_ps(every_lane, a.v, b.v)}; }
   friend Lanes smaller(Lanes a, Lanes b) { return {_mm512_maskz_min_ps(every_lane, a.v, b.v)}; }
@@ -173,13 +173,13 @@ struct Lanes {
 
 #endif
 
-/// Squared distance of one point to sixteen.
+/// Squared distances of one point to sixteen points.
 inline Lanes squared_distance(Lanes x, Lanes y, Lanes z, float px, float py, float pz) {
   const Lanes dx = x - Lanes::all(px), dy = y - Lanes::all(py), dz = z - Lanes::all(pz);
   return multiply_add(dx, dx, multiply_add(dy, dy, dz * dz));
 }
 
-/// Lanes 0 .. count - 1, count clipped to 0 .. 16.
+/// A mask of lanes 0 .. count - 1, with count clamped to 0 .. 16.
 inline std::uint32_t first_lanes(std::ptrdiff_t count) {
   return count >= 16 ? 0xffffu : count <= 0 ? 0u : (1u << count) - 1u;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nanoflann: a k-d tree of the moving points rebuilt for every configuration, one of the others built once; radius
-// search from every moving point.
+// Nanoflann: a k-d tree of the moving points, rebuilt for every configuration, and one of the fixed points, built
+// once; a radius search from every moving point.
 #pragma once
 
 #include <algorithm>
@@ -46,7 +46,7 @@ class Nanoflann {
     PairsWithin answer{out, margin};
     search(answer);
   }
-  /// The radius shrinks with the best pair; without one below the first guess, everything is searched.
+  /// The radius shrinks with the best pair. If no pair is below the first guess, searches without a limit.
   double closest() {
     for (const double margin : {first_guess(last_), std::numeric_limits<double>::infinity()}) {
       ClosestPair answer{margin};
@@ -58,7 +58,7 @@ class Nanoflann {
   }
 
  private:
-  /// nanoflann's view of points: a copy in the order of `members`.
+  /// nanoflann's view of points: copied coordinates in the order of `members`.
   struct Cloud {
     std::vector<std::uint32_t> members;
     std::vector<double> xyz;
@@ -77,7 +77,7 @@ class Nanoflann {
       xyz.resize(3 * members.size());
       for (std::size_t k = 0; k < members.size(); ++k)
         for (std::size_t a = 0; a < 3; ++a) xyz[3 * k + a] = all[3 * std::size_t{members[k]} + a];
-      constexpr std::size_t points_per_leaf = 32;  // fastest of 6 to 64 at 1 200 points, build and search together
+      constexpr std::size_t points_per_leaf = 32;  // fastest of 6 to 64 at 1200 points, for build plus search
       if (!tree)
         tree = std::make_unique<Tree>(
             3, *this,
@@ -87,7 +87,7 @@ class Nanoflann {
     }
   };
 
-  /// What nanoflann calls a result set: takes points within the square root of worstDist().
+  /// nanoflann's "result set": accepts points whose squared distance is below worstDist().
   template <class Answer>
   struct Visitor {
     const PeerInput& input;
@@ -95,10 +95,10 @@ class Nanoflann {
     double reach;
     Answer& answer;
     std::uint32_t self;
-    std::uint32_t after;  // moving partners are looked at from one side only
+    std::uint32_t after;  // a pair of moving points is tested from one side only
     bool stopped = false;
 
-    /// Squared, with room for the rounding of nanoflann's bounds and of gaps.
+    /// Squared radius, with room for the rounding of nanoflann's bounds and of gaps.
     double worstDist() const {
       const double radius = std::max(reach + answer.margin + 1e-9, 0.0);
       return radius * radius * (1.0 + 1e-9);
@@ -129,7 +129,7 @@ class Nanoflann {
   }
 
   std::shared_ptr<const PeerInput> input_;
-  std::vector<double> reach_;  // largest M of a type
+  std::vector<double> reach_;  // largest threshold M of a type
   Index moving_, fixed_;
   std::span<const double> xyz_;
   double last_ = 0.0;

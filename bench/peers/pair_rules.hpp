@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the SIMD peers share: points in columns, squared thresholds in float with an error band, exclusions looked up
-// for hits only, the decision in double, and the three kinds of answer.
+// Code shared by the SIMD peers: coordinates in columns, squared float thresholds with an error band, exclusion tests
+// for candidates only, decisions in double, and three kinds of answer.
 #pragma once
 
 #include <algorithm>
@@ -20,15 +20,15 @@
 
 namespace hinge::bench {
 
-/// dx * dx + dy * dy + dz * dz from left to right: the number that decides.
+/// dx * dx + dy * dy + dz * dz, summed from left to right: the value that decides.
 inline double squared_distance(const double* xyz, std::uint32_t i, std::uint32_t j) {
   const double *a = xyz + 3 * std::size_t{i}, *b = xyz + 3 * std::size_t{j};
   const double dx = a[0] - b[0], dy = a[1] - b[1], dz = a[2] - b[2];
   return dx * dx + dy * dy + dz * dz;
 }
 
-// --- Answers: add() is called for admitted pairs of any distance and says whether to stop;
-// pairs with d - M of `margin` or more need not be offered. ---
+// --- Answers: add() takes an admitted pair at any distance and returns whether to stop.
+// Pairs with d - M >= margin may be skipped. ---
 
 struct AnyPair {
   static constexpr double margin = 0.0;
@@ -48,7 +48,7 @@ struct PairsWithin {
   }
 };
 
-/// Looks for gaps below `margin` only, which shrinks to the best one found.
+/// Accepts only gaps below `margin`, which shrinks to the smallest gap found.
 struct ClosestPair {
   double margin;
   bool found = false;
@@ -62,13 +62,13 @@ struct ClosestPair {
   }
 };
 
-/// Is the pair worth looking up? Cheaper than its exclusions; 1e-9 angstrom is more than gaps are rounded by.
+/// A test that is cheaper than an exclusion look-up and comes first. 1e-9 angstrom exceeds the rounding of a gap.
 inline bool worth_looking_up(double squared, double threshold, double margin) {
   const double limit = threshold + margin + 1e-9;
   return limit > 0.0 && squared < limit * limit;
 }
 
-/// Points as columns, padded so that sixteen can be read from every position.
+/// Coordinates in columns, padded so that sixteen values can be read at every index.
 struct Columns {
   std::vector<float> x, y, z;
   std::vector<std::uint32_t> tag;    // index << 4 | type
@@ -77,15 +77,15 @@ struct Columns {
 
   void resize(std::size_t n) {
     size = n;
-    for (auto* column : {&x, &y, &z}) column->resize(n + lane_count, 1e15f);  // far away, its square still finite
+    for (auto* column : {&x, &y, &z}) column->resize(n + lane_count, 1e15f);  // far away, but with a finite square
     for (auto* column : {&tag, &group}) column->resize(n + lane_count, 0u);
   }
   std::uint32_t index(std::size_t k) const { return tag[k] >> 4; }
   std::uint32_t type(std::size_t k) const { return tag[k] & 15u; }
 };
 
-/// The point at `first` of one set of columns against the sixteen from `block` on of another; bits of candidates. One
-/// word, because inner loops notice a second store.
+/// The point at index `first` of one set of columns against the sixteen from index `block` on of another, with a bit
+/// mask of candidates. Packed into one word, because a second store is measurable in inner loops.
 struct Task {
   static constexpr std::size_t most_points = std::size_t{1} << 24;
   std::uint64_t word;  // mask << 48 | block << 24 | first
@@ -100,7 +100,7 @@ struct Task {
 
 class TaskList {
  public:
-  /// mask_of(i) for i = first .. last - 1; only masks other than 0 are kept, without a branch.
+  /// Calls mask_of(i) for i = first .. last - 1 and keeps nonzero masks, without a branch.
   template <class MaskOf>
   void add(std::size_t first, std::size_t last, std::size_t block, const MaskOf& mask_of) {
     reserve(last - first);
@@ -112,7 +112,7 @@ class TaskList {
     }
     count_ = static_cast<std::size_t>(out - tasks_.data());
   }
-  /// The same for the lanes of `which`, counted from `first`.
+  /// The same for the bits set in `which`; bit 0 is index `first`.
   template <class MaskOf>
   void add_lanes(std::size_t first, std::uint32_t which, std::size_t block, const MaskOf& mask_of) {
     reserve(lane_count);
@@ -130,7 +130,7 @@ class TaskList {
   void clear() { count_ = 0; }
 
  private:
-  /// One more may be written than is kept.
+  /// Leaves room for one more element: a mask is written before it is known to be kept.
   void reserve(std::size_t more) {
     if (count_ + more >= tasks_.size()) tasks_.resize(2 * (count_ + more) + 1);
   }
@@ -152,15 +152,15 @@ class PairRules {
   }
 
   const PeerInput& input() const { return *input_; }
-  /// Largest M.
+  /// Largest threshold M, angstrom.
   double highest() const { return highest_; }
-  /// Farther apart than this in float, no pair is closer than M + margin.
+  /// No pair with a larger float distance is closer than M + margin.
   float cutoff() const { return cutoff_; }
-  /// Sixteen squared thresholds of a type against all, grown by the band.
+  /// Sixteen squared thresholds of one type against all types, inflated by the error band.
   const float* row(std::uint32_t type) const { return rows_[type].data(); }
 
-  /// Thresholds M + margin for coordinates whose magnitude in float is at most `extent`. Coordinates are rounded once
-  /// or twice and differences once, each by 2^-24 of it at most; 8 covers the root of three and the squaring.
+  /// Sets thresholds M + margin for float coordinates of magnitude at most `extent`. Coordinates are rounded once or
+  /// twice and differences once, each by at most 2^-24 of it; the factor 8 also covers sqrt(3) and the squaring.
   void set_margin(double margin, double extent) {
     const std::size_t types = input_->type_count;
     const auto limit = [&](double m) {
@@ -176,7 +176,7 @@ class PairRules {
     cutoff_ = static_cast<float>(limit(highest_) * (1.0 + 4.0 * unit));
   }
 
-  /// Offers the candidates that are admitted to the answer; true when it wants no more.
+  /// Passes the admitted candidates to the answer. Returns true when the answer needs no more pairs.
   template <class Answer>
   bool settle(const double* xyz, const Columns& a, const Columns& b, std::span<const Task> tasks,
               Answer& answer) const {
@@ -195,11 +195,11 @@ class PairRules {
  private:
   static constexpr double unit = 0x1p-24;  // half a unit in the last place of a float near 1
   static constexpr std::uint32_t window_reach =
-      64;  // exclusions with j - i in -64 .. 63 are bits, others are searched for
+      64;  // exclusions with j - i in -64 .. 63 are bits, others need a search
   static constexpr std::uint32_t width = 2 * window_reach;
 
   void forbid(std::uint32_t i, std::uint32_t j) {
-    const std::uint32_t delta = j - i + window_reach;  // wraps around when below
+    const std::uint32_t delta = j - i + window_reach;  // a negative value wraps around to a large one
     if (delta < width)
       window_[4 * std::size_t{i} + delta / 32] |= 1u << delta % 32;
     else
@@ -208,7 +208,7 @@ class PairRules {
   bool excluded_beyond(std::uint32_t i, std::uint32_t j) const {
     return std::binary_search(input_->excluded[i].begin(), input_->excluded[i].end(), j);
   }
-  /// The bits of points in another group and not excluded by the window.
+  /// Keeps the bits of points that are in another group and not excluded by the window.
   std::uint32_t allowed(std::uint32_t i, std::uint32_t group, const Columns& b, std::size_t block,
                         std::uint32_t mask) const {
     const std::uint32_t* window = window_.data() + 4 * std::size_t{i};
@@ -238,17 +238,18 @@ class PairRules {
 
   std::shared_ptr<const PeerInput> input_;
   std::vector<std::uint32_t> window_;  // 128 bits per point
-  std::vector<char> beyond_;           // has exclusions outside the window
+  std::vector<char> beyond_;           // whether it has exclusions outside the window
   double highest_ = 0.0;
   float cutoff_ = 0.0f;
   alignas(64) std::array<std::array<float, lane_count>, lane_count> rows_{};
 };
 
-/// The first guess of closest(): a little above the last answer, so that thresholds are tight and a second try is rare.
+/// First margin of closest(): slightly above the last answer, so that thresholds are tight and a second search is
+/// rare.
 inline double first_guess(double last) { return std::max(last, 0.0) + 0.1; }
 
-/// Calls search(margin) with growing margins until it finds a pair or has seen all: `everything` is a margin no gap
-/// of the points exceeds.
+/// Calls search(margin) with growing margins until it finds a pair or the margin reaches `everything`, which no gap
+/// exceeds. Returns the smallest gap, or infinity without a pair.
 template <class Search>
 double grow_until_found(double last, double everything, const Search& search) {
   for (double margin = first_guess(last);; margin = 2.0 * margin + 1.0) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every competitor of the engines is given, and what it has to answer. All decide in double, so all answers agree.
+// Input and interface of every competitor of the engines. All of them decide in double, so their answers agree.
 #pragma once
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 
 namespace hinge::bench {
 
-/// i < j, any order.
+/// Pairs i < j, in any order.
 using IndexPairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-/// Points, thresholds (angstrom) and the pairs that count. Prepared once when the DOF are selected.
+/// Points, thresholds (angstrom) and admitted pairs. Prepared once per selection of DOF.
 struct PeerInput {
   std::size_t n = 0;                                 // < 2^24
   std::vector<std::uint16_t> type;                   // per point, < type_count
@@ -22,7 +22,7 @@ struct PeerInput {
   std::vector<std::uint32_t> group;                  // rigid group of each point; group 0 never moves
   std::vector<std::vector<std::uint32_t>> excluded;  // per point, sorted; symmetric: bonded neighbours, constant pairs
 
-  /// Is the pair tested at all?
+  /// Whether the pair is tested.
   bool admits(std::uint32_t i, std::uint32_t j) const {
     return group[i] != group[j] && !std::binary_search(excluded[i].begin(), excluded[i].end(), j);
   }

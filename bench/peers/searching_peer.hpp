@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SearchingPeer: the four questions, for peers that answer each of them by one search with a margin.
+// SearchingPeer: the four queries for peers that answer each of them with one search within a margin.
 #pragma once
 
 #include <memory>
@@ -11,8 +11,9 @@
 
 namespace hinge::bench {
 
-/// Search: made of a PeerInput; update(xyz); search(margin, answer) offers the answer every admitted pair with
-/// d - M < margin, until it wants no more; everything() is a margin that no gap exceeds.
+/// Requirements on Search: a constructor from PeerInput; update(xyz); search(margin, answer), which passes every
+/// admitted pair with d - M < margin to the answer until it needs no more; everything(), a margin that no gap
+/// exceeds.
 template <class Search>
 class SearchingPeer {
  public:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// make_subject: the five robots of the benchmark, from the shared data or, where that is absent, of bumpy links made in
-// code with as many joints and triangles.
+// make_subject: the five robots of the benchmark, from the shared data. If that is absent, they have generated bumpy
+// links, with as many joints and triangles.
 #pragma once
 
 #include <cmath>
@@ -23,8 +23,8 @@ namespace hinge::bench {
 
 struct SubjectKind {
   const char* shared;               ///< name of the shared robot
-  int distances;                    ///< configurations asked for the minimum distance; slow ones are asked less
-  int links, chain, around, along;  ///< its stand-in: links, links per branch, triangles of a link as a grid
+  int distances;                    ///< number of configurations for minimum distance queries; fewer for slow robots
+  int links, chain, around, along;  ///< generated robot: links, links per branch, triangles of a link as a grid
 };
 inline constexpr SubjectKind subject_kinds[] = {{"panda", 100, 9, 9, 12, 12},
                                                 {"ur5_robotiq", 60, 7, 7, 80, 92},
@@ -32,7 +32,7 @@ inline constexpr SubjectKind subject_kinds[] = {{"panda", 100, 9, 9, 12, 12},
                                                 {"pr2", 60, 21, 7, 12, 12},
                                                 {"snake40", 10, 41, 41, 30, 30}};
 
-/// A closed tube with round ends along z from `from` to `to`, m, its radius varied by a tenth.
+/// A closed tube with round ends along z from `from` to `to`, in m. Its radius varies by 10 %.
 inline std::vector<Triangle> bumpy_link(double from, double to, double radius, int around, int along) {
   const auto corner = [&](int i, int j) {
     const double s = static_cast<double>(j) / along, angle = 2 * std::numbers::pi * (i % around) / around;
@@ -49,7 +49,7 @@ inline std::vector<Triangle> bumpy_link(double from, double to, double radius, i
   return triangles;
 }
 
-/// Links 0.25 m long, each on a revolute joint across the link before; every branch starts at the root.
+/// Links 0.25 m long; each rotates about an axis across the previous link. Every branch starts at the root.
 inline robotics::Robot generated_robot(const SubjectKind& kind) {
   using namespace robotics;
   constexpr double length = 0.25, radius = 0.045, ends = 0.02;
@@ -70,12 +70,12 @@ inline robotics::Robot generated_robot(const SubjectKind& kind) {
     joint.parent = "link" + std::to_string(starts ? 0 : l - 1);
     joint.child = "link" + std::to_string(l);
     joint.origin.translation = Vec3(0, 0, length);
-    if (starts && kind.links > kind.chain) {  // branches leave sideways, away from the root
+    if (starts && kind.links > kind.chain) {  // branches point sideways, away from the root
       const double around = 2 * std::numbers::pi * ((l - 1) / kind.chain) * kind.chain / (kind.links - 1);
       joint.origin.rotation = rotation_about(Vec3::UnitZ(), around) * rotation_about(Vec3::UnitY(), 1.4);
       joint.origin.translation = joint.origin.rotation * Vec3(0, 0, length);
     }
-    // Some postures collide, some do not.
+    // With these limits, some postures collide and some do not.
     const double limit = kind.links > kind.chain ? 1.9 : 2.7;
     joint.axis = l % 2 == 0 ? Vec3::UnitY() : Vec3(Vec3(0.9, 0.0, 0.4));
     joint.lower = -limit;

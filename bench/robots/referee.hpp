@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Referee: compares answers; where yes and no differ, finds the links that differ and how far apart they are.
+// Referee: compares answers. If two differ, it finds the links that cause it and their distance.
 #pragma once
 
 #include <algorithm>
@@ -21,9 +21,9 @@
 
 namespace hinge::bench {
 
-/// m. Both sides place meshes with rounding of their own, 1e-16 of coordinates of some metres, and FCL compares with
-/// 1e-12 of the triangles' size at places; links that close to touching may be judged either way. Far below what any
-/// part is made to.
+/// m. Both sides round when they place meshes (1e-16 of coordinates of some metres), and FCL in part compares with
+/// 1e-12 of the size of triangles. So either answer is accepted for links this close to touching. Far below any
+/// manufacturing tolerance.
 inline constexpr double touching = 1e-9;
 
 class Referee {
@@ -56,7 +56,8 @@ class Referee {
                 posture, what, a, who.c_str(), b);
   }
 
-  /// Links that one calls in contact and the other not; `gap`: the distance found by the one that says they are apart.
+  /// Handles links that only one side reports in contact. `gap`: their distance, found by the side that says they are
+  /// apart.
   void judge(RobotQuery query, std::size_t posture, const std::string& who, const std::string& what, bool hinge_hits,
              double gap) {
     if (!(gap <= touching)) return report(query, posture, who, what.c_str(), hinge_hits ? 1 : 0, hinge_hits ? 0 : 1);
@@ -76,7 +77,7 @@ class Referee {
     oracle::Pairs differing;
     std::set_symmetric_difference(mine.pairs.begin(), mine.pairs.end(), theirs.pairs.begin(), theirs.pairs.end(),
                                   std::back_inserter(differing));
-    // Another build, or another question: what they disagree on is not to be found here.
+    // The other side is another build or another query, so this comparison cannot show the cause.
     if (differing.empty()) report(query, posture, who, "no pair of links that differs", mine.pairs.size() > 0, 0);
     const auto placed = hinge_.robot().placed();
     for (const auto& [i, j] : differing) {
@@ -107,14 +108,14 @@ class Referee {
   }
 
   const std::string& link(std::size_t l) const { return subject_.robot().link_name(id<LinkId>(l)); }
-  /// Triangles are numbered in the order of their links.
+  /// The triangles of link l; triangles are ordered by link.
   std::span<const Triangle> of_link(std::span<const Triangle> placed, std::size_t l) const {
     const std::span<const LinkId> links = subject_.robot().model().links();
     const auto [first, last] = std::equal_range(links.begin(), links.end(), id<LinkId>(l));
     return placed.subspan(static_cast<std::size_t>(first - links.begin()), static_cast<std::size_t>(last - first));
   }
 
-  /// The distance where it is at most `touching`, infinite otherwise.
+  /// The distance if it is at most `touching`, otherwise infinity.
   static double nearest(std::span<const Triangle> a, std::span<const Triangle> b) {
     Aabb around;
     for (const Triangle& t : a) around.extend(t.bounds());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// RobotContestant: Hinge and FCL behind one face, asked the same questions about the same postures.
+// RobotContestant: Hinge and FCL with one interface, for the same queries on the same postures.
 #pragma once
 
 #include <cstddef>
@@ -33,10 +33,10 @@ inline const char* name(RobotQuery q) { return robot_query_names[static_cast<std
 struct RobotAnswer {
   bool hit = false;
   double distance = std::numeric_limits<double>::infinity();  ///< m
-  oracle::Pairs pairs;                                        ///< links i < j
+  oracle::Pairs pairs;                                        ///< pairs of links, first < second
 };
 
-/// ask: from the poses to the answer, all timed.
+/// ask: from poses to the answer, all timed.
 struct RobotContestant {
   std::string name;
   std::function<void(std::size_t posture, RobotQuery, RobotAnswer&)> ask;
@@ -44,7 +44,7 @@ struct RobotContestant {
 
 using TimedHierarchy = Hierarchy<Triangle, robotics::LinkPairFilter, UniformClearance>;
 
-/// The robot and the scene, and a list of pairs that is used again.
+/// The robot and the scene, with a reused list of pairs.
 class HingeRobot {
  public:
   HingeRobot(const Subject& subject, std::shared_ptr<TimedHierarchy> scene)
@@ -59,7 +59,7 @@ class HingeRobot {
     }
   }
 
-  /// Which links to try first against the scene where it stands now, from the same configurations.
+  /// Calibrates the order of links against the scene at its present pose, with the training configurations.
   void learn_scene(const Subject& subject) {
     for (const std::vector<double>& q : subject.training(training_configurations)) {
       robot_.update(q);
@@ -85,7 +85,7 @@ class HingeRobot {
     }
   }
 
-  /// World coordinates of the last posture asked about.
+  /// In world coordinates, at the last posture queried.
   TimedHierarchy& robot() noexcept { return robot_; }
   TimedHierarchy& scene() noexcept { return *scene_; }
 
@@ -99,7 +99,7 @@ class HingeRobot {
   std::shared_ptr<TimedHierarchy> scene_;
 };
 
-/// What one build of FCL asks for: the robot and its scene.
+/// The robot and its scene in one build of FCL.
 template <oracle::FclBuild build>
 struct FclPeer {
   std::shared_ptr<oracle::FclRobot<build>> robot;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Timing of robot queries: contestants take turns on blocks of postures, warm, or on one at a time, cold.
+// Timing of robot queries: contestants take turns on blocks of postures (warm) or on single postures (cold).
 #pragma once
 
 #include <ctime>
@@ -17,7 +17,7 @@
 
 namespace hinge::bench {
 
-/// Seconds this thread has computed.
+/// CPU time of this thread in seconds.
 inline double thread_seconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -27,21 +27,21 @@ inline double thread_seconds() {
 inline constexpr int robot_rounds = 3;
 inline constexpr double warming_seconds = 1e-3;
 
-/// One contestant's times for one query of one robot; the first contestant is Hinge.
+/// Times of one contestant for one query on one robot. The first contestant is Hinge.
 struct RobotSeries {
   std::string name;
   std::size_t postures = 0;
-  double us = 0.0;        ///< mean over its postures of the best of the rounds
-  double hinge_us = 0.0;  ///< the first contestant's, over the same postures
+  double us = 0.0;        ///< best time of the rounds, mean over the postures
+  double hinge_us = 0.0;  ///< time of the first contestant over the same postures
   std::vector<RobotAnswer> answers{};
 
   double ratio() const { return us / hinge_us; }
 };
 
-/// Slow contestants see fewer postures: seconds are shared evenly. A round goes through all postures before the next
-/// begins, so that a posture is never asked twice running. A contestant answers a hundred postures running, or as many
-/// as the slowest can afford: that is what warm means here. The clock is read once a block, for reading it takes as
-/// long as a short query.
+/// Times warm queries. Contestants share `seconds` evenly, so slow ones get fewer postures. Each round goes through
+/// all postures, so that no posture repeats directly. A contestant answers a block of postures in a row: a hundred,
+/// or as many as the slowest can afford; this is the meaning of warm. The clock is read once per block, because
+/// reading it takes as long as a short query.
 inline std::vector<RobotSeries> time_robot(std::span<const RobotContestant> contestants, RobotQuery query,
                                            std::size_t postures, double seconds) {
   const auto fewest = [](std::size_t n) { return std::min<std::size_t>(n, 2); };
@@ -51,7 +51,7 @@ inline std::vector<RobotSeries> time_robot(std::span<const RobotContestant> cont
   for (const RobotContestant& c : contestants) {
     RobotSeries& s = series.emplace_back(RobotSeries{c.name});
     s.answers.resize(postures);
-    c.ask(0, query, s.answers[0]);  // whatever is made on the first call
+    c.ask(0, query, s.answers[0]);  // includes allocations of the first call
     const double start = thread_seconds();
     c.ask(fewest(postures) - 1, query, s.answers[fewest(postures) - 1]);
     const double cost = std::max(thread_seconds() - start, 1e-7);
@@ -74,7 +74,7 @@ inline std::vector<RobotSeries> time_robot(std::span<const RobotContestant> cont
         if (b * block >= series[c].postures) continue;
         RobotAnswer ignored;
         const double warm = thread_seconds() + warming_seconds;
-        for (std::size_t p = b * block + block; thread_seconds() < warm; ++p)  // those of the next block
+        for (std::size_t p = b * block + block; thread_seconds() < warm; ++p)  // postures of the next block
           contestants[c].ask(p % series[c].postures, query, ignored);
         const double start = thread_seconds();
         for (std::size_t p = b * block; p < (b + 1) * block; ++p) contestants[c].ask(p, query, series[c].answers[p]);
@@ -90,7 +90,7 @@ inline std::vector<RobotSeries> time_robot(std::span<const RobotContestant> cont
   return series;
 }
 
-/// Reads more than any second-level cache holds.
+/// Reads more memory than a second-level cache holds.
 class CacheFlush {
  public:
   std::uint64_t operator()() noexcept {
@@ -104,10 +104,11 @@ class CacheFlush {
   std::uint64_t sum_ = 0;
 };
 
-/// Microseconds of each contestant with its data out of the second-level cache, best of the rounds, mean of postures.
+/// Microseconds of each contestant with its data out of the second-level cache: best of the rounds, mean over
+/// postures.
 inline std::vector<double> time_cold(std::span<const RobotContestant> contestants, RobotQuery query,
                                      std::size_t postures) {
-  using Steady = std::chrono::steady_clock;  // 20 ns a reading; the thread's own time takes twenty times that
+  using Steady = std::chrono::steady_clock;  // 20 ns per reading; the thread's CPU clock takes twenty times as long
   CacheFlush flush;
   std::vector<double> means(contestants.size(), 0.0);
   std::vector<std::vector<double>> best(contestants.size(),

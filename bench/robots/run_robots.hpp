@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// run_robots: times, ratios and differences of the five robots, a table and rows of results.
+// run_robots: times, ratios and differences for the five robots, as a table and as rows of results.
 #pragma once
 
 #include <algorithm>
@@ -25,17 +25,17 @@ namespace hinge::bench {
 struct RobotRun {
   std::size_t postures = 200;
   double seconds = 3.0;  ///< for each query of each robot
-  bool native = true;    ///< FCL compiled for this machine too
-  std::size_t cold = 0;  ///< postures asked with a cold cache
+  bool native = true;    ///< includes FCL compiled for this machine
+  std::size_t cold = 0;  ///< number of postures timed with a cold cache
 };
 
-/// Ratios of FCL's time to Hinge's, the better of loop and manager for each robot and query.
+/// Ratios of FCL's time to Hinge's, with the better of FCL's loop and manager for each robot and query.
 class RobotRatios {
  public:
   void add(const std::string& query, const std::string& robot, const std::string& peer, double ratio) {
     rows_.push_back({query, robot, peer, ratio});
   }
-  /// Lines "ratio QUERY ROBOT PEER X" of one peer, the geometric mean of robots last.
+  /// Prints lines "ratio QUERY ROBOT PEER X" of one peer; the last line of a query is the geometric mean over robots.
   void print(const std::string& peer, Results& results) const {
     std::vector<std::string> queries;
     for (const Row& row : rows_)
@@ -63,7 +63,7 @@ class RobotRatios {
   std::vector<Row> rows_;
 };
 
-/// The scene in everybody's form, made once for all robots.
+/// The scene in the form of each contestant, made once for all robots.
 class SceneSet {
  public:
   explicit SceneSet(bool with_native) {
@@ -93,7 +93,7 @@ class SceneSet {
   std::shared_ptr<oracle::FclScene<oracle::FclBuild::native>> native;
 };
 
-/// Milliseconds, best of the rounds: `prepare` before the clock starts.
+/// Milliseconds, best of the rounds; `prepare` is not timed.
 template <class Prepare, class Build>
 double best_build(const Prepare& prepare, const Build& build) {
   double best = std::numeric_limits<double>::infinity();
@@ -132,7 +132,7 @@ inline void time_building(const Subject& subject, const RobotRun& run, RobotRati
   results.add(std::move(row));
 }
 
-/// Returns the number of answers that differ, touching ones apart.
+/// Returns the number of answers that differ, without pairs within the touching tolerance.
 inline int run_robot(const Subject& subject, int distances, SceneSet& scenes, const RobotRun& run, RobotRatios& ratios,
                      Results& results) {
   HingeRobot hinge(subject, scenes.hinge);
@@ -212,7 +212,7 @@ inline int run_robot(const Subject& subject, int distances, SceneSet& scenes, co
   return referee.differences();
 }
 
-/// The ratios go to `ratios`, to be printed when the caller likes. Returns the number of differences.
+/// Adds the ratios to `ratios`, for the caller to print. Returns the number of differences.
 inline int run_robots(const RobotRun& run, RobotRatios& ratios, Results& results) {
   SceneSet scenes(run.native);
   std::printf("robots, us: %-18s %9s %10s %10s%s  fcl/hinge%s  in collision\n", "query", "hinge", "fcl loop", "manager",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenery: 1.26 million triangles around a robot, a bumpy ground and 69 boulders, and where to put the robot in it.
+// Scenery: 1.26 million triangles around a robot, bumpy ground with 69 boulders, and its pose relative to the robot.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@
 
 namespace hinge::bench {
 
-/// Objects, m. A scene is drawn once; robots differ in where they stand in it.
+/// Objects in m. The scene is the same for all robots; only its pose differs.
 inline std::vector<std::vector<Triangle>> draw_scenery() {
   constexpr double half_width = 3.0, lowest = -1.3;
   std::vector<std::vector<Triangle>> objects(1);
@@ -53,7 +53,7 @@ inline std::vector<std::vector<Triangle>> draw_scenery() {
   return objects;
 }
 
-/// The same scene for Hinge (as a robot's model, one rigid group that moves) and for FCL.
+/// The same scene for Hinge (a robot model with one moving rigid group) and for FCL.
 struct Scenery {
   robotics::Robot body;
   std::vector<oracle::Mesh> objects;
@@ -82,11 +82,11 @@ struct Scenery {
   }
 };
 
-/// Where the scene stands for a robot: its base untouched, and of the first postures about four in ten in collision, as
-/// near as a hundred places drawn at random allow.
+/// The pose of the scene for a robot. Its base does not collide, and of the first postures as close to 40 % as
+/// possible collide, among a hundred random poses.
 template <oracle::FclBuild build>
 Pose find_place(oracle::FclScene<build>& scene, oracle::FclRobot<build>& robot, const Subject& subject) {
-  constexpr int places = 100, wanted_share = 40;  // of a hundred
+  constexpr int places = 100, wanted_share = 40;  // percent of the postures
   const std::size_t asked = std::min<std::size_t>(50, subject.postures().size());
   Pose best;
   int nearest = 101;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Subject: a robot of the benchmark, the pairs of links that count, and postures to ask about.
+// Subject: a robot of the benchmark with its tested pairs of links and its postures.
 #pragma once
 
 #include <cstddef>
@@ -27,10 +27,10 @@ namespace hinge::bench {
 
 inline constexpr std::uint64_t robot_seed = 2005;
 
-/// World poses at one configuration, in the two forms contestants take them: computed before any clock runs.
+/// World poses at one configuration, in the forms that contestants take; computed before timing.
 struct Posture {
-  std::vector<Pose> groups;              ///< by rigid group
-  std::vector<oracle::Placement> links;  ///< by link
+  std::vector<Pose> groups;              ///< per rigid group
+  std::vector<oracle::Placement> links;  ///< per link
 };
 
 using oracle::corners;
@@ -51,11 +51,11 @@ class Subject {
   const std::string& name() const noexcept { return name_; }
   const robotics::Robot& robot() const noexcept { return robot_; }
   robotics::LinkPairFilter filter() const { return {robot_, tested_}; }
-  /// By link, in its frame; empty where there is none.
+  /// Per link, in the link frame; empty for a link without triangles.
   std::span<const oracle::Mesh> meshes() const noexcept { return meshes_; }
   const oracle::Pairs& pairs() const noexcept { return pairs_; }
   std::span<const Posture> postures() const noexcept { return postures_; }
-  /// Configurations that are not timed, one value per DOF: what an order of pairs is learned on.
+  /// Configurations for calibrating the order of pairs, one value per DOF; never timed.
   std::vector<std::vector<double>> training(std::size_t count) const {
     std::vector<std::vector<double>> configurations;
     for (std::size_t k = 0; k < count; ++k) {
@@ -64,7 +64,7 @@ class Subject {
     }
     return configurations;
   }
-  /// One value per DOF each.
+  /// Postures at the given configurations, one value per DOF.
   std::vector<Posture> postures_at(std::span<const std::vector<double>> configurations) const {
     const KinematicTree& tree = robot_.model().tree();
     const auto groups = std::make_shared<const RigidGroups>(tree, DofSelection::all(tree));
@@ -81,7 +81,7 @@ class Subject {
     }
     return postures;
   }
-  /// Links with triangles that hang on the world by fixed joints.
+  /// Links with triangles that are fixed to the world.
   std::span<const std::size_t> base() const noexcept { return base_; }
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// trade_tiers: what coarser links buy and cost, every tier of every robot beside its exact meshes, answers over the
-// same configurations and pairs of links.
+// trade_tiers: times and errors of coarser link shapes. Compares every tier of every robot with its exact meshes, on
+// the same configurations and pairs of links.
 #pragma once
 
 #include <algorithm>
@@ -56,17 +56,17 @@ inline std::vector<TierCase> tier_cases() {
   return cases;
 }
 
-/// Of one tier, by configuration.
+/// Answers of one tier, by configuration.
 struct TierAnswers {
   std::size_t primitives = 0;
-  double fit_ms = 0.0, build_ms = 0.0;  // from the shapes to the tier's; from those to the engine
+  double fit_ms = 0.0, build_ms = 0.0;  // time from the exact shapes to the tier's shapes; from these to the engine
   std::vector<bool> collides;
-  std::vector<double> distance;                          // m, 0 when they meet; fewer where they take long
-  double any_us = 0.0, all_us = 0.0, distance_us = 0.0;  // means, from the joint values
+  std::vector<double> distance;                          // m; 0 for a collision; fewer values if a distance takes long
+  double any_us = 0.0, all_us = 0.0, distance_us = 0.0;  // means, from joint values
 };
 
-/// Mean over the configurations of the best of the repetitions; `ask(k)` of all in turn, so that each pays for its
-/// update.
+/// Mean over the configurations of the best time of ask(k). Each repetition runs all k in turn, so that each call
+/// includes its update.
 template <class Ask>
 double mean_of_best(std::size_t count, const Ask& ask) {
   std::vector<double> best(count, std::numeric_limits<double>::infinity());
@@ -77,7 +77,7 @@ double mean_of_best(std::size_t count, const Ask& ask) {
   return sum / static_cast<double>(count);
 }
 
-/// As many distances as two seconds allow; `most` when the first tier has said how many.
+/// Computes as many distances as two seconds allow, or `most` of them, the number of the first tier.
 inline TierAnswers ask_tier(const RobotDescription& exact, Tier tier, const LinkPairs& tested,
                             const std::vector<std::vector<double>>& configurations, std::optional<std::size_t> most) {
   constexpr double distance_seconds = 2.0;
@@ -120,7 +120,7 @@ inline TierAnswers ask_tier(const RobotDescription& exact, Tier tier, const Link
 
 struct TierErrors {
   int colliding = 0, false_accepts = 0, false_rejects = 0;
-  double mean = 0.0, largest = 0.0;  // m, of the distances
+  double mean = 0.0, largest = 0.0;  // errors of the distances, m
 };
 
 inline TierErrors compare(const TierAnswers& exact, const TierAnswers& given) {
@@ -131,7 +131,7 @@ inline TierErrors compare(const TierAnswers& exact, const TierAnswers& given) {
     e.false_rejects += !exact.collides[k] && given.collides[k] ? 1 : 0;
   }
   for (std::size_t k = 0; k < exact.distance.size(); ++k) {
-    const bool same = exact.distance[k] == given.distance[k];  // both infinite where no pair is tested
+    const bool same = exact.distance[k] == given.distance[k];  // both are infinite if no pair is tested
     const double off = same ? 0.0 : std::abs(exact.distance[k] - given.distance[k]);
     e.mean += off / static_cast<double>(exact.distance.size());
     e.largest = std::max(e.largest, off);

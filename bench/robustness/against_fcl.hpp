@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pairs of triangles of one family, judged by Hinge, by plain double decisions and by FCL, each answer held against
-// exact rationals.
+// Pairs of triangles of one family: answers of Hinge, of plain double decisions and of FCL against exact rationals.
 #pragma once
 
 #include <algorithm>
@@ -32,22 +31,22 @@ using Exact = test::Simd;
 
 inline constexpr std::uint64_t robustness_seed = 2005;
 
-/// Distances are compared relative to themselves only where they are above this share of the pair's size: nearer, the
-/// rounding of the corners alone would be what is measured.
+/// Relative errors of distances count only above this share of the pair's size. Below it, the rounding of the corners
+/// dominates the error.
 inline constexpr double apart_share = 1e-6;
 
 struct Judged {
   bool touch = false;
   Exact distance = 0;
-  double size = 0.0;  ///< the diagonal of the box around both
+  double size = 0.0;  ///< diagonal of the bounding box of both triangles
 };
 
-/// What one side got wrong. Lengths as shares of the pair's size.
+/// Errors of one contestant. Lengths are shares of the pair's size.
 struct Tally {
   std::size_t wrong_yes = 0, wrong_no = 0, zero_apart = 0, positive_touching = 0, contradictions = 0;
   double widest_yes = 0.0, widest_zero = 0.0, largest_positive = 0.0;
-  double relative = 0.0, of_size = 0.0;  ///< largest error of a distance
-  std::size_t threshold_wrong = 0;       ///< d < m with m next to d
+  double relative = 0.0, of_size = 0.0;  ///< largest error of a distance, relative to the distance and to the size
+  std::size_t threshold_wrong = 0;       ///< wrong answers to d < m, with m next to d
 
   void verdict(bool yes, const Judged& truth) {
     if (yes == truth.touch) return;
@@ -93,13 +92,13 @@ struct Tally {
   static double share(double d, const Judged& truth) {
     return std::isfinite(d) ? static_cast<double>(Exact(d) / truth.size) : infinity;
   }
-  /// JSON has no infinity.
+  /// JSON has no infinity, so 1e300 replaces it.
   static double finite_or(double x) { return std::isfinite(x) ? x : 1e300; }
 };
 
 using oracle::corners;
 
-/// Triangle i of one link and triangle i of the other.
+/// Admits triangle i of one link with triangle i of the other.
 struct SameNumber {
   std::size_t count;
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept {
@@ -129,7 +128,7 @@ class FamilyRun {
   }
 
  private:
-  static constexpr std::size_t batch = 64;  ///< pairs that share one Hierarchy: two links of as many triangles
+  static constexpr std::size_t batch = 64;  ///< pairs in one Hierarchy: two links of 64 triangles each
 
   void run_batch(std::size_t count) {
     std::vector<test::TrianglePairSample> pairs;
@@ -178,10 +177,10 @@ class FamilyRun {
 
   static double diagonal(const Aabb& box) {
     const Vec3 side = box.upper - box.lower;
-    return std::hypot(side[0], side[1], side[2]);  // squares would overflow in the family of huge triangles
+    return std::hypot(side[0], side[1], side[2]);  // avoids the overflow of squares in the family of huge triangles
   }
 
-  /// All pairs at once, as two links of a model at its reference.
+  /// Tests all pairs in one query, as two links of a model at its reference.
   void ask_hierarchy(const std::vector<test::TrianglePairSample>& pairs, const std::vector<Judged>& truth) {
     ModelBuilder<Triangle> builder;
     for (const auto& pair : pairs) builder.add_primitive(world, pair.first);
@@ -214,7 +213,7 @@ class FamilyRun {
   Tally hinge_, hierarchy_, plain_, fcl_, fcl_mesh_;
 };
 
-/// The first families, up to and including this one, are those of the page; the others are beyond what FCL is for.
+/// Runs the families of the page, which end with "tiny_2_minus_300". FCL is not made for later families.
 inline std::vector<Json> run_families(std::size_t cases) {
   std::vector<Json> rows;
   std::uint64_t number = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pairs of atoms and balls at and beside a tie: Hinge, one comparison in double, and FCL, against exact rationals.
+// Pairs of atoms and balls at and near a tie: Hinge, one comparison in double, and FCL against exact rationals.
 #pragma once
 
 #include <array>
@@ -21,15 +21,15 @@ namespace hinge::bench {
 
 struct BallPair {
   Vec3 p, q;
-  double r, s;  ///< radii; atoms collide below m
+  double r, s;  ///< radii; as atoms, the pair collides if the distance is below m
   double m;
 };
 
-/// A distance that is a whole number of thousandths between two points of that grid, as in PDB files, within `extent`
-/// angstrom; radii and threshold sum to it on paper.
+/// Two points of the grid of PDB files (0.001 angstrom), within `extent` angstrom, whose distance is a whole number
+/// of thousandths. In exact decimals, radii and threshold are equal to the distance.
 inline BallPair decimal_tie(test::Random& random, std::size_t extent) {
   std::int64_t a = 0, b = 0, c = 0, d = 0;
-  while (d < 2400 || d > 3600) {  // the usual thresholds of atoms
+  while (d < 2400 || d > 3600) {  // 2.4 to 3.6 angstrom, the usual thresholds of atoms
     const auto draw = [&] { return static_cast<std::int64_t>(random.below(56)); };
     const std::int64_t k = draw(), l = draw(), m = draw(), n = draw();
     a = k * k + l * l - m * m - n * n;
@@ -47,7 +47,7 @@ inline BallPair decimal_tie(test::Random& random, std::size_t extent) {
           thousandths(d - part), thousandths(d)};
 }
 
-/// The threshold is the distance in double, or up to two ulps beside it.
+/// The threshold is the distance in double, or up to two ulps from it.
 inline BallPair beside_tie(test::Random& random, double size) {
   BallPair pair{random.vector(100 * size), Vec3::Zero(), 0.0, 0.0, 0.0};
   pair.q = pair.p + random.vector(2 * size);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tables of docs/explanation/robustness.md, made of the rows that were measured.
+// The tables of docs/explanation/robustness.md, from measured rows.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ inline std::string scientific(double x) {
   return text;
 }
 
-/// In percent of the pairs, and 0 only for none.
+/// Percentage of the pairs; "0" only if the count is 0.
 inline std::string share(const Json& row, const char* key) {
   const double count = row.at(key).get<double>(), pairs = row.at("pairs").get<double>();
   if (count == 0.0) return "0";
@@ -129,7 +129,7 @@ class RobustnessPage {
     const auto found = rows_.find(kind);
     return found == rows_.end() ? none : found->second;
   }
-  /// In the order they were run.
+  /// Families in the order they were run.
   std::vector<std::pair<std::string, ByWho>> families() const {
     std::vector<std::pair<std::string, ByWho>> all;
     for (const Json& row : of("family")) {

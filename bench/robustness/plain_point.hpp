@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PlainPoint: Point decided by one comparison in double, with the same kernels; what exact decisions are timed against.
+// PlainPoint: Point with decisions by one comparison in double and the same kernels, the baseline of exact decisions.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace hinge::bench {
 
 struct PlainPoint {
   Point point;
-  static constexpr bool is_point_like = IsPointLike<Point>;  ///< what engines may pass over is the same
+  static constexpr bool is_point_like = IsPointLike<Point>;  ///< engines may skip the same pairs
 
   PlainPoint placed(const Pose& pose) const noexcept { return {point.placed(pose)}; }
   Aabb bounds() const noexcept { return point.bounds(); }
@@ -41,7 +41,7 @@ struct PlainPoint {
 
 namespace hinge {
 
-/// That of Point, which is all a PlainPoint consists of.
+/// The batch of Point, the only member of PlainPoint.
 template <>
 struct detail::Batch<bench::PlainPoint> {
   using Same = Batch<Point>;

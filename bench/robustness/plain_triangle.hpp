@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PlainTriangle: Triangle decided by the signs double arithmetic gives, with the same kernels; what exact decisions are
-// timed against.
+// PlainTriangle: Triangle with decisions by the signs that double arithmetic gives, with the same kernels. It is the
+// baseline for the time of exact decisions.
 #pragma once
 
 #include <algorithm>
@@ -20,8 +20,8 @@
 
 namespace hinge::bench {
 
-/// The steps of hinge::detail::meeting_if_clear (Guigue & Devillers 2003) with a rounding of 0: whatever sign comes out
-/// counts, and three heights that come out 0 are a common plane.
+/// The steps of hinge::detail::meeting_if_clear (Guigue & Devillers 2003) with an error bound of 0: computed signs
+/// are trusted, and three heights equal to 0 mean coplanar triangles.
 namespace plain_double {
 
 using Heights = std::array<double, 3>;
@@ -35,7 +35,7 @@ inline bool one_side(const Heights& h) noexcept {
   return std::min({h[0], h[1], h[2]}) > 0.0 || std::max({h[0], h[1], h[2]}) < 0.0;
 }
 
-/// A corner in the plane goes with the side that leaves one corner alone.
+/// A corner in the plane counts to the side that leaves one corner alone.
 inline detail::Cut cut(const Heights& h) noexcept {
   const bool none_above = std::max({h[0], h[1], h[2]}) <= 0.0;
   const auto above = [&](std::size_t k) { return none_above ? h[k] >= 0.0 : h[k] > 0.0; };
@@ -81,7 +81,7 @@ inline bool intersect(const detail::Corners& x, const detail::Corners& y) noexce
   return !(dot(Vec3(x2 - p), cross(Vec3(y2 - p), across)) > 0.0);
 }
 
-/// Flattened, so that the lower bound, which only exact decisions ask for, is not computed.
+/// Flattened, so that the compiler drops the lower bound, which only exact decisions use.
 [[gnu::flatten, gnu::noinline]] inline double squared(const detail::TrianglePair& pair) noexcept {
   return pair.nearest().squared;
 }
@@ -108,7 +108,7 @@ struct PlainTriangle {
     const detail::TrianglePair pair(x, y);
     return !pair.planes_apart(m) && plain_double::squared(pair) < m * m;
   }
-  /// Engines remember a pair by them.
+  /// Engines store these points to remember a pair.
   friend std::pair<Vec3, Vec3> closest_points(const PlainTriangle& p, const PlainTriangle& q) noexcept {
     const detail::TrianglePair pair(p.corners(), q.corners());
     const auto nearest = pair.nearest();
@@ -128,7 +128,7 @@ struct PlainTriangle {
 
 namespace hinge {
 
-/// That of Triangle.
+/// Delegates to the leaf of Triangle.
 template <>
 struct detail::Leaf<bench::PlainTriangle> {
   using Same = Leaf<Triangle>;
@@ -142,7 +142,7 @@ struct detail::Leaf<bench::PlainTriangle> {
   }
 };
 
-/// That of Triangle.
+/// Delegates to the pair queue of Triangle.
 template <>
 class detail::PairQueue<bench::PlainTriangle> {
  public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What exact decisions cost: the same queries of the same engine with exact and with plain decisions, in turns.
+// The cost of exact decisions: the same queries on the same engine with exact and with plain decisions, interleaved.
 #pragma once
 
 #include <algorithm>
@@ -62,19 +62,19 @@ void ask(H& model, Question question, double margin, Reply& reply) {
 }
 
 struct Price {
-  double us = 0.0;               ///< a query with exact decisions, median of the rounds
-  double ratio = 0.0;            ///< over plain decisions: median of the rounds' ratios
-  double low = 0.0, high = 0.0;  ///< its quartiles
+  double us = 0.0;               ///< time of a query with exact decisions, median of the rounds
+  double ratio = 0.0;            ///< exact time over plain time, median of the rounds
+  double low = 0.0, high = 0.0;  ///< quartiles of the ratio
   std::size_t asked = 0, different = 0, distances_different = 0;
-  double largest_difference = 0.0;  ///< of two distances, of the larger
+  double largest_difference = 0.0;  ///< largest difference of two distances, relative to the larger one
 };
 
 inline constexpr int price_rounds = 41;
-/// A block of the same postures for each: long enough that a clock reading does not count, short enough that what else
-/// the machine does meets both.
+/// Each side runs a block of the same states. A block is long enough to hide the cost of reading the clock, and short
+/// enough that other load on the machine affects both sides alike.
 inline constexpr double block_seconds = 5e-3;
 
-/// exact(k, reply) and plain(k, reply) answer about state k < count, bringing their model there included.
+/// exact(k, reply) and plain(k, reply) update their model to state k < count and fill the answer.
 template <class Exact, class Plain>
 Price measure_price(std::size_t count, const Exact& exact, const Plain& plain) {
   Price price;
@@ -135,7 +135,7 @@ inline Json json(const char* kind, const std::string& scene, const std::string& 
           {"largest_difference", price.largest_difference}};
 }
 
-/// 1UBQ with all residues free, and 1MBN with 10 and all where the shared data is.
+/// 1UBQ with all residues free; with the shared data also 1MBN with 10 and with all residues free.
 inline std::vector<Json> price_of_molecules() {
   constexpr std::size_t conformations = 100;
   constexpr double margin = 0.5;  // angstrom
@@ -170,7 +170,7 @@ inline std::vector<Json> price_of_molecules() {
   return rows;
 }
 
-/// The robots of ./run bench robots, which makes its own in code without the shared data. Poses given.
+/// The robots of ./run bench robots, which generates robots if the shared data is absent. Poses are given.
 inline std::vector<Json> price_of_robots() {
   constexpr std::size_t postures = 100, trained = 100;
   constexpr double margin = 0.01;  // m

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// recast: a model made anew of the same links with another kind of primitive.
+// recast(): the same model with another type of primitive.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace hinge::bench {
 
-/// Axes are normalised once more: models that are compared with each other have both to come from here.
+/// Joint axes are normalized again, so compare only models that both come from recast().
 template <Primitive Q, Primitive P>
 Model<Q> recast(const Model<P>& model) {
   ModelBuilder<Q> builder;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The inner loops with Highway's portable operations, for its static target: the best one the compiler's flags allow.
+// The inner loops with Highway's portable operations, for its static target: the best that the compiler's flags
+// allow.
 #include <hwy/highway.h>
 
 #include <array>
@@ -21,7 +22,7 @@ const hn::RebindToSigned<decltype(floats)> ints;
 const hn::RebindToUnsigned<decltype(floats)> indices;
 constexpr std::size_t lanes = hn::MaxLanes(floats);
 
-/// table[index] for `lanes` of the sixteen. The fixed choice is made where this is instantiated.
+/// table[index] for `lanes` indices into a table of sixteen. The case is selected at compile time.
 template <std::size_t Lanes, class Floats, class Ints>
 HWY_INLINE auto look_up(Floats d, Ints di, const float* table, const std::uint8_t* index) {
   const hn::Rebind<std::uint8_t, Ints> bytes;
@@ -51,7 +52,7 @@ void near_points(const PointTasks& tasks, std::uint32_t* bits) {
       const auto z = hn::Sub(hn::LoadU(floats, some + 2 * n), hn::Set(floats, one[2 * n]));
       const auto squared = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
       const auto near = look_up<lanes>(floats, ints, table, tasks.classes + block * n + first);
-      // Byte by byte: reading more than was just written would wait for the memory.
+      // Copies byte by byte: a read wider than the bytes just written would stall.
       std::array<std::uint8_t, 8> mask;
       hn::StoreMaskBits(floats, hn::Not(hn::Lt(near, squared)), mask.data());
       const unsigned part = lanes > 8 ? mask[0] | (unsigned{mask[1]} << 8) : mask[0];
@@ -61,7 +62,7 @@ void near_points(const PointTasks& tasks, std::uint32_t* bits) {
 }
 
 std::size_t touching_boxes(const BoxTasks& tasks, std::uint32_t* hits) {
-  // Iota is made lane by lane in 1.0.3: once, outside the loop.
+  // Highway 1.0.3 computes Iota lane by lane, so it is computed once, outside the loop.
   const auto counting = hn::Iota(indices, 0);
   std::size_t count = 0;
   for (std::size_t b = 0; b < tasks.box_count; ++b) {
@@ -75,7 +76,7 @@ std::size_t touching_boxes(const BoxTasks& tasks, std::uint32_t* hits) {
         };
         const auto touching = hn::RebindMask(indices, hn::And(hn::And(along(0), along(1)), along(2)));
         const auto numbers = hn::Add(counting, hn::Set(indices, static_cast<std::uint32_t>(r * n + first)));
-        // In a register, as hinge::simd does it.
+        // Compresses in a register, as hinge::simd does.
         hn::StoreU(hn::Compress(numbers, touching), indices, hits + count);
         count += hn::CountTrue(indices, touching);
       }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The inner loops with hinge::simd: <experimental/simd>, and intrinsics for look-up and compression alone.
+// The inner loops with hinge::simd: <experimental/simd>, with intrinsics only for table look-up and compression.
 #include <cstddef>
 #include <cstdint>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A protein and a second molecule that is placed anywhere near it, each with torsions of its own, in one query.
+// A protein and a second molecule with a free pose, each with torsions of its own, in one query.
 #include <hinge/molecular/checker.hpp>
 #include <hinge/molecular/ideal_protein.hpp>
 #include <hinge/molecular/join_structures.hpp>
@@ -14,15 +14,15 @@
 
 int main() {
   using namespace hinge::molecular;
-  // Two molecules in one structure, each read or built on its own; both have a chain A, the peptide's is called B here.
+  // Two molecules in one structure, read or built separately. Both have a chain A, so the peptide's becomes chain B.
   Structure small = build_ideal_protein("RGDW", "CCCC");
-  for (hinge::Vec3& x : small.models.front()) x += hinge::Vec3(30, 29, 0);  // angstrom: beside the protein
+  for (hinge::Vec3& x : small.models.front()) x += hinge::Vec3(30, 29, 0);  // angstrom: moves it next to the protein
   Structure both = join_structures({read_structure("molecular/data/1ubq.pdb"), small});
   const Part protein = find_part(both, "A"), peptide = find_part(both, "B");
 
   CheckOptions rules;
   rules.exempt_reference = true;
-  // Only pairs of the two; by default pairs inside each count as well.
+  // Tests only pairs between the two molecules. By default, pairs inside each molecule are tested as well.
   CheckOptions docking = rules;
   docking.scope = PairScope(both, std::vector{std::pair(protein, peptide)}, {});
 
@@ -31,7 +31,7 @@ int main() {
   const auto selection = scene->select_placed(torsions);
   Checker all(scene, selection, rules), mutual(scene, selection, docking);
 
-  // The peptide's six DOF: up to 20 angstrom from where it was read, turned any way.
+  // The peptide's six DOF: up to 20 angstrom from its position in the reference, with any rotation.
   const std::vector<PlacementRange> anywhere{{/*distance=*/20.0, /*turn, rad=*/std::numbers::pi}};
   int free = 0, apart = 0;
   for (std::uint64_t k = 0; k < 100; ++k) {

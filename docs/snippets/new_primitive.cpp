@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A primitive of your own with a running program.
+// A primitive of your own in a complete program.
 #include <hinge/hierarchy.hpp>
 #include <hinge/policy/different_links.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A loop of ubiquitin from one conformation to another, both of its ends held, planned by OMPL on the set where the
-// loop is closed; every step of every motion is proved free.
+// Moves a loop of ubiquitin from one conformation to another with both ends held. OMPL plans on the set of closed
+// loops, and every step of every motion is proved free.
 #include <hinge/kinematics/closure_equations.hpp>
 #include <hinge/kinematics/closure_solver.hpp>
 #include <hinge/molecular/checker.hpp>
@@ -41,7 +41,7 @@ std::span<const double> turns(const ob::State* state) {
   return {values.data(), static_cast<std::size_t>(values.size())};
 }
 
-// What is 0 where the loop is closed, angstrom.
+// The closure equations, in angstrom; they are 0 if the loop is closed.
 class LoopIsClosed : public ob::Constraint {
  public:
   static constexpr double tolerance = 1e-6;
@@ -56,13 +56,13 @@ class LoopIsClosed : public ob::Constraint {
   void jacobian(const Eigen::Ref<const Eigen::VectorXd>& q, Eigen::Ref<Eigen::MatrixXd> out) const override {
     equations_.set({q.data(), static_cast<std::size_t>(q.size())});
     equations_.compute_jacobian();
-    out.setZero();  // of turns that are on no cycle
+    out.setZero();  // columns of torsions outside all cycles stay 0
     for (std::size_t row = 0; row < equations_.rows(); ++row)
       for (std::size_t column = 0; column < equations_.columns(); ++column)
         out(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(equations_.position(column))) =
             equations_.jacobian()[row * equations_.columns() + column];
   }
-  // Hinge's solver instead of OMPL's: a loop's equations are redundant, and its turns come back wrapped.
+  // Uses Hinge's solver, because the equations of a loop are redundant and OMPL's solver may return wrapped angles.
   bool project(Eigen::Ref<Eigen::VectorXd> q) const override {
     const Eigen::VectorXd start = q;
     const bool closed = solver_.close({q.data(), static_cast<std::size_t>(q.size())});
@@ -81,7 +81,7 @@ class LoopIsClosed : public ob::Constraint {
   mutable hinge::ClosureSolver solver_;
 };
 
-// One of each per thread, as for robots.
+// One object per thread: a checker holds its last state.
 class ConformationIsFree : public ob::StateValidityChecker {
  public:
   ConformationIsFree(const ob::SpaceInformationPtr& space, const Checker& checker)
@@ -94,7 +94,7 @@ class ConformationIsFree : public ob::StateValidityChecker {
   mutable Checker checker_;
 };
 
-// The space walks along the closed set in steps of delta; what is between two of them is a straight path.
+// OMPL walks along the closed set in steps of delta. Between two steps, the path is straight.
 class MotionIsFree : public ob::MotionValidator {
  public:
   MotionIsFree(const ob::SpaceInformationPtr& space, const Checker& checker)
@@ -128,11 +128,11 @@ int main() {
   const auto ubiquitin = std::make_shared<const Molecule>(std::move(structure), loops);
   const hinge::DofSelection selection = ubiquitin->select(select_loop_torsions(*ubiquitin, "none", false));
   CheckOptions options;
-  options.exempt_reference = true;  // what touches in the crystal may
+  options.exempt_reference = true;  // exempts pairs that touch in the crystal
   Checker checker(ubiquitin, selection, options);
   const std::size_t dofs = checker.dof_count();
 
-  // A closed conformation to go to, at least a radian away.
+  // A closed conformation as goal, with at least one torsion that changes by more than 1 rad.
   const std::vector<double> reference(dofs, 0.0);
   ClosedSampler sampler(*ubiquitin, selection, {2005, 0.5}, 100'000);
   const std::vector<double> goal =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A motion around a post, planned by OMPL, which asks a RobotChecker about states and has every motion between two
-// proved.
+// A motion around a post, planned by OMPL. A RobotChecker tests states, and a PathChecker proves motions between
+// them.
 #include <hinge/robotics/path_checker.hpp>
 #include <hinge/robotics/robot_checker.hpp>
 
@@ -24,7 +24,7 @@ namespace ob = ompl::base;
 
 using Space = ob::RealVectorStateSpace;
 
-// One per thread: a checker holds the state it is asked about.
+// One object per thread: a checker holds its last state.
 class RobotIsFree : public ob::StateValidityChecker {
  public:
   RobotIsFree(const ob::SpaceInformationPtr& space, const RobotChecker& checker)
@@ -39,7 +39,7 @@ class RobotIsFree : public ob::StateValidityChecker {
   mutable RobotChecker checker_;
 };
 
-// Free is what is proved free, all the way; nothing has to be said about steps.
+// A motion is valid if the whole motion is proved free. No step size is needed.
 class MotionIsFree : public ob::MotionValidator {
  public:
   MotionIsFree(const ob::SpaceInformationPtr& space, const RobotChecker& checker)
@@ -49,7 +49,7 @@ class MotionIsFree : public ob::MotionValidator {
     ++(free ? valid_ : invalid_);
     return free;
   }
-  // A collision that is found need not be the first: of a motion that is not free only its start is known to be.
+  // The reported collision need not be the first one. If a motion is not free, only its start is known to be free.
   bool checkMotion(const ob::State* from, const ob::State* to, std::pair<ob::State*, double>& last) const override {
     if (checkMotion(from, to)) return true;
     if (last.first != nullptr) si_->copyState(last.first, from);
@@ -64,7 +64,7 @@ class MotionIsFree : public ob::MotionValidator {
   mutable PathChecker paths_;
 };
 
-// Three links of 1 m in a plane, and a post that stands 2 m from the base.
+// Three links of 1 m in a plane, and a post 2 m from the base.
 RobotDescription arm_and_post() {
   using hinge::Pose, hinge::Mat3, hinge::Vec3;
   const Pose along_x{hinge::rotation_about(Vec3::UnitY(), 1.5707963267948966), Vec3(0.5, 0, 0)};
@@ -104,7 +104,7 @@ int main() {
   setup.setStartAndGoalStates(start, goal);
   setup.setup();
 
-  if (information->checkMotion(start.get(), goal.get())) return 1;  // the post is in the way
+  if (information->checkMotion(start.get(), goal.get())) return 1;  // the post blocks the straight motion
   if (setup.solve(10.0) != ob::PlannerStatus::EXACT_SOLUTION) return 1;
   setup.simplifySolution();
   auto path = setup.getSolutionPath();

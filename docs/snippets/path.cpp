@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A path that sampling calls free, proved, and one that sampling calls free although it is not.
+// Two paths that sampling calls free: the first is proved free, the second collides.
 #include <hinge/hierarchy.hpp>
 #include <hinge/path/certified_path.hpp>
 #include <hinge/path/check_sampled.hpp>
@@ -8,7 +8,7 @@
 #include <vector>
 
 int main() {
-  // An arm of 1 m turns in the plane; a post stands just inside its reach. Metres, rad.
+  // A 1 m arm rotates in a plane past a post at the edge of its range. Lengths in m, angles in rad.
   hinge::ModelBuilder<hinge::Sphere> build;
   build.add_primitive(hinge::world, {{1.1, 0, 0}, 0.05});
   build.add_link(hinge::world, hinge::Revolute{}, {{{0, 1, 0}, 0.0501}});
@@ -17,12 +17,12 @@ int main() {
                              hinge::UniformClearance{0.0});
 
   const std::vector<double> up{0.0}, beside{-1.4}, beyond{-2.0};
-  hinge::CertifiedPath certified(arm);  // takes a copy
+  hinge::CertifiedPath certified(arm);  // copies the hierarchy
   const hinge::PathAnswer free = certified.check(up, beside);
   const hinge::PathAnswer hit = certified.check(up, beyond);
 
   hinge::Hierarchy asked = arm;
-  const double step = 0.0175;  // a degree
+  const double step = 0.0175;  // one degree in rad
   const bool found = !hinge::check_sampled(asked, up, beyond, step).is_free();
   asked.update(hit.configuration);
   const bool proved = free.verdict == hinge::PathVerdict::free;

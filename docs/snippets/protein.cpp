@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a file to verdicts.
+// From a structure file to collision results.
 #include <hinge/molecular/checker.hpp>
 #include <hinge/molecular/read_structure.hpp>
 #include <hinge/molecular/sampler.hpp>

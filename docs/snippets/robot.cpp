@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a description (a URDF file gives the same, with read_urdf) to verdicts, alone and among bodies.
+// From a robot description (read_urdf returns the same type) to collision results, for the robot alone and with
+// obstacles.
 #include <hinge/robotics/environment.hpp>
 #include <hinge/robotics/link_margins.hpp>
 #include <hinge/robotics/robot.hpp>
@@ -25,13 +26,13 @@ int main() {
                           .upper = 3.1});
   const auto robot = std::make_shared<const Robot>(arm);
 
-  // Neighbours across a joint are not tested; SRDF files switch off more pairs. Closer than 5 mm counts.
+  // Links joined by a joint are not tested; SRDF files exclude more pairs. Links closer than 5 mm collide.
   RobotChecker checker(robot, tested_pairs(*robot), LinkMargins(*robot, 0.005));
   const double q[] = {0.5, -2.0};
   checker.update(q);
   const bool straight_is_free = !checker.collides();
 
-  const double folded[] = {2.0 * std::numbers::pi / 3.0, 2.0 * std::numbers::pi / 3.0};  // a triangle
+  const double folded[] = {2.0 * std::numbers::pi / 3.0, 2.0 * std::numbers::pi / 3.0};  // the links form a triangle
   checker.update(folded);
   const bool folded_collides = checker.collides() && checker.colliding_links().size() == 1;
 
@@ -41,7 +42,7 @@ int main() {
   const double stretched[] = {0.0, 0.0};
   checker.update(stretched);
   const bool wall_is_hit = checker.collides(room);
-  room.set_pose(wall, {hinge::Mat3::Identity(), {1.0, 0, 0}});  // nothing is built anew
-  const auto gap = checker.closest(room);                       // link, body, distance, and a point on each
+  room.set_pose(wall, {hinge::Mat3::Identity(), {1.0, 0, 0}});  // no tree is rebuilt
+  const auto gap = checker.closest(room);                       // link, obstacle, distance, and a point on each
   return straight_is_free && folded_collides && wall_is_hit && gap && gap->distance > 0.7 ? 0 : 1;
 }

@@ -90,8 +90,7 @@ TEST(WideInFloat, LeavesOpenWhatIsAtItsThresholdAndCountsIt) {
   };
   using Answer = std::pair<std::size_t, std::uint64_t>;
   EXPECT_EQ(ask(Precision::exact, 0.0), Answer(0, 0));
-  EXPECT_EQ(ask(Precision::never_miss, 0.0),
-            Answer(1, 1));  // the side of points 1 and 2; the filter excludes points 0 and 1
+  EXPECT_EQ(ask(Precision::never_miss, 0.0), Answer(1, 1));  // points 1 and 2; points 0 and 1 are excluded
   EXPECT_EQ(ask(Precision::never_cry_wolf, 0.0), Answer(0, 1));
   EXPECT_EQ(ask(Precision::exact, 0x1p-30), Answer(1, 0));
   EXPECT_EQ(ask(Precision::never_cry_wolf, 0x1p-30), Answer(0, 1));

@@ -160,8 +160,7 @@ TEST(Laws, CatchAsymmetricFilters) {
 
 TEST(Laws, CatchListsOfAdmittedPairs) {
   expect_told(laws::check_pair_filter(LooseList{}, 6), {"primitives 2 and 5", "excluded(2)"});
-  const std::vector<LinkId> links(1000,
-                                  world);  // with this many links, pairs are sampled; listed pairs are always tested
+  const std::vector<LinkId> links(1000, world);  // so many that pairs are sampled, but listed pairs are all tested
   expect_told(laws::check_refinements(LooseList{}, links), {"primitives 2 and 5", "excluded(2)"});
 }
 

@@ -506,8 +506,7 @@ TEST(RelativeMotion, BoundsHowTurningChanges) {
   pass_joint(Joint{false, 3.0}, 0.1, std::sqrt(13.0), change);
   EXPECT_EQ(change.turning_change, 6.0);
   EXPECT_EQ(change.turning, std::sqrt(13.0) + 0.1 * 6.0);
-  pass_joint(Joint{true, 5.0}, 0.1, 0.0,
-             change);  // a prismatic joint adds no rotation, but earlier joints rotate its axis
+  pass_joint(Joint{true, 5.0}, 0.1, 0.0, change);  // adds no rotation, but earlier joints rotate its axis
   EXPECT_EQ(change.point, 2.0 * 5.0 * change.turning);
 }
 

@@ -119,8 +119,7 @@ inline TrianglePairSample sliver(Random& r) {
 inline TrianglePairSample zero_area(Random& r) {
   const auto flat = [&](const Triangle& t) {
     if (r.one_in(3)) return Triangle{t.a, t.a, t.a};
-    if (r.one_in(2))
-      return Triangle{t.a, t.a * 0.5 + t.b * 0.5, t.b};  // the midpoint is exact for the even coordinates below
+    if (r.one_in(2)) return Triangle{t.a, t.a * 0.5 + t.b * 0.5, t.b};  // exact for the even coordinates below
     return Triangle{t.a, t.b, t.a};
   };
   auto [p, q] = r.one_in(2) ? scaled(lattice(r), 2.0) : generic(r);
