@@ -122,6 +122,7 @@ Contestant engine(const Scene& scene, std::string name, bool from_poses) {
           [=](Query query, Answer& answer) { ask_hierarchy(*h, query, answer); }};
 }
 
+/// A contestant from a peer (see peers/peer.hpp); coordinates are passed outside the timed part.
 template <class Peer>
 Contestant peer(const Scene& scene, std::string name) {
   const auto p = std::make_shared<Peer>(scene.input());
@@ -165,6 +166,7 @@ inline Contestant fcl(const Scene& scene) {
 /// angstrom.
 inline double gap_tolerance(const Contestant& c) { return c.name == "fcl" ? 1e-9 : 0.0; }
 
+/// Whether the contestant can answer the query for this sampling.
 inline bool answers(const Contestant& c, Query query, Sampling sampling) {
   if (c.name != "fcl") return true;
   return query == Query::any || query == Query::all || (query == Query::closest && sampling == Sampling::near_free);

@@ -29,6 +29,7 @@ enum Mover : std::size_t { mover_moves, mover_full, mover_moved_only, mover_chai
 inline constexpr std::array<const char*, movers> mover_names = {"moves", "full", "moved-only", "chain-skip",
                                                                 "chain16-skip"};
 
+/// Counts and mean times of one walk.
 struct Walk {
   std::size_t steps = 0, accepted = 0, recalled = 0, full_queries = 0, differences = 0;
   double blocks = 0.0;              ///< moved per step

@@ -43,6 +43,7 @@ inline constexpr std::array<const char*, path_methods> path_method_names = {"cer
                                                                             "sampled-1deg", "sampled-5deg"};
 inline constexpr std::array<double, path_methods> path_steps = {0.0, 0.1, 1.0, 5.0};
 
+/// Verdicts and times of a set of paths.
 struct PathRow {
   int free = 0, colliding = 0, undecided = 0, wrong = 0;
   std::array<double, path_methods> free_us{}, colliding_us{};  // sums over paths

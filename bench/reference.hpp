@@ -17,6 +17,7 @@
 
 namespace hinge::bench {
 
+/// Brute force in double over one input.
 class Reference {
  public:
   explicit Reference(std::shared_ptr<const PeerInput> input)

@@ -93,6 +93,7 @@ inline molecular::BondExclusions exempt_native(const molecular::Molecule& molecu
   return {molecule.structure(), min_bonds, pairs};
 }
 
+/// Additive thresholds and exclusions for a structure.
 inline Protein make_protein(molecular::Structure structure) {
   auto molecule = std::make_shared<const molecular::Molecule>(std::move(structure));
   TypedThresholds thresholds = additive_thresholds(molecule->structure());
@@ -114,6 +115,7 @@ inline std::string shared_molecule(const std::string& name) {
 }
 inline std::string ubiquitin() { return std::string(HINGE_SOURCE_DIR) + "/molecular/data/1ubq.pdb"; }
 
+/// A protein file and the number of its free residues.
 struct Setup {
   std::string name;  ///< name in the output: "1mbn"
   std::string file;

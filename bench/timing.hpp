@@ -45,6 +45,7 @@ struct Series {
   double ratio() const { return us / simd_us; }
 };
 
+/// Times of all contestants for one set-up, sampling and query.
 struct Cell {
   std::vector<Series> series;  ///< the first contestant comes first; contestants without an answer are missing
   int conformations = 0;
@@ -52,6 +53,7 @@ struct Cell {
   int differences = 0;  ///< answers that differ from the first contestant's
 };
 
+/// Limits on the time and size of a cell.
 struct Limits {
   double seconds = 2.0;     ///< for the cell; divided evenly, so slow contestants get fewer conformations
   int conformations = 100;  ///< upper limit

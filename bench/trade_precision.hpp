@@ -23,6 +23,7 @@ namespace hinge::bench {
 inline constexpr std::array precisions = {Precision::exact, Precision::never_miss, Precision::never_cry_wolf};
 inline constexpr std::array precision_names = {"exact", "float, never miss", "float, never cry wolf"};
 
+/// Times and errors of one precision over all conformations.
 struct PrecisionTotals {
   std::array<double, 3> us{};                          // any, all, within: from torsion angles; mean of the best times
   std::uint64_t accepts = 0, rejects = 0;              // conformations wrongly called free, wrongly called colliding

@@ -20,6 +20,7 @@
 
 namespace hinge::bench {
 
+/// The search of BruteSimd.
 class BruteSearch {
  public:
   explicit BruteSearch(std::shared_ptr<const PeerInput> input) : rules_(std::move(input)) {

@@ -40,6 +40,7 @@ struct ScalarLeaves {
   static constexpr std::size_t points_per_leaf_log2 = 3;
 };
 
+/// The search of ChainTree. Leaves: LaneLeaves or ScalarLeaves.
 template <class Leaves>
 class ChainSearch {
  public:

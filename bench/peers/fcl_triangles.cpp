@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Calls FCL's triangle kernels, meshes and balls; FCL's headers stay in this file.
 #include "peers/fcl_triangles.hpp"
 
 #include <fcl/geometry/bvh/BVH_model.h>

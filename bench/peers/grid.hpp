@@ -18,6 +18,7 @@
 
 namespace hinge::bench {
 
+/// The search of Grid.
 class GridSearch {
  public:
   explicit GridSearch(std::shared_ptr<const PeerInput> input) : rules_(std::move(input)) {

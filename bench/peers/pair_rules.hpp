@@ -98,6 +98,7 @@ struct Task {
   std::uint32_t mask() const { return static_cast<std::uint32_t>(word >> 48); }
 };
 
+/// A growing list of tasks.
 class TaskList {
  public:
   /// Calls mask_of(i) for i = first .. last - 1 and keeps nonzero masks, without a branch.

@@ -85,6 +85,7 @@ inline robotics::Robot generated_robot(const SubjectKind& kind) {
   return Robot(std::move(description));
 }
 
+/// The shared robot, or its generated replacement, with `postures` random postures.
 inline Subject make_subject(const SubjectKind& kind, std::size_t postures) {
   if (std::filesystem::exists(test::shared_folder(kind.shared))) {
     test::LoadedRobot loaded = test::load_shared(kind.shared);

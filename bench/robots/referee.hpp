@@ -26,6 +26,7 @@ namespace hinge::bench {
 /// manufacturing tolerance.
 inline constexpr double touching = 1e-9;
 
+/// Counts differences between Hinge and other contestants on one robot.
 class Referee {
  public:
   using Fcl = FclPeer<oracle::FclBuild::debian>;

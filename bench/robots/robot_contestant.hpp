@@ -30,6 +30,7 @@ inline constexpr RobotQuery robot_queries[] = {RobotQuery::any, RobotQuery::all,
 inline constexpr const char* robot_query_names[] = {"robot-any", "robot-all", "robot-distance", "robot-environment"};
 inline const char* name(RobotQuery q) { return robot_query_names[static_cast<std::size_t>(q)]; }
 
+/// The answer to one query; a query sets only its own field.
 struct RobotAnswer {
   bool hit = false;
   double distance = std::numeric_limits<double>::infinity();  ///< m

@@ -22,6 +22,7 @@
 
 namespace hinge::bench {
 
+/// Extent of a benchmark run.
 struct RobotRun {
   std::size_t postures = 200;
   double seconds = 3.0;  ///< for each query of each robot

@@ -40,6 +40,7 @@ struct TierCase {
   LinkPairs disabled;
 };
 
+/// The shared robots, or generated ones if the shared data is absent.
 inline std::vector<TierCase> tier_cases() {
   std::vector<TierCase> cases;
   for (const test::SharedRobot& shared : test::shared_robots()) {
@@ -118,6 +119,7 @@ inline TierAnswers ask_tier(const RobotDescription& exact, Tier tier, const Link
   return answers;
 }
 
+/// Errors of one tier relative to the exact meshes.
 struct TierErrors {
   int colliding = 0, false_accepts = 0, false_rejects = 0;
   double mean = 0.0, largest = 0.0;  // errors of the distances, m
@@ -139,6 +141,7 @@ inline TierErrors compare(const TierAnswers& exact, const TierAnswers& given) {
   return e;
 }
 
+/// Compares all tiers of one robot at `count` configurations.
 inline void trade_tiers(const TierCase& scene, std::size_t count, Results& results) {
   const Robot exact(scene.description);
   const LinkPairs tested = tested_pairs(exact, scene.disabled);
@@ -186,6 +189,7 @@ inline void trade_tiers(const TierCase& scene, std::size_t count, Results& resul
   }
 }
 
+/// Compares all tiers of all robots.
 inline void trade_tiers(std::size_t count, Results& results) {
   std::printf(
       "\nrobots, tiers against exact meshes; configurations uniform in the joint limits, seed %llu\n"

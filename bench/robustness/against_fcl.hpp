@@ -35,6 +35,7 @@ inline constexpr std::uint64_t robustness_seed = 2005;
 /// dominates the error.
 inline constexpr double apart_share = 1e-6;
 
+/// The exact answer for one pair.
 struct Judged {
   bool touch = false;
   Exact distance = 0;
@@ -106,6 +107,7 @@ struct SameNumber {
   }
 };
 
+/// Runs all contestants on one family of pairs and tallies their errors.
 class FamilyRun {
  public:
   FamilyRun(const test::TriangleFamily& family, std::uint64_t number)

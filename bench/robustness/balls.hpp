@@ -19,6 +19,7 @@
 
 namespace hinge::bench {
 
+/// Two balls or atoms and a threshold.
 struct BallPair {
   Vec3 p, q;
   double r, s;  ///< radii; as atoms, the pair collides if the distance is below m
@@ -60,6 +61,7 @@ inline BallPair beside_tie(test::Random& random, double size) {
   return pair;
 }
 
+/// Counts wrong decisions of each contestant on `cases` pairs per family.
 inline std::vector<Json> run_balls(std::size_t cases) {
   using Rational = boost::multiprecision::cpp_rational;
   struct Family {

@@ -16,6 +16,7 @@
 
 namespace hinge::bench {
 
+/// A point with plain double decisions.
 struct PlainPoint {
   Point point;
   static constexpr bool is_point_like = IsPointLike<Point>;  ///< engines may skip the same pairs

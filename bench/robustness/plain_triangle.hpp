@@ -26,6 +26,7 @@ namespace plain_double {
 
 using Heights = std::array<double, 3>;
 
+/// Heights of `points` above the plane of t, times the length of its normal.
 inline Heights heights(const detail::Corners& t, const detail::Corners& points) noexcept {
   const Vec3 normal = cross(Vec3(t[1] - t[0]), Vec3(t[2] - t[0]));
   return {dot(normal, Vec3(points[0] - t[0])), dot(normal, Vec3(points[1] - t[0])),
@@ -44,6 +45,7 @@ inline detail::Cut cut(const Heights& h) noexcept {
   return {lone, above(lone)};
 }
 
+/// Whether two coplanar triangles share a point.
 inline bool in_plane(const detail::Corners& x, const detail::Corners& y, const Vec3& normal) noexcept {
   int axis = 0;
   for (int k = 1; k < 3; ++k)
@@ -64,6 +66,7 @@ inline bool in_plane(const detail::Corners& x, const detail::Corners& y, const V
   return holds(x, y[0]) || holds(y, x[0]);
 }
 
+/// Whether two triangles share a point, by computed signs.
 inline bool intersect(const detail::Corners& x, const detail::Corners& y) noexcept {
   const Heights of_x = heights(y, x);
   if (one_side(of_x)) return false;
@@ -88,6 +91,7 @@ inline bool intersect(const detail::Corners& x, const detail::Corners& y) noexce
 
 }  // namespace plain_double
 
+/// A triangle with plain double decisions.
 struct PlainTriangle {
   Triangle triangle;
 

@@ -34,6 +34,7 @@ inline const char* name(Question q) {
   return names[static_cast<std::size_t>(q)];
 }
 
+/// The answer to one question.
 struct Reply {
   bool hit = false;
   double distance = 0.0;
@@ -61,6 +62,7 @@ void ask(H& model, Question question, double margin, Reply& reply) {
   }
 }
 
+/// Times and differences of exact and plain decisions.
 struct Price {
   double us = 0.0;               ///< time of a query with exact decisions, median of the rounds
   double ratio = 0.0;            ///< exact time over plain time, median of the rounds

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Aabb: outward rounding, extension, inflation, separation and overlap.
 #include "hinge/bounds/aabb.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Philox against published answers, and the distribution of SampleStream.
 #include "hinge/core/philox.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// detail::sincos against libm, at hard arguments, and its bits.
 #include "hinge/detail/core/sincos.hpp"
 
 #include <gtest/gtest.h>

@@ -14,6 +14,7 @@
 
 namespace hinge::test {
 
+/// Whether `hits` contains all pairs of `wanted`; both lists are sorted.
 inline bool names_all(const std::vector<Hit>& hits, const std::vector<Hit>& wanted) {
   return std::includes(hits.begin(), hits.end(), wanted.begin(), wanted.end(), [](const Hit& x, const Hit& y) {
     return std::tie(x.first, x.second) < std::tie(y.first, y.second);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The trees of engine/lazy: shape, depth on clustered input, and traversal.
 #include "hinge/detail/engine/lazy_tree.hpp"
 
 #include <gtest/gtest.h>

@@ -19,6 +19,7 @@
 
 namespace hinge::test {
 
+/// A seeded generator; vector(s) has components in -s .. s, pose(s) any rotation and such a translation.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -82,6 +83,7 @@ struct UnlistedPairs {
 
 static_assert(PairFilter<UnlistedPairs> && !ListsExclusions<UnlistedPairs>);
 
+/// Thresholds for n primitives of three random types; about one entry in five is 0.
 inline TypedThresholds random_thresholds(std::size_t n, Random& random) {
   constexpr std::size_t types = 3;
   std::vector<std::uint16_t> type(n);
@@ -120,6 +122,7 @@ auto random_model(Random& random, std::size_t links, std::size_t per_link, bool 
   return builder.finish();
 }
 
+/// About two thirds of the DOF of `tree`.
 inline DofSelection random_selection(const KinematicTree& tree, Random& random) {
   std::vector<DofId> free;
   for (std::size_t k = 0; k < tree.dof_count(); ++k)

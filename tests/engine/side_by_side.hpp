@@ -19,6 +19,7 @@
 
 namespace hinge::test {
 
+/// A random primitive in the frame of a link; some are on the joint axis (direction `axis`, through `point`).
 template <class P>
 P make_primitive(Random& random, const Vec3& axis, const Vec3& point);
 
@@ -122,6 +123,7 @@ class Pair {
   }
 };
 
+/// Compares all queries of EngineOf with brute force in several states, set through every kind of update.
 template <class P, class F, template <class, class, class> class EngineOf>
 void compare_with_brute(Random& random, const F& filter, const Model<P>& model) {
   const auto matrix = random_thresholds(model.size(), random);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// SweptBall: bounds of a ball moved by a chain of joints, against sampled joint values.
 #include "hinge/detail/kinematics/swept_ball.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Outline: bounds of the speeds of many points, against the speed of each point.
 #include "hinge/detail/path/outline.hpp"
 
 #include <gtest/gtest.h>

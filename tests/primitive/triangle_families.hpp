@@ -64,6 +64,7 @@ inline TrianglePairSample generic(Random& r) {
   return {t, any_triangle(r)};
 }
 
+/// A corner that touches the other triangle up to rounding.
 inline TrianglePairSample vertex_face(Random& r) {
   const Triangle t = any_triangle(r);
   const Vec3 at = nudged(r, inside(r, t));
@@ -84,6 +85,7 @@ inline Vec3 whole_vector(Random& r, std::size_t below) {
   return {x, y, z};
 }
 
+/// Corners with small integer coordinates.
 inline TrianglePairSample lattice(Random& r) {
   const auto t = [&] {
     const Vec3 a = whole_vector(r, 5), b = whole_vector(r, 5);
@@ -103,6 +105,7 @@ inline TrianglePairSample coplanar(Random& r, const Vec3& u, const Vec3& v) {
   return {{p[0], p[1], p[2]}, {p[3], p[4], p[5]}};
 }
 
+/// A triangle whose third corner is about 1e-16 to 0.1 from the edge of the others.
 inline Triangle sliver_of(Random& r) {
   const Vec3 a = unit_vector(r), b = unit_vector(r);
   return {a, b, Vec3(along(r, a, b) + unit_vector(r) * std::pow(10.0, r.uniform(-16.0, -1.0)))};
@@ -152,6 +155,7 @@ inline TrianglePairSample near_parallel_edges(Random& r) {
   return {{a, a + u, Vec3(a - side + 0.5 * u)}, {start + gap, start + gap + u + turn, Vec3(start + side + 0.3 * u)}};
 }
 
+/// Triangles of sizes that differ by a factor of 1 to 1e9, with a shared origin.
 inline TrianglePairSample mixed_scale(Random& r) {
   auto [p, q] = third_of_each(r);
   const double f = std::pow(10.0, r.uniform(0.0, 9.0));
