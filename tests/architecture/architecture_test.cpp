@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The floor table and the house rules, read off every file; and that a planted breach of each is caught.
+// Tests the floor table and the house rules on every file, and that planted violations are found.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -30,7 +30,7 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
-/// The real tree must be found, or every test below would pass on nothing.
+/// If the source tree were not found, all tests below would pass on nothing.
 TEST(SourceTree, FindsTheLibrary) {
   const SourceTree tree = library();
   EXPECT_GE(tree.size(), 40U);
@@ -51,7 +51,7 @@ TEST(PublicFace, NamesNothingPrivate) { EXPECT_EQ(joined(architecture::private_n
 
 TEST(PublicFace, IsOneIncludeAway) { EXPECT_EQ(joined(architecture::not_under_umbrella(library())), ""); }
 
-/// Examples, pages and the program that links an installed library.
+/// Checks examples, pages and the program that links an installed library.
 TEST(PublicFace, IsAllThatUsersAreShown) {
   SourceTree shown = architecture::read_sources(root, {"docs", "tests/consumer"}, {".hpp", ".cpp", ".md"});
   EXPECT_GE(shown.size(), 10U);
@@ -72,7 +72,7 @@ TEST(Conventions, EveryConceptHasANonModel) {
 
 TEST(Conventions, TopLevelHoldsNothingElse) { EXPECT_EQ(joined(architecture::strangers_at_top(root)), ""); }
 
-/// Presets that share a build folder take each other's programs away.
+/// Presets with the same build folder would overwrite each other's programs.
 TEST(Presets, HaveAFolderEach) {
   std::ifstream in(root / "CMakePresets.json");
   const std::string text{std::istreambuf_iterator<char>(in), {}};
@@ -89,7 +89,7 @@ TEST(Presets, HaveAFolderEach) {
   EXPECT_GE(folders.size(), 2U);
 }
 
-/// One file planted into a small sound tree, and how many breaches it makes.
+/// Returns the number of violations after planting one line into a small valid tree.
 std::size_t floor_breaches(const std::string& path, const std::string& line) {
   SourceTree tree = {{"include/hinge/version.hpp", {}},          {"include/hinge/core/vec3.hpp", {}},
                      {"include/hinge/policy/primitive.hpp", {}}, {"include/hinge/kinematics/joint.hpp", {}},
@@ -146,7 +146,7 @@ TEST(PlantedInclude, OracleOutsideItsFolderIsCaught) {
   EXPECT_EQ(architecture::oracle_violations({{"tests/oracle/x.cpp", lines}}).size(), 0U);
 }
 
-/// Private names that a public header with this text shows.
+/// Returns the number of private names in a public header with this text.
 std::size_t shown_by(const std::string& text, const std::string& path = "include/hinge/core/x.hpp") {
   std::vector<std::string> lines;
   std::istringstream in(text);
@@ -179,7 +179,7 @@ TEST(PlantedPrivateName, IncludeIsCaught) {
   EXPECT_EQ(architecture::private_includes({{"README.md", {"#include <hinge/hierarchy.hpp>"}}}).size(), 0U);
 }
 
-/// Breaches of a header that is sound but for its name and the lines added.
+/// Returns the number of violations of a header that is valid except for its name and the added lines.
 std::size_t convention_breaches(const std::string& path, const std::vector<std::string>& more) {
   std::vector<std::string> lines = {"// SPDX-License-Identifier: BSD-3-Clause", "// A pin.", "#pragma once"};
   lines.insert(lines.end(), more.begin(), more.end());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every source file keeps to: length, opening lines, names, macros, and where knowledge of a CPU may live.
+// House rules of every source file: length, first lines, names, macros, and where code may depend on the CPU.
 #pragma once
 
 #include <filesystem>
@@ -12,10 +12,10 @@
 
 namespace architecture {
 
-/// A file has one verb or noun; longer ones have two.
+/// A file has one verb or noun; a longer file has two.
 inline constexpr std::size_t longest_file = 300;
 
-/// Every breach in files of the library and its modules, one sentence each.
+/// Returns one sentence per violation in files of the library and its modules.
 inline std::vector<std::string> convention_violations(const SourceTree& tree) {
   static const std::regex isa(R"re(^\s*#.*(__AVX|__SSE|__FMA__|__ARM_NEON|__BMI|intrin\.h))re");
   static const std::regex macro(R"re(^\s*#\s*define\s+(\w+))re");
@@ -48,7 +48,7 @@ inline std::vector<std::string> convention_violations(const SourceTree& tree) {
   return violations;
 }
 
-/// Concepts of the library that tests/static does not show a non-model of, "!Concept<...>".
+/// Returns the concepts of the library without a non-model "!Concept<...>" in tests/static.
 inline std::vector<std::string> untested_concepts(const SourceTree& library, const SourceTree& tests) {
   static const std::regex concept_name(R"re(^\s*concept\s+(\w+))re");
   std::string text;
@@ -64,7 +64,7 @@ inline std::vector<std::string> untested_concepts(const SourceTree& library, con
   return untested;
 }
 
-/// Includes of libraries that serve as oracles, outside the folders made for them.
+/// Returns includes of oracle libraries outside the folders that may use them.
 inline std::vector<std::string> oracle_violations(const SourceTree& tree) {
   std::vector<std::string> violations;
   for (const auto& [path, lines] : tree) {
@@ -78,7 +78,7 @@ inline std::vector<std::string> oracle_violations(const SourceTree& tree) {
   return violations;
 }
 
-/// Names at the top of the repository that have no business there. Dot files and the build folder are free.
+/// Returns unexpected names in the root folder of the repository. Dot files and the build folder are allowed.
 inline std::vector<std::string> strangers_at_top(const std::filesystem::path& root) {
   static const std::set<std::string> known = {
       "CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "run",  "include",

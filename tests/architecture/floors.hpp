@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The floor table: which folder may include which. A folder sees only folders on lower floors, and itself.
+// The floor table: which folder may include which. A folder may include only itself and folders on lower floors.
 #pragma once
 
 #include <map>
@@ -11,10 +11,10 @@
 
 namespace architecture {
 
-/// Folder or file under include/hinge, or module beside it, to its floor. Folders on one floor are blind to each other;
-/// the engines see what they share in engine/ itself. version.hpp is free: seen by all, seeing none. What stands under
-/// include/hinge/detail is on the floor of its public folder. The core is below hinge_tools, which serves the tools and
-/// is not installed.
+/// Floor of each folder or file under include/hinge and of each module. Folders on one floor may not include each
+/// other; engines share code in engine/ itself. Every file may include version.hpp, which includes nothing. Folders
+/// under include/hinge/detail are on the floor of their public folder. The core is below hinge_tools, which serves the
+/// tools and is not installed.
 inline const std::map<std::string, int>& floors() {
   static const std::map<std::string, int> table = [] {
     const std::vector<std::vector<std::string>> by_floor = {{"core"},
@@ -39,7 +39,7 @@ inline const std::map<std::string, int>& floors() {
   return table;
 }
 
-/// The row of the table a file belongs to, or "" when it has none. `path` is from the root of the repository.
+/// Returns the row of the table of a file, or "" if there is none. `path` is relative to the root of the repository.
 inline std::string row_of(const std::string& path) {
   for (const char* module : {"molecular", "robotics"}) {
     if (path.starts_with(std::string(module) + "/")) return module;
@@ -52,7 +52,7 @@ inline std::string row_of(const std::string& path) {
   // The public header engine/x.hpp and the folder detail/engine/x are one row.
   if (row.starts_with("engine/") && row.ends_with(".hpp") && floors().contains(row.substr(0, row.size() - 4)))
     return row.substr(0, row.size() - 4);
-  // A folder without a row of its own belongs to the one it is in.
+  // A folder without its own row belongs to its parent folder.
   while (!floors().contains(row)) {
     const std::size_t slash = row.rfind('/');
     if (slash == std::string::npos) return "";
@@ -61,10 +61,10 @@ inline std::string row_of(const std::string& path) {
   return row;
 }
 
-/// The path from the root of the repository that a quoted include names, or "" when no such file is in the tree.
+/// Returns the path of a quoted include from the root of the repository, or "" if no such file is in the tree.
 inline std::string resolve(const SourceTree& tree, const std::string& from, const std::string& name) {
   std::vector<std::string> roots = {"include/", "molecular/include/", "robotics/include/"};
-  for (const char* module : {"molecular/", "robotics/"}) {  // src is a root for its own module alone
+  for (const char* module : {"molecular/", "robotics/"}) {  // src is an include path only for its own module
     if (from.starts_with(module)) roots.push_back(std::string(module) + "src/");
   }
   for (const std::string& root : roots) {
@@ -75,8 +75,8 @@ inline std::string resolve(const SourceTree& tree, const std::string& from, cons
   return !is_public && tree.contains(beside) ? beside : "";
 }
 
-/// Every include that climbs, crosses a floor, names a foreign library out of place or leads nowhere; one sentence
-/// each.
+/// Returns one sentence per include that goes to a higher floor, to another folder on the same floor, to a foreign
+/// library out of place, or to no file.
 inline std::vector<std::string> floor_violations(const SourceTree& tree) {
   std::vector<std::string> violations;
   for (const auto& [path, lines] : tree) {
@@ -113,7 +113,7 @@ inline std::vector<std::string> floor_violations(const SourceTree& tree) {
   return violations;
 }
 
-/// The files on a circle of includes, empty when there is none.
+/// Returns the files of an include cycle; empty if there is none.
 inline std::vector<std::string> include_circle(const SourceTree& tree) {
   std::set<std::string> finished;
   std::vector<std::string> open;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boundary between public and private: no public declaration names something of hinge::detail, and what is shown
-// to users includes public headers only.
+// The boundary between public and private: no public declaration names anything in hinge::detail, and examples and
+// pages include public headers only.
 #pragma once
 
 #include <regex>
@@ -18,7 +18,7 @@ inline bool is_public_header(const std::string& path) {
          starts_with_any(path, {"include/hinge/", "molecular/include/", "robotics/include/"});
 }
 
-/// One text without comments, preprocessor lines, and what strings and characters hold.
+/// Returns the text without comments, preprocessor lines, strings and character literals.
 inline std::string bare_code(const std::vector<std::string>& lines) {
   static const std::regex noise(R"re(//.*|"(\\.|[^"\\])*"|'(\\.|[^'\\])'|^\s*#.*)re");
   std::string text;
@@ -26,8 +26,8 @@ inline std::string bare_code(const std::vector<std::string>& lines) {
   return text;
 }
 
-/// Declarations that users of a header can name: at namespace scope and in public parts of classes, each without its
-/// body, its initialisers and its default value. Definitions of members outside of their class are left out.
+/// Declarations that users of a header can name: at namespace scope and in public sections of classes, without bodies,
+/// initialisers and default values. Definitions of members outside their class are left out.
 class PublicDeclarations {
  public:
   explicit PublicDeclarations(std::string_view code) {
@@ -95,7 +95,7 @@ class PublicDeclarations {
   int parentheses_ = 0;
 };
 
-/// Public declarations that name something of hinge::detail, one sentence each.
+/// Returns one sentence per public declaration that names something in hinge::detail.
 inline std::vector<std::string> private_names_in_public(const SourceTree& tree) {
   static const std::regex space(R"re(\s+)re");
   std::vector<std::string> violations;
@@ -109,7 +109,7 @@ inline std::vector<std::string> private_names_in_public(const SourceTree& tree) 
   return violations;
 }
 
-/// Public headers that the umbrella of their folder leaves out. batch/ensemble.hpp needs TBB and is included by itself.
+/// Returns public headers that the umbrella header of their folder omits. batch/ensemble.hpp needs TBB and is separate.
 inline std::vector<std::string> not_under_umbrella(const SourceTree& tree) {
   std::vector<std::string> missing;
   for (const std::string folder :
@@ -126,7 +126,7 @@ inline std::vector<std::string> not_under_umbrella(const SourceTree& tree) {
   return missing;
 }
 
-/// Lines of examples, outside programs and pages that include a private header, one sentence each.
+/// Returns one sentence per line of examples, outside programs and pages that includes a private header.
 inline std::vector<std::string> private_includes(const SourceTree& shown) {
   static const std::regex pattern(R"re(#\s*include\s*[<"](hinge/detail/|hinge_tools/))re");
   std::vector<std::string> violations;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The repository's sources as the architecture tests see them: path, lines, and what each file includes.
+// The repository's sources for the architecture tests: path, lines, and includes of each file.
 #pragma once
 
 #include <filesystem>
@@ -12,10 +12,10 @@
 
 namespace architecture {
 
-/// Path from the root of the repository, with '/', to the file's lines. Tests plant files that are not there.
+/// Path from the root of the repository, with '/', to the lines of the file. Tests also plant files that do not exist.
 using SourceTree = std::map<std::string, std::vector<std::string>>;
 
-/// An #include as written: the name, and whether it stood in quotes.
+/// An #include as written: the name, and whether it is in quotes.
 struct Include {
   std::string name;
   bool quoted = false;

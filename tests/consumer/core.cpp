@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a project that uses the core does: two unit boxes, one apart and one touching, and a filter of its own that is
-// asked whether it keeps the laws.
+// A program that uses the core: boxes that touch and boxes that do not, and the laws of its own pair filters.
 #include "hinge/bounds/aabb.hpp"
 #include "hinge/policy/laws.hpp"
 #include "hinge/version.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a project that uses the component does: include its headers and call into its library.
+// A program that uses the molecular component: it includes its headers and calls its library.
 #include "hinge/bounds/aabb.hpp"
 #include "hinge/molecular/structure.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs every command of README and the tutorials as a user does after ./run build, and compares what it prints with
-// what stands under it. HINGE_UPDATE_DOCS=1 writes the new output into the page, with "..." for rates.
+// Runs every command of README and the tutorials as a user does after ./run build, and compares the output with the
+// page. HINGE_UPDATE_DOCS=1 writes the new output into the page, with "..." for rates.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -33,7 +33,7 @@ std::vector<std::string> read_lines(const fs::path& path) {
   return lines_of(text.str());
 }
 
-/// A folder that looks like a clone after ./run build, so that commands run as they stand and write into no checkout.
+/// Returns a folder like a clone after ./run build: commands run unchanged and do not write into the source tree.
 fs::path make_clone(const std::string& name) {
   const fs::path folder = fs::temp_directory_path() / ("hinge_docs_" + name + std::to_string(getpid()));
   fs::remove_all(folder);
@@ -43,7 +43,7 @@ fs::path make_clone(const std::string& name) {
   return folder;
 }
 
-/// Standard output and standard error together, as a terminal shows them.
+/// Returns standard output and standard error in one text, as a terminal shows them.
 Said run(const std::string& command, const fs::path& folder) {
   const fs::path script = folder / "command.sh";
   std::ofstream(script) << "exec 2>&1\ncd '" << folder.string() << "'\n" << command << "\n";
@@ -56,7 +56,7 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
-/// Rates differ from run to run.
+/// Replaces rates by "...", because they differ from run to run.
 std::string without_rates(const std::string& line) {
   static const std::regex rate("[0-9]+ ((conformations |steps )?per second)");
   return std::regex_replace(line, rate, "... $1");
@@ -70,7 +70,7 @@ TEST_P(DocumentedCommands, PrintWhatThePageShows) {
   const std::vector<ConsoleCommand> commands = console_commands(page);
   ASSERT_FALSE(commands.empty()) << path << " has no command that can be run";
   const fs::path folder = make_clone(path.stem().string());
-  std::ptrdiff_t grown = 0;  // lines that updates have added to the page so far
+  std::ptrdiff_t grown = 0;  // lines that updates have added to the page
   for (const ConsoleCommand& shown : commands) {
     const Said said = run(shown.command, folder);
     const std::vector<std::string> output = lines_of(said.out);

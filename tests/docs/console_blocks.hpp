@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Console blocks of Markdown pages: commands, and the output that stands under them.
+// Reads console blocks of Markdown pages: commands and their output.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,12 @@
 
 namespace hinge::test {
 
-/// One command of a block that opens with ```console. A command is a line that begins with "$ ", and the lines after it
-/// while it ends with a backslash.
+/// One command of a block that starts with ```console. A command is a line that starts with "$ ", with the following
+/// lines as long as it ends with a backslash.
 struct ConsoleCommand {
-  std::size_t line = 0;          ///< of the command in the page, from 1
+  std::size_t line = 0;          ///< line of the command in the page, from 1
   std::string command;           ///< for a shell, without "$ "
-  std::size_t first_output = 0;  ///< position of the first line of output in the page's lines, from 0
+  std::size_t first_output = 0;  ///< index of the first line of output in the page's lines, from 0
   std::vector<std::string> output;
 };
 
@@ -53,7 +53,7 @@ inline std::vector<ConsoleCommand> console_commands(const std::vector<std::strin
   return commands;
 }
 
-/// Is `actual` the line that `expected` shows? "..." stands for any text, also none.
+/// Does `actual` match the line `expected`? "..." matches any text, including none.
 inline bool line_matches(std::string_view expected, std::string_view actual) {
   const std::size_t gap = expected.find("...");
   if (gap == std::string_view::npos) return expected == actual;
@@ -64,7 +64,7 @@ inline bool line_matches(std::string_view expected, std::string_view actual) {
   return false;
 }
 
-/// The same of whole outputs, from the given lines on. A line of "..." alone stands for any number of lines.
+/// Compares whole outputs from the given lines on. A line "..." matches any number of lines.
 inline bool output_matches(const std::vector<std::string>& expected, const std::vector<std::string>& actual,
                            std::size_t e = 0, std::size_t a = 0) {
   for (; e < expected.size(); ++e, ++a) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of extremes, atoms: one test per row, on all three engines.
+// Tests extremes of atoms on all three engines, one test per row of the table of extremes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ TEST(Atoms, WithAThresholdOfZeroNeverHitEvenWhenCoincident) {
     EXPECT_TRUE(engine.within(0.0, {}).empty());
     EXPECT_EQ(engine.closest({}).value().gap(), 0.0);
   }
-  // Types without thresholds among others: only the others count, but for those within a margin.
+  // A type has only thresholds of 0: with margin 0 only atoms of the other type collide.
   Random random(1);
   const std::size_t n = 1000;
   ModelBuilder<Point> builder;
@@ -50,7 +50,7 @@ TEST(Atoms, WithAThresholdOfZeroNeverHitEvenWhenCoincident) {
     options.counts = &counts;
     EXPECT_EQ(engine.within(0.0, options), expected);
     if (engine.name == "lazy") {
-      EXPECT_LT(counts.pairs_tested, n * n / 200);  // the 100 alone
+      EXPECT_LT(counts.pairs_tested, n * n / 200);  // only the 100 atoms of type 1 are tested
     }
     EXPECT_EQ(engine.within(1e-3, {}).size(), engines.front().within(1e-3, {}).size());
   }
@@ -97,7 +97,7 @@ TEST(Atoms, CoincidentOnesAreAtDistanceZeroAndHit) {
 
 TEST(Atoms, AtTheThresholdAreFreeAndOneUlpDecides) {
   const double up = std::numeric_limits<double>::infinity();
-  // Exact distances: 5, 7, 9 and 1, times a power of two.
+  // The distances are exact: 5, 7, 9 and 1, times a power of two.
   for (const Vec3& d : {Vec3(3, 4, 0), Vec3(2, 3, 6), Vec3(1, 4, 8), Vec3(0, 0, 1)})
     for (const int e : {-500, -40, 0, 40, 500}) {
       const double m = std::ldexp(std::sqrt(squared_norm(d)), e);
@@ -115,7 +115,7 @@ TEST(Atoms, AtTheThresholdAreFreeAndOneUlpDecides) {
 
 __extension__ using Int128 = __int128;
 
-/// The real distance of doubles in [1, 2) against a threshold in [0.5, 1): all are whole multiples of 2^-53.
+/// Returns the exact verdict for coordinates in [1, 2) and a threshold in [0.5, 1): all are multiples of 2^-53.
 bool truly_closer(const Vec3& a, const Vec3& b, double m) {
   const auto whole = [](double x) { return static_cast<Int128>(std::ldexp(x, 53)); };
   Int128 square = 0;
@@ -126,7 +126,7 @@ bool truly_closer(const Vec3& a, const Vec3& b, double m) {
 TEST(Atoms, AtDecimalTiesEqualTheExactAnswerOnTheStoredDoubles) {
   Random random(3);
   struct Tie {
-    int x, y, z, m;  // thousandths
+    int x, y, z, m;  // in thousandths
   };
   const std::vector<Tie> ties = {{300, 400, 0, 500}, {360, 480, 0, 600},   {200, 300, 600, 700},
                                  {480, 640, 0, 800}, {100, 400, 800, 900}, {0, 0, 700, 700}};
@@ -152,7 +152,7 @@ TEST(Atoms, AtDecimalTiesEqualTheExactAnswerOnTheStoredDoubles) {
       EXPECT_TRUE(found == expected) << engine.name << " " << m;
     }
   }
-  EXPECT_GT(closer, ties_tried / 5);  // the doubles fall on either side
+  EXPECT_GT(closer, ties_tried / 5);  // rounding puts ties on both sides of the threshold
   EXPECT_LT(closer, ties_tried * 4 / 5);
 }
 
@@ -175,14 +175,14 @@ TEST(Atoms, OnALatticeAtTheThresholdAreFreeAndAllNeighboursHitOneUlpAbove) {
   expect(std::nextafter(1.25, 2.0), neighbours);
 }
 
-/// Moving whole numbers far away or scaling by a power of two changes no answer, as long as doubles hold the result.
+/// Translating integer coordinates or scaling by a power of two changes no answer if doubles hold the result exactly.
 TEST(Atoms, FarAwayHugeTinyAndDenormalEqualTheExactAnswer) {
   Random random(4);
   std::vector<Vec3> base;
   for (int k = 0; k < 300; ++k)
     base.emplace_back(static_cast<double>(random.below(40)), static_cast<double>(random.below(40)),
                       static_cast<double>(random.below(40)));
-  const double m = 5.0;  // of whole coordinates: ties in number
+  const double m = 5.0;  // integer coordinates give many ties
   const auto pairs = [](const std::vector<Hit>& hits) {
     std::vector<std::pair<PrimitiveId, PrimitiveId>> both;
     for (const Hit& hit : hits) both.emplace_back(hit.first, hit.second);

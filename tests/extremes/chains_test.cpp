@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of extremes, chains: strange angles, a hundred thousand joints, a hundred thousand (or a million) updates.
+// Tests extremes of chains: extreme angles, 100 000 joints, 100 000 updates (a million with HINGE_TEST_ALL).
 #include <gtest/gtest.h>
 
 #include <array>
@@ -25,7 +25,7 @@ using test::Random;
 static_assert(std::numeric_limits<long double>::digits >= 64,
               "the reference of these tests has to be finer than double");
 
-/// A placement in extended precision: forward kinematics as the textbook has it, sharing no code.
+/// A pose in extended precision: textbook forward kinematics that shares no code with the library.
 struct Reference {
   using Real = long double;
   std::array<std::array<Real, 3>, 3> r{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
@@ -35,7 +35,7 @@ struct Reference {
     for (std::size_t i = 0; i < 3; ++i)
       for (int k = 0; k < 3; ++k) t[i] += r[i][static_cast<std::size_t>(k)] * static_cast<Real>(by[k]);
   }
-  /// About a coordinate axis.
+  /// Rotates about a coordinate axis.
   void turn(std::size_t axis, double angle) {
     const Real s = std::sin(static_cast<Real>(angle)), c = std::cos(static_cast<Real>(angle));
     const std::size_t a = (axis + 1) % 3, b = (axis + 2) % 3;
@@ -47,14 +47,14 @@ struct Reference {
   }
 };
 
-constexpr double bond = 1.45;  // as in a protein's backbone, angstrom
+constexpr double bond = 1.45;  // angstrom, as in a protein backbone
 
 struct Chain {
   Model<Point> model;
   std::vector<std::size_t> axes;
 };
 
-/// A point at the end of each link.
+/// A chain with one point at the end of each link.
 Chain chain(std::size_t joints, Random& random) {
   ModelBuilder<Point> builder;
   std::vector<std::size_t> axes;
@@ -70,7 +70,7 @@ Chain chain(std::size_t joints, Random& random) {
   return {builder.finish(), axes};
 }
 
-/// Largest distance of a placed point from where exact kinematics has it.
+/// Returns the largest distance of a placed point from its position in extended precision.
 double largest_error(const Chain& chain, const std::vector<double>& q, std::span<const Point> placed) {
   Reference reference;
   long double largest = 0.0L;
@@ -135,7 +135,7 @@ TEST(Chains, OfAHundredThousandJointsAreExactToABillionthWithoutRecursion) {
   }
 }
 
-/// Groups of twenty points, which engine/simd keeps in their own frames, and of two, which share blocks.
+/// Groups of twenty points, for which the SIMD engine keeps local frames, and groups of two, which share blocks.
 Model<Point> mixed_chain(Random& random) {
   ModelBuilder<Point> builder;
   LinkId parent = world;
@@ -150,7 +150,7 @@ Model<Point> mixed_chain(Random& random) {
   return builder.finish();
 }
 
-/// The state last given, so that a fresh engine can be brought there at once.
+/// The latest state, so that a fresh engine can be set to it directly.
 struct State {
   std::vector<double> q;
   std::vector<Pose> poses;
@@ -176,7 +176,7 @@ void expect_same_bits(AnyEngine<Point>& engine, AnyEngine<Point>& fresh) {
 }
 
 TEST(Chains, AfterAHundredThousandUpdatesEqualAFreshModelBitForBit) {
-  const std::size_t updates = test::exhaustive() ? 1000000 : 100000, rest = 1009;  // one look in so many updates
+  const std::size_t updates = test::exhaustive() ? 1000000 : 100000, rest = 1009;  // updates between two comparisons
   for (std::size_t e = 0; e < 3; ++e) {
     Random random(3);
     std::cout << "seed 3\n";
@@ -197,14 +197,14 @@ TEST(Chains, AfterAHundredThousandUpdatesEqualAFreshModelBitForBit) {
         state.placed.assign(now.begin(), now.end());
         state.placed[random.below(state.placed.size())].position += random.vector(1.0);
       } else {
-        // Mostly one value, so that most groups stand still; sometimes all, or none.
+        // Usually at most one value changes, so that most groups do not move; sometimes many do.
         const std::size_t changed = random.one_in(4) ? state.q.size() : random.below(2);
         for (std::size_t k = 0; k < changed; ++k) state.q[random.below(state.q.size())] = random.uniform(-4.0, 4.0);
       }
       state.give_to(engine);
       QueryOptions options;
       options.moved_only = random.one_in(2);
-      switch (random.below(8)) {  // most groups are placed by some queries only
+      switch (random.below(8)) {  // some steps have no query, so groups are not placed in every step
         case 0: engine.within(0.2, options); break;
         case 1: engine.closest(options); break;
         case 2:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of extremes, many atoms where boxes tell little: at one point, in one diameter, on a line, with exponential
-// spacing. Depth, stack and work stay bounded; the answer equals brute force, sampled.
+// Tests many atoms where boxes prune little: at one point, within one diameter, on a line, with exponential spacing.
+// Depth, stack and work are bounded; sampled answers equal brute force.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,7 +47,7 @@ std::vector<Vec3> exponentially_spaced(std::size_t n) {
   return points;
 }
 
-/// What stays bounded: the depth of trees over the atoms' boxes, split to the last.
+/// Expects a bounded depth of the tree over the atoms' boxes, fully split.
 void expect_bounded_depth(const std::vector<Vec3>& points) {
   std::vector<Aabb> boxes;
   for (const Vec3& x : points) boxes.push_back(Aabb(x).inflated(0.5));
@@ -67,7 +67,7 @@ struct Answer {
   QueryCounts counts;
 };
 
-/// Builds the model and an engine and asks, on a stack that is measured.
+/// Builds the model and an engine, runs the query, and measures its stack.
 template <class Ask>
 Answer ask(const std::vector<Vec3>& points, double m, const std::string& name, const Ask& ask_engine) {
   Answer answer;
@@ -98,7 +98,7 @@ Answer ask_all(const std::vector<Vec3>& points, double m, const std::string& nam
   });
 }
 
-/// The hits of every so many-th atom are those that brute force finds for it.
+/// Expects the hits of 50 atoms to equal those of brute force.
 void expect_sampled(const std::vector<Hit>& hits, const std::vector<Vec3>& points, double m) {
   const std::size_t samples = 50;
   for (std::size_t s = 0; s < samples; ++s) {
@@ -112,7 +112,7 @@ void expect_sampled(const std::vector<Hit>& hits, const std::vector<Vec3>& point
   }
 }
 
-/// Eight times the atoms make at most ten times the work: n log n from 12500 to 100000 is a factor of 9.8.
+/// Expects at most ten times the work for eight times the atoms: n log n from 12500 to 100000 is a factor of 9.8.
 void expect_n_log_n(const QueryCounts& eighth, const QueryCounts& whole) {
   EXPECT_LE(whole.boxes_tested, 10 * eighth.boxes_tested);
   EXPECT_LE(whole.nodes_split, 10 * eighth.nodes_split);
@@ -148,14 +148,14 @@ TEST(Crowds, AtOnePointWithAnotherTypeAmongThemCostNoMoreThanThat) {
     options.counts = &counts;
     EXPECT_EQ(engine.within(0.0, options).size(), 3U);
     EXPECT_TRUE(engine.collides(options));
-    // Coordinates from elsewhere come in another order of blocks.
+    // Given coordinates replace those of the configuration; the work stays bounded.
     engine.update_placed(std::vector<Point>(n, Point{Vec3(4, 5, 6)}));
     EXPECT_EQ(engine.within(0.0, options).size(), 3U);
     EXPECT_LE(counts.pairs_tested + counts.boxes_tested, 1000U) << engine.name;
   }
 }
 
-/// Two rigid groups on sliders of their own.
+/// Returns a model of two rigid groups, each on its own prismatic joint.
 Model<Point> two_groups(const std::vector<Vec3>& first, const std::vector<Vec3>& second) {
   ModelBuilder<Point> builder;
   for (const auto* points : {&first, &second}) {
@@ -166,10 +166,10 @@ Model<Point> two_groups(const std::vector<Vec3>& first, const std::vector<Vec3>&
   return builder.finish();
 }
 
-/// The first pair that is looked at bounds what the others are held against, and nothing comes closer than 0.
+/// The first tested pair bounds the search. When all points coincide, no pair is closer than it.
 TEST(Crowds, ClosestOfTwoLargeGroupsLooksAtFewPairs) {
   const std::size_t n = crowd() / 4;
-  // A third type that is not there has the largest threshold.
+  // The largest threshold belongs to a third type that no atom has.
   std::vector<std::uint16_t> types(2 * n, 0);
   types[n / 2] = 1;
   const TypedThresholds matrix(types, 3, {3.0, 2.0, 3.5, 2.0, 2.0, 3.5, 3.5, 3.5, 3.5});
@@ -197,7 +197,8 @@ TEST(Crowds, ClosestOfTwoLargeGroupsLooksAtFewPairs) {
   }
 }
 
-/// Two rigid groups whose coordinates no float can hold: the search through one group's tree stops half-way.
+/// Two rigid groups with coordinates outside the range of floats: the float filter prunes nothing, so the search in a
+/// group's tree stops early.
 TEST(Crowds, ExponentiallySpacedInTwoGroupsEqualOnBothEngines) {
   const std::size_t n = crowd() / 4;
   const double m = std::exp2(-495.0);
@@ -224,7 +225,8 @@ TEST(Crowds, InOneDiameterEqualBruteForce) {
   expect_sampled(lazy.hits, points, m);
   const std::vector<Vec3> eighth = in_one_diameter(crowd() / 8);
   expect_n_log_n(ask_all(eighth, 2 * m, "lazy").counts, lazy.counts);
-  // Blocks of engine/simd follow the chain, here one that jumps about: each is as large as the whole.
+  // Blocks of the SIMD engine follow the order of links. Here consecutive atoms are far apart, so each block's box is
+  // as large as the whole.
   const Answer wide = ask_all(points, m, "simd");
   EXPECT_EQ(wide.hits, lazy.hits);
   expect_n_log_n(ask_all(eighth, 2 * m, "simd").counts, wide.counts);
@@ -249,13 +251,13 @@ TEST(Crowds, ExponentiallySpacedEqualBruteForce) {
   const Answer lazy = ask_all(points, m, "lazy");
   EXPECT_GT(lazy.hits.size(), 1000U);
   expect_sampled(lazy.hits, points, m);
-  // In float nearly all of them are one point.
+  // In float nearly all points coincide.
   const Answer wide = ask_all(points, m, "simd");
   EXPECT_EQ(wide.hits, lazy.hits);
   EXPECT_LE(wide.counts.pairs_tested + wide.counts.boxes_tested, 100 * points.size());
 }
 
-/// Joints on one line leave every atom on it where it is, in the frame of every link.
+/// All joints have the same axis and all atoms are on it, so they are fixed in the frame of every link.
 TEST(Crowds, OnTheAxesOfALongChainStayConstantInBoundedMemory) {
   for (const bool star : {false, true}) {
     ModelBuilder<Point> builder;
@@ -275,13 +277,14 @@ TEST(Crowds, OnTheAxesOfALongChainStayConstantInBoundedMemory) {
     for (int k = 0; k < 100; ++k) {
       const auto i = id<PrimitiveId>(random.below(n)), j = id<PrimitiveId>(random.below(n));
       EXPECT_TRUE(model.constant(i, j));
-      EXPECT_TRUE(model.constant(last, i));  // lies on the x axis, so in a frame that all of them are fixed in
-      EXPECT_EQ(model.constant(i, id<PrimitiveId>(n + 1)), index(i) == 0);  // where the axes meet
+      EXPECT_TRUE(
+          model.constant(last, i));  // is on the x axis, so it is fixed in a frame in which all others are fixed
+      EXPECT_EQ(model.constant(i, id<PrimitiveId>(n + 1)), index(i) == 0);  // only atom 0 is where the axes meet
     }
   }
 }
 
-/// The same where axes branch off and meet, against what happens at random configurations.
+/// The same with branches and intersecting axes; compared with distances at random configurations.
 TEST(Crowds, OnManyAxesAreConstantExactlyWhenTheyNeverMoveApart) {
   std::size_t constant = 0, walked = 0;
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
@@ -320,7 +323,7 @@ TEST(Crowds, OnManyAxesAreConstantExactlyWhenTheyNeverMoveApart) {
         ASSERT_EQ(model->constant(id<PrimitiveId>(i), id<PrimitiveId>(j)), expected) << i << " " << j << " " << seed;
         constant += expected ? 1U : 0U;
       }
-      // Those whose groups are not listed although they are on their own joint's axis.
+      // Counts atoms on the axis of their own joint for which the model lists no further group.
       const Joint& own = built.tree().joint(built.links()[i]);
       const bool on_own = built.primitives()[i].fixed_on_axis(own.point, own.axis);
       walked += on_own && model->also_fixed_in(id<PrimitiveId>(i)).empty() ? 1U : 0U;

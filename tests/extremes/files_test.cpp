@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of extremes, files: atoms that miss or lie on a line; files cut short, damaged, or that claim gigabytes.
+// Tests extremes of files: missing or collinear atoms; truncated and damaged files, and files that claim gigabytes.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -46,18 +46,18 @@ TEST(Molecules, WithAtomsMissingOrOnALineAreBuiltWithoutTheJointAndSaySo) {
   for (std::size_t i = 0; i < whole.atoms.size(); ++i) {
     if (whole.atoms[i].name == "CE") missing.atoms[i].name = "XX";
     if (whole.atoms[i].name != "CD") continue;
-    // CB, CG and CD on a line.
+    // Puts CB, CG and CD on a line.
     std::vector<Vec3>& x = straight.models.front();
     x[i] = x[i - 1] + (x[i - 1] - x[i - 2]);
     ASSERT_EQ(whole.atoms[i - 2].name + whole.atoms[i - 1].name, "CBCG");
   }
-  EXPECT_EQ(chi_of(missing, notes), 2);  // chi3 and chi4 need it
+  EXPECT_EQ(chi_of(missing, notes), 2);  // chi3 and chi4 need CE
   EXPECT_TRUE(notes.empty());
-  EXPECT_EQ(chi_of(straight, notes), 2);  // about CG-CD and about CB-CG
+  EXPECT_EQ(chi_of(straight, notes), 2);  // the torsions about CB-CG and CG-CD are left out
   EXPECT_TRUE(says(notes, "of A:LYS2:"));
   EXPECT_TRUE(says(notes, "lie on a line"));
   EXPECT_TRUE(std::isnan(molecular::dihedral({0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 1, 0})));
-  // A chain that is broken is two.
+  // An unbroken chain has no note about a break.
   molecular::Structure structure = molecular::read_structure(test::ubiquitin());
   EXPECT_FALSE(says(structure.notes, "break"));
 }
@@ -68,14 +68,14 @@ std::string bytes_of(const std::filesystem::path& path) {
   return text.str();
 }
 
-/// The largest memory the process ever had, MiB.
+/// Returns the peak memory of the process, MiB.
 double peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-/// Whatever the file holds, it is read or refused with a LoadError: true when read.
+/// Expects that the file is read or rejected with a LoadError that names it. Returns true if it is read.
 template <class Read>
 bool read_or_refused(const std::string& bytes, const std::string& extension, const Read& read) {
   const TemporaryFile file("", extension);
@@ -89,7 +89,7 @@ bool read_or_refused(const std::string& bytes, const std::string& extension, con
   return true;
 }
 
-/// Cut at every so many-th byte, and with single bits turned.
+/// Reads the file truncated at many lengths and with flipped bits; expects bounded memory.
 template <class Read>
 void expect_no_harm(const std::string& whole, const std::string& extension, const Read& read) {
   ASSERT_TRUE(read_or_refused(whole, extension, read));
@@ -114,7 +114,7 @@ const auto read_triangles = [](const std::filesystem::path& path) { robotics::re
 
 std::string pdb() { return bytes_of(test::ubiquitin()); }
 
-/// The first atoms of it as mmCIF.
+/// Returns an ideal protein as mmCIF.
 std::string mmcif() {
   std::ostringstream text;
   text << "data_X\nloop_\n_atom_site.group_PDB\n_atom_site.id\n_atom_site.type_symbol\n_atom_site.label_atom_id\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of extremes, triangles and meshes: one test per row, on all three engines.
+// Tests extremes of triangles and meshes on all three engines, one test per row of the table of extremes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,14 +21,14 @@ namespace meshes_test {
 
 using test::AnyEngine;
 
-/// Two meshes on a slider each.
+/// Two meshes, each on its own prismatic joint.
 std::vector<AnyEngine<Triangle>> engines(const std::vector<Triangle>& a, const std::vector<Triangle>& b) {
   ModelBuilder<Triangle> builder;
   for (const std::vector<Triangle>* mesh : {&a, &b}) builder.add_link(world, Prismatic{Vec3::UnitX(), {}, {}}, *mesh);
   return test::on_three_engines(builder.finish(), AdmitAll{}, UniformClearance(0.0));
 }
 
-/// expected: the exact distance of the stored triangles, 0 when they share a point.
+/// expected: the exact distance of the stored triangles; 0 if they share a point.
 void expect_distance(const Triangle& p, const Triangle& q, double expected, const std::string& what) {
   double span = 0.0;  // largest coordinate difference
   const Aabb box = Aabb(p.bounds()).extend(q.bounds());
@@ -39,12 +39,12 @@ void expect_distance(const Triangle& p, const Triangle& q, double expected, cons
     EXPECT_EQ(engine.within(0.0, {}).size(), expected == 0.0 ? 1U : 0U);
     const double distance = engine.closest({}).value().distance;
     EXPECT_EQ(distance == 0.0, expected == 0.0) << distance;
-    // 16 ulp of itself, 8 ulp of the largest coordinate difference.
+    // The bound: 16 ulp of the distance and 8 ulp of the largest coordinate difference.
     EXPECT_LE(std::abs(distance - expected), 16 * 0x1p-52 * expected + 8 * 0x1p-52 * span);
   }
 }
 
-/// A vertex of `above` over the inside of a face that lies level: the distance is the difference of two stored heights.
+/// A vertex of `above` is over the inside of a horizontal face: the distance is the difference of two stored heights.
 void expect_vertex_over_face(const std::vector<Vec3>& face, const Vec3& foot, double size, double offset, double gap,
                              const std::string& what) {
   const auto corner = [&](const Vec3& x) { return Vec3(x * size + Vec3::Constant(offset)); };
@@ -66,7 +66,7 @@ TEST(Triangles, TouchingCrossingTinyFarAndMixedEqualTheExactAnswer) {
     expect_vertex_over_face(face, Vec3(1, 1, 0), 1.0, 1e9, gap, "1e9 away");
     expect_vertex_over_face(huge, Vec3(1, 1, 0), 1.0, 0.0, gap, "mixed scale");
     expect_vertex_over_face(sliver, Vec3(1, 1e-8, 0), 1.0, 0.0, gap, "sliver");
-    if (gap < 0.0) continue;  // below a segment or a point is no crossing
+    if (gap < 0.0) continue;  // a segment or a point is not crossed from below
     expect_vertex_over_face(segment, Vec3(1, 0, 0), 1.0, 0.0, gap, "zero area");
     expect_vertex_over_face(point, Vec3(1, 1, 0), 1.0, 0.0, gap, "a point");
   }
@@ -85,7 +85,7 @@ TEST(Triangles, InOnePlaneEqualTheExactAnswer) {
   expect_distance(fixed, shifted(0, -7), 3.0, "apart");
 }
 
-/// Closed, centred, edges along the axes.
+/// A closed, centred box with axis-parallel edges.
 std::vector<Triangle> box(double half) {
   std::vector<Triangle> triangles;
   for (int axis = 0; axis < 3; ++axis)
@@ -139,7 +139,7 @@ TEST(Meshes, NestedInOneAnotherAreApartAsSurfaces) {
   }
 }
 
-/// Sizes that double arithmetic leaves to whole numbers, whose frames are the largest there are.
+/// For these sizes doubles cannot decide, so the exact code runs, which has the largest stack frames.
 TEST(Solids, DecidedInWholeNumbersTakeABoundedStack) {
   const double size = 0x1p-300, far = 0x1p300;
   const Triangle p{{0, 0, 0}, {4 * size, 0, 0}, {0, 4 * size, far}}, through{{size, size, -far}, {size, size, far}, {}};

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// refusal: the message a bad input is refused with.
+// Returns the message of an exception.
 #pragma once
 
 #include <string>
 
 namespace hinge::test {
 
-/// The message of the exception of this type, "" when nothing was thrown; another type leaves the test.
+/// Returns the message of the exception of this type, or "" if nothing is thrown; other types propagate.
 template <class Exception, class Action>
 std::string refusal(const Action& action) {
   try {

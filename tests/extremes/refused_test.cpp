@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of extremes, what is refused at the door: by a typed exception that names the element, nothing changed.
+// Tests invalid input: a typed exception names the element, and nothing is changed.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -23,13 +23,13 @@ using test::refusal;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
 
-/// Names the element and is no novel.
+/// Expects a message of one line that names the element.
 void expect_names(const std::string& message, const std::string& element) {
   EXPECT_NE(message.find(element), std::string::npos) << "'" << message << "' should name '" << element << "'";
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
 }
 
-/// Two links of three points each; the second turns about z.
+/// Two links with three points each; the second rotates about z.
 ModelBuilder<Point> small_model() {
   ModelBuilder<Point> builder;
   const std::vector<Point> points = {{Vec3(0, 0, 0)}, {Vec3(2, 0, 0)}, {Vec3(0, 2, 1)}};
@@ -37,7 +37,7 @@ ModelBuilder<Point> small_model() {
   return builder;
 }
 
-/// All a builder has to say for itself.
+/// Returns the visible state of a builder as text.
 std::string state(ModelBuilder<Point> builder) {
   const Model<Point> model = builder.finish();
   std::string text = std::to_string(model.size()) + " primitives, " + std::to_string(model.tree().link_count()) +
@@ -129,7 +129,7 @@ TEST(Refused, NanOrInfinityInAnythingOfAState) {
       options.clearance = clearance;
       expect_names(refusal<ConfigurationError>([&] { engine.collides(options); }), "rigid group 2");
     }
-    EXPECT_THROW(engine.update(std::vector<double>{1e305, 0.0}), ConfigurationError);  // a slide
+    EXPECT_THROW(engine.update(std::vector<double>{1e305, 0.0}), ConfigurationError);  // a prismatic joint
     EXPECT_THROW(engine.update(std::vector<double>{0.0}), ConfigurationError);
     EXPECT_THROW(engine.update_poses(std::vector<Pose>(2)), ConfigurationError);
     EXPECT_THROW(engine.update_placed(std::vector<Point>(7)), ConfigurationError);
@@ -190,7 +190,7 @@ TEST(Refused, AnAxisOfZeroLengthButNoOther) {
                "link 3 (knee): the axis has length 0");
   EXPECT_THROW(builder.add_link(world, Prismatic{-Vec3::Zero(), {}, {}}), ModelError);
   EXPECT_EQ(state(builder), before);
-  // Squares of these leave the range of doubles.
+  // The squares of these sizes overflow or underflow.
   for (const double size : {5e-324, 1e-200, 1e-161, 1e-160, 1.0, 1e160, 1e300}) {
     KinematicTree tree;
     const Joint& joint = tree.joint(tree.add_link(world, Revolute{Vec3(0, size, size), Vec3::Zero(), {}, {}}));
@@ -208,7 +208,7 @@ TEST(Refused, APlacementThatIsScaledShearedMirroredOrZero) {
   shear(0, 1) = 0.01;
   const std::vector<Pose> bad = {turned(scaled(1.001)), turned(scaled(-1.0)),     turned(scaled(0.0)),
                                  turned(shear),         turned(scaled(1 + 1e-9)), turned(scaled(1 - 1e-9))};
-  const Pose good = turned(scaled(1 + 4e-10));  // used as given
+  const Pose good = turned(scaled(1 + 4e-10));  // small deviations are accepted
   ModelBuilder<Point> builder = small_model();
   for (const Pose& pose : bad) EXPECT_THROW(builder.add_link(world, Fixed{pose}), ModelError);
   for (const Pose& pose : bad)

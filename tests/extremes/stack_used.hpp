@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// stack_used: how much stack an action takes, measured on a thread whose stack was painted before.
+// Measures how much stack an action uses, on a thread whose stack is filled with a pattern.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,9 +13,9 @@
 
 namespace hinge::test {
 
-/// In bytes, what the C library puts there included (some 3 KiB).
+/// Returns bytes, including about 3 KiB that the C library uses.
 inline std::size_t stack_used(std::function<void()> action) {
-  constexpr std::size_t words = std::size_t{1} << 17;  // 1 MiB: room to measure what is too much
+  constexpr std::size_t words = std::size_t{1} << 17;  // 1 MiB, so that excessive use can be measured
   constexpr std::uint64_t paint = 0x5ca1ab1e'0ddba11dULL;
   constexpr std::size_t page = 4096 / sizeof(std::uint64_t);
   std::vector<std::uint64_t> memory(words + page, paint);
@@ -37,10 +37,10 @@ inline std::size_t stack_used(std::function<void()> action) {
   return static_cast<std::size_t>(stack + words - touched) * sizeof(std::uint64_t);
 }
 
-/// Of the build and every query, whatever the input.
+/// Limit for building and for every query, for any input, bytes.
 inline constexpr std::size_t stack_limit = 65536;
 
-/// Do instrumented frames, many times their size, stand in the way of measuring?
+/// Are stack frames much larger than in a release build, so that measuring is useless?
 inline constexpr bool stack_is_padded =
 #if defined(__SANITIZE_ADDRESS__) || !defined(__OPTIMIZE__)
     true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// AnyEngine: a hierarchy on one of the three engines behind functions, so that one file compiles what several ask.
+// AnyEngine: a hierarchy with one of the three engines behind functions, compiled once for several test files.
 #pragma once
 
 #include <cstdlib>
@@ -42,20 +42,20 @@ AnyEngine<P> on_engine(const std::string& name, const Model<P>& model, const F& 
           [h] { return h->placed(); }};
 }
 
-/// Brute force first.
+/// Returns the three engines; brute force is the first.
 template <class P, class F, class D>
 std::vector<AnyEngine<P>> on_three_engines(const Model<P>& model, const F& filter, const D& matrix) {
   return {on_engine<Brute>("brute", model, filter, matrix), on_engine<Lazy>("lazy", model, filter, matrix),
           on_engine<Simd>("simd", model, filter, matrix)};
 }
 
-/// Points, every pair admitted; compiled in three_engines_test.cpp.
+/// Returns the three engines for points, with every pair admitted; compiled in three_engines_test.cpp.
 std::vector<AnyEngine<Point>> atoms_on_three_engines(const Model<Point>& model, const TypedThresholds& matrix);
 
-/// One type of atom, every threshold m.
+/// Returns one type for all atoms, with threshold m.
 inline TypedThresholds one_type(std::size_t atoms, double m) { return {std::vector<std::uint16_t>(atoms, 0), 1, {m}}; }
 
-/// Each point on a slider of its own along x, so that every pair is tested.
+/// Puts each point on its own prismatic joint along x, so that every pair is tested.
 inline Model<Point> own_groups(const std::vector<Vec3>& points) {
   ModelBuilder<Point> builder;
   for (const Vec3& x : points) builder.add_link(world, Prismatic{Vec3::UnitX(), {}, {}}, {Point{x}});

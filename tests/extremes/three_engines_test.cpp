@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The engines as the other files of this folder ask them, and that they agree where nothing is extreme.
+// Compiles the engines for the other files of this folder, and tests that they agree on ordinary input.
 #include "extremes/three_engines.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Answers: what several engines say to one question, the first of them the reference.
+// Answers: compares the answers of several engines to one query; the first engine is the reference.
 #pragma once
 
 #include <algorithm>
@@ -28,13 +28,13 @@ inline std::string text(const hinge::Hit& hit) {
          ") distance " + text(hit.distance) + " threshold " + text(hit.threshold);
 }
 
-/// Engines may look at (p, q) or (q, p): distances agree to rounding, of numbers no larger than the coordinates. What
-/// overflows may do so for one order alone.
+/// Engines may test (p, q) or (q, p), so distances agree up to rounding relative to the coordinates. An overflow may
+/// happen in one order only.
 inline bool agree(double a, double b, double size) {
   return a == b || !(size < 0x1p480) || std::abs(a - b) <= 128 * 0x1p-53 * size;
 }
 
-/// Compares one kind of query, within a model or between two.
+/// Compares one kind of query, within a model or between two models.
 class Answers {
  public:
   Answers(double size, const char* what) : size_(size), what_(what) {}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Target: builders, policies and updates given anything: a refusal leaves everything as it was, and whatever is
-// accepted can be asked.
+// Target: builders, policies and updates with arbitrary input. A refusal changes nothing, and accepted input can be
+// queried.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -50,7 +50,7 @@ class Attempt {
   template <template <class, class, class> class EngineOf>
   using On = hinge::Hierarchy<P, fuzz::ExcludedPairs, hinge::TypedThresholds, EngineOf>;
 
-  /// Mostly a number that may pass.
+  /// Usually returns a valid number.
   double odd() { return bytes_.one_in(12) ? bytes_.any_double() : numbers_.number(); }
   Vec3 odd_vector() {
     const double x = odd(), y = odd(), z = odd();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bytes: a fuzzer's input, read from the front as numbers and choices; what lies beyond its end reads as 0.
+// Bytes: reads numbers and choices from a fuzzer's input; after its end all bytes are 0.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace fuzz {
 
-/// Of our own, so that a stored find means the same to every compiler.
+/// Independent of the standard library, so that a stored find has the same meaning with every compiler.
 class Bytes {
  public:
   Bytes(const std::uint8_t* data, std::size_t size) : rest_(data, size) {}
@@ -26,7 +26,7 @@ class Bytes {
   bool bit() noexcept { return (byte() & 1U) != 0; }
   /// 0 ... n - 1; n: 1 ... 256.
   std::size_t below(std::size_t n) noexcept { return byte() % n; }
-  /// True once in n.
+  /// Returns true with probability 1 / n.
   bool one_in(std::size_t n) noexcept { return below(n) == n - 1; }
   std::int16_t int16() noexcept {
     const unsigned low = byte();
@@ -37,9 +37,9 @@ class Bytes {
     for (unsigned k = 0; k < 8; ++k) bits |= std::uint64_t{byte()} << 8 * k;
     return bits;
   }
-  /// Any bit pattern: NaN, infinities and denormals among them.
+  /// Returns any bit pattern, including NaN, infinities and denormals.
   double any_double() noexcept { return std::bit_cast<double>(word()); }
-  /// All that is left.
+  /// Returns the rest of the input.
   std::string_view text() noexcept {
     const auto all = rest_;
     rest_ = {};

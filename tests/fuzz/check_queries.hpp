@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every query on every engine over a scene from bytes: the engines agree with each other and with exact arithmetic.
+// Runs every query on every engine over a generated scene, and compares the engines with each other and exact
+// arithmetic.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +26,7 @@
 
 namespace fuzz {
 
-/// One model on the three engines, brute force the reference.
+/// One model on the three engines; brute force is the reference.
 template <class P>
 struct Engines {
   template <template <class, class, class> class EngineOf>
@@ -61,8 +62,8 @@ struct Engines {
 
 enum class State : std::uint8_t { configuration, poses, coordinates };
 
-/// The list against the real-number verdict of every admitted pair, in order, until the budget of verdicts is used up.
-/// threshold(i, j) and admits(i, j) are the caller's.
+/// Compares the list with the exact verdict of every admitted pair, in order, until the budget of exact verdicts is
+/// used. threshold(i, j) and admits(i, j) describe the rules of the query.
 template <class P, class Threshold, class Admits>
 void check_exactly(std::size_t& budget, const std::vector<hinge::Hit>& hits, double margin, std::span<const P> mine,
                    std::span<const P> theirs, bool self, const Threshold& threshold, const Admits& admits) {
@@ -115,7 +116,7 @@ class QueryCheck {
   }
 
  private:
-  // So many that several blocks of sixteen come about, so few that the rationals keep up.
+  // Enough primitives for several blocks of sixteen, few enough for rational arithmetic.
   static constexpr bool is_quick = std::is_same_v<P, hinge::Point> || std::is_same_v<P, hinge::Sphere>;
   static constexpr std::size_t most = is_quick ? 40 : 18;
 
@@ -151,7 +152,7 @@ class QueryCheck {
     return State::configuration;
   }
 
-  /// None: kinematics left the range that Numbers keeps to.
+  /// Returns the largest coordinate; nothing if kinematics overflowed.
   static std::optional<double> size_of(std::span<const P> placed) {
     double size = 0.0;
     for (const P& p : placed) {
@@ -161,7 +162,7 @@ class QueryCheck {
     }
     return size;
   }
-  /// The same coordinates, to the bit, on every engine; their size.
+  /// Requires equal bits of coordinates on every engine; returns their size.
   static std::optional<double> placed_alike(Engines<P>& engines) {
     const std::span<const P> reference = engines.brute.placed();
     engines.each([&](auto& h, const char* name) {
@@ -246,14 +247,14 @@ class QueryCheck {
 
   Bytes& bytes_;
   Numbers numbers_;
-  std::size_t budget_ = is_quick ? 4000 : 100;  // verdicts in rationals, a tenth of a second together at worst
+  std::size_t budget_ = is_quick ? 4000 : 100;  // exact verdicts; together at most a tenth of a second
   std::vector<double> q_;
 };
 
 template <class P>
 int check_queries(const std::uint8_t* data, std::size_t size) {
   Bytes bytes(data, size);
-  // Joints may carry numbers beyond what is taken.
+  // Numbers on joints may exceed the accepted range.
   accepts([&] { QueryCheck<P>(bytes).run(); });
   return 0;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A robot that was read must answer: on two engines alike, at its reference and between its limits.
+// Checks that two engines give the same answers for a robot that was read.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace fuzz {
 
-/// The checker may refuse values: those whose poses leave the range of doubles.
+/// The checker may reject values whose poses overflow.
 inline void check_robot(const std::shared_ptr<const hinge::robotics::Robot>& robot,
                         const hinge::robotics::LinkPairs& disabled, const std::vector<double>& q) {
   using hinge::robotics::LinkMargins;
@@ -22,7 +22,7 @@ inline void check_robot(const std::shared_ptr<const hinge::robotics::Robot>& rob
   using hinge::robotics::RobotChecker;
   const auto tested = hinge::robotics::tested_pairs(*robot, disabled);
   RobotChecker wide(robot, tested, LinkMargins(*robot, 0.01));
-  // Quadratic, and slow under sanitizers: more triangles would be waited for.
+  // Brute force is quadratic and slow under sanitizers, so large robots run on one engine only.
   constexpr std::size_t most = 120;
   if (robot->model().size() > most) {
     accepts([&] { wide.check(q, {Mode::Kind::all, 0.0}); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A molecular file all the way: what reads must become a molecule, a checker and answers.
+// Runs a molecular file from reading to the answers of a checker.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@
 
 namespace fuzz {
 
-/// Every index in range, every range in order, every coordinate finite.
+/// Requires that every index is in range, every range is in order, and every coordinate is finite.
 inline void check_well_formed(const hinge::molecular::Structure& s) {
   require(!s.atoms.empty() && !s.models.empty(), "a structure without atoms or models");
   require(s.models.size() == s.model_numbers.size(), "models without numbers");
@@ -47,7 +47,7 @@ inline void check_well_formed(const hinge::molecular::Structure& s) {
     require(element.first <= element.last && element.last < residue, "a helix or strand of no residues");
 }
 
-/// The reference first: it gives back the coordinates read.
+/// Starts with the reference, where the coordinates equal those of the file.
 inline void check_answers(const std::shared_ptr<const hinge::molecular::Molecule>& molecule) {
   using hinge::molecular::Checker;
   using hinge::molecular::Mode;
@@ -75,7 +75,7 @@ inline void check_answers(const std::shared_ptr<const hinge::molecular::Molecule
           "simd and brute differ in the file's coordinates");
 }
 
-/// With the options' defaults, or others: by the length of the file, so that a find is a file and nothing more.
+/// The length of the file selects the options, so that a find is only a file.
 inline void check_structure(const std::string& name, std::string_view content) {
   using hinge::molecular::ReadOptions;
   const ScratchFile file(name, content);
@@ -85,7 +85,7 @@ inline void check_structure(const std::string& name, std::string_view content) {
   accepts([&] {
     hinge::molecular::Structure structure = hinge::molecular::read_structure(file.path(), options);
     check_well_formed(structure);
-    // Brute force is quadratic: inputs of fuzzers are small.
+    // Brute force is quadratic, but inputs of fuzzers are small.
     check_answers(std::make_shared<const hinge::molecular::Molecule>(std::move(structure)));
   });
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Target: polygons cut into triangles, flat or not, with repeated vertices and extreme coordinates.
+// Target: triangulation of polygons, planar or not, with repeated vertices and extreme coordinates.
 #include "mesh/cut_polygon.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The answers in rationals. Compiled without sanitizers, which make it ten times slower.
+// Exact answers in rationals. Compiled without sanitizers, which make it ten times slower.
 #include "fuzz/exact_pair.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 using Rational = boost::multiprecision::cpp_rational;
 using hinge::test::OracleDistance;
-using Digits = hinge::test::Simd;  // fifty
+using Digits = hinge::test::Simd;  // fifty digits
 
 Rational sum(std::initializer_list<double> terms) {
   Rational total = 0;
@@ -25,8 +25,9 @@ Rational sum(std::initializer_list<double> terms) {
   return total;
 }
 
-/// |a - b| against a length: below, equal or above. Long doubles decide what is not within 2^-50 of a tie: they hold
-/// the squares of all doubles, and each of the few operations is right to 2^-64 (x87; elsewhere rationals decide all).
+/// Compares |a - b| with a length; returns the sign of the difference. Long doubles decide pairs that are not within
+/// 2^-50 of a tie: they hold the squares of all doubles, and each of the few operations is accurate to 2^-64 (x87; on
+/// other CPUs rationals decide all pairs).
 int compare_distance(const hinge::Vec3& a, const hinge::Vec3& b, std::initializer_list<double> length) {
   using Limits = std::numeric_limits<long double>;
   if constexpr (Limits::digits >= 64 && Limits::max_exponent > 8192) {
@@ -49,7 +50,7 @@ int compare_distance(const hinge::Vec3& a, const hinge::Vec3& b, std::initialize
   return square.compare(wanted * wanted);
 }
 
-/// Boxes farther apart than this are proof that the shapes are.
+/// Returns true if the distance of the boxes proves that the shapes are farther apart than m.
 bool boxes_apart(const hinge::Aabb& a, const hinge::Aabb& b, double m) {
   for (int k = 0; k < 3; ++k)
     for (const long double gap : {static_cast<long double>(a.lower[k]) - static_cast<long double>(b.upper[k]),
@@ -58,7 +59,7 @@ bool boxes_apart(const hinge::Aabb& a, const hinge::Aabb& b, double m) {
   return false;
 }
 
-/// The largest double that is not above x, and the smallest that is not below.
+/// Returns the largest double <= x and the smallest double >= x.
 std::pair<double, double> enclose(const Rational& x) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   double low = x.convert_to<double>();
@@ -67,7 +68,7 @@ std::pair<double, double> enclose(const Rational& x) {
   return {low, Rational(low) == x ? low : std::nextafter(low, infinity)};
 }
 
-/// A whole number of 2^-8 below 2^20 of them: squared distances of segments are fractions with denominators below 2^86.
+/// Returns whether x is a multiple of 2^-8 below 2^12: squared distances of segments then have denominators below 2^86.
 bool on_lattice(double x) { return std::abs(x) < 0x1p12 && x * 0x1p8 == std::floor(x * 0x1p8); }
 bool on_lattice(std::initializer_list<hinge::Vec3> points) {
   for (const hinge::Vec3& x : points)
@@ -76,7 +77,7 @@ bool on_lattice(std::initializer_list<hinge::Vec3> points) {
   return true;
 }
 
-// Points, centres and segments as triangles without area, and what they are grown by.
+// The cores of points, spheres and capsules as triangles without area, and the radii that inflate them.
 hinge::Triangle core_of(const hinge::Point& p) { return {p.position, p.position, p.position}; }
 hinge::Triangle core_of(const hinge::Sphere& s) { return {s.center, s.center, s.center}; }
 hinge::Triangle core_of(const hinge::Capsule& c) { return {c.a, c.b, c.b}; }
@@ -122,17 +123,18 @@ std::optional<bool> exactly_closer(const hinge::Capsule& p, const hinge::Capsule
   if (boxes_apart(a.bounds(), b.bounds(), p.radius + q.radius + m)) return false;
   const OracleDistance exact(a, b);
   if (exact.meet()) return true;
-  // The oracle compares with doubles: the two that enclose each sum.
+  // The oracle compares with doubles, so each sum is enclosed by two doubles.
   const Rational touch = sum({p.radius, q.radius});
   const auto [near, above_near] = enclose(touch + Rational(m));
   const auto [at, above] = enclose(touch);
   if (exact.below(near) || exact.below(at)) return true;
   if (exact.below(above_near)) return {};
-  // Not closer than m: do they touch?
+  // The pair is not closer than m: check whether it touches.
   if (!exact.below(std::nextafter(above, std::numeric_limits<double>::infinity()))) return false;
   const bool points = p.a == p.b && q.a == q.b;
   if (points) return compare_distance(p.a, q.a, {p.radius, q.radius}) <= 0;
-  // On the lattice a distance is at and nothing else within 2^-128 of it, relative: fifty digits decide.
+  // For coordinates on the lattice, a distance equals `at` or differs from it by more than 2^-128 (relative), so fifty
+  // digits decide.
   if (at != above || !on_lattice({p.a, p.b, q.a, q.b}) || !on_lattice(at)) return {};
   return abs(exact.distance() - Digits(at)) < Digits(0x1p-140) * Digits(at);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers: doubles made to hurt: ties, neighbours of earlier ones, lattice points, decimals, huge and tiny.
+// Numbers: adversarial doubles: ties, neighbours of earlier numbers, lattice points, decimals, huge and tiny numbers.
 #pragma once
 
 #include <array>
@@ -13,14 +13,14 @@
 
 namespace fuzz {
 
-/// Finite numbers in the scale of one scene, at most `largest` in size.
+/// Generates finite numbers in the scale of one scene, with absolute values of at most `largest`.
 class Numbers {
  public:
-  /// Below what builders refuse (hinge::largest_length), with room for sums.
+  /// Less than the limit of builders (hinge::largest_length), so that sums stay below it.
   static constexpr double largest = 0x1p990;
 
   explicit Numbers(Bytes& bytes) : bytes_(bytes) {
-    // Mostly the scale of everyday, sometimes one at which squares overflow or underflow.
+    // Usually an ordinary scale, sometimes one where squares overflow or underflow.
     constexpr std::array<int, 8> exponents{0, 0, 0, 0, -30, 40, 480, -520};
     unit_ = std::ldexp(1.0, exponents[bytes.below(exponents.size())]);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Target: every query on every engine over points, against each other and exact arithmetic.
+// Target: every query on every engine over points; compares engines with each other and with exact arithmetic.
 #include <cstddef>
 #include <cstdint>
 

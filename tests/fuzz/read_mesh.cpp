@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Target: meshes; the first byte names the format (s: STL, o: OBJ, p: PLY, any other: DAE), the rest is the file.
+// Target: mesh files. The first byte selects the format (s: STL, o: OBJ, p: PLY, otherwise DAE), the rest is the file.
 #include <cstddef>
 #include <cstdint>
 
@@ -9,7 +9,7 @@
 #include "hinge/core/finite.hpp"
 #include "hinge/robotics/read_mesh.hpp"
 
-/// assimp 5.2.5 forgets what it has allocated when it refuses a file: some kB a file, which no check of ours can mend.
+/// assimp 5.2.5 leaks some kB when it rejects a file, which Hinge cannot prevent.
 extern "C" const char* __asan_default_options() { return "detect_leaks=0"; }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Target: PDB files, from bytes to the answers of a checker.
+// Target: PDB files, from reading to the answers of a checker.
 #include <cstddef>
 #include <cstdint>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Target: SRDF files and lists of link pairs, for one robot.
+// Target: SRDF files and lists of link pairs for one robot.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -21,7 +21,7 @@ namespace {
 
 namespace robotics = hinge::robotics;
 
-/// A chain a - b - c - d with a fork e; joints j1 (revolute), j2 (follows j1), j3 (prismatic), j4 (fixed).
+/// A chain a - b - c - d with a branch e. Joints: j1 (revolute), j2 (mimics j1), j3 (prismatic), j4 (fixed).
 std::shared_ptr<const robotics::Robot> make_robot() {
   robotics::RobotDescription robot;
   robot.name = "arm";

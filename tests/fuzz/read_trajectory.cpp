@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Target: trajectories; the first byte is the number of atoms, the rest is the file, whose content says its format.
+// Target: trajectories. The first byte is the number of atoms, the rest is the file; its content shows the format.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -17,14 +17,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   molecule.atoms.assign(1 + bytes.byte() % 64, Atom{"CA", "C", 0, '\0', 0, 0});
   molecule.residues.push_back({"ALA", 1, '\0', 0, 0, static_cast<std::uint32_t>(molecule.atoms.size()), {}});
   molecule.chains.push_back({"A", 0, 1});
-  // Every other record of its file is an atom of the molecule.
+  // Every second record of the molecule's file is an atom.
   for (std::uint32_t i = 0; i < molecule.atoms.size(); ++i) molecule.atoms[i].record = 2 * i;
   molecule.atom_records = 2 * molecule.atoms.size();
   const fuzz::ScratchFile file("input.traj", bytes.text());
   fuzz::accepts([&] {
     const Trajectory trajectory(file.path(), molecule);
     fuzz::require(trajectory.size() > 0, "a trajectory without frames");
-    // Damaged frames are told one by one.
+    // Damaged frames are rejected one by one.
     for (std::size_t k = 0; k < std::min<std::size_t>(trajectory.size(), 8); ++k)
       fuzz::accepts([&] {
         const auto frame = trajectory.frame(k);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Target: URDF files, from bytes to the answers of a robot. A mesh lies beside the file.
+// Target: URDF files, from reading to the answers of a robot. A mesh is in the same folder.
 #include <cstddef>
 #include <cstdint>
 #include <memory>

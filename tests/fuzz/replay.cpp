@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Feeds files, or all files of folders, to a target: stored finds as ordinary tests, by a compiler without libFuzzer.
+// Runs a target on files or on all files of folders: stored finds become ordinary tests without libFuzzer.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -26,7 +26,7 @@ int main(int count, char** arguments) {
   }
   std::sort(files.begin(), files.end());
   for (const fs::path& file : files) {
-    // Before the run: what aborts says no more.
+    // The name is printed first, because a find aborts the program.
     std::fprintf(stderr, "%s\n", file.c_str());
     std::ifstream in(file, std::ios::binary);
     if (!in) {

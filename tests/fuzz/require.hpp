@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// require: what a target asserts. A failure aborts, which fuzzer and replay alike count as a find.
+// Assertions of targets. A failure aborts, which fuzzer and replay count as a find.
 #pragma once
 
 #include <cstdio>
@@ -19,8 +19,8 @@ inline void require(bool holds, const char* what) {
   if (!holds) find(what);
 }
 
-/// Runs `f`, which may refuse its input with one of Hinge's own exceptions; any other leaves the target and is a find.
-/// True when nothing was thrown.
+/// Runs `f` and returns true if it throws nothing, false if it throws an exception of Hinge. Other exceptions leave the
+/// target and are finds.
 template <class F>
 bool accepts(const F& f) {
   try {

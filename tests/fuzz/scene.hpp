@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes from bytes: a small mechanism with adversarial coordinates, thresholds that tie, and excluded pairs.
+// Scenes from bytes: a small mechanism with adversarial coordinates, thresholds with ties, and excluded pairs.
 #pragma once
 
 #include <algorithm>
@@ -49,7 +49,7 @@ inline hinge::Triangle make_primitive(Numbers& numbers) {
   return {a, b, numbers.vector()};
 }
 
-/// Few pairs that are not admitted.
+/// A filter that excludes a few pairs.
 class ExcludedPairs {
  public:
   ExcludedPairs(std::size_t n, Bytes& bytes) : excluded_(n) {
@@ -80,7 +80,7 @@ class ExcludedPairs {
 
 static_assert(hinge::ListsExclusions<ExcludedPairs>);
 
-/// Up to three types; the table ties with coordinates because both come from one palette.
+/// Thresholds of up to three types. They tie with distances, because both use numbers of the same kind.
 struct ThresholdTable {
   explicit ThresholdTable(Numbers& numbers) : types(1 + numbers.bytes().below(3)), entries(types * types) {
     for (std::size_t s = 0; s < types; ++s)
@@ -96,7 +96,7 @@ struct ThresholdTable {
   std::vector<double> entries;
 };
 
-/// Rotations that keep the bits of coordinates, and others.
+/// Returns a pose; some rotations change no bits of coordinates.
 inline hinge::Pose make_pose(Numbers& numbers) {
   hinge::Pose pose;
   switch (numbers.bytes().below(4)) {
@@ -124,7 +124,7 @@ inline hinge::Joint make_joint(Numbers& numbers) {
   }
 }
 
-/// Up to seven links, the world included, with up to `most` primitives together.
+/// Returns a model of up to seven links, including the world, with at most `most` primitives in all.
 template <hinge::Primitive P>
 hinge::Model<P> make_model(Numbers& numbers, std::size_t most) {
   Bytes& bytes = numbers.bytes();

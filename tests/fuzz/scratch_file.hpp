@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ScratchFile: an input as a file, for readers that take nothing but paths; in memory where the system has /dev/shm.
+// ScratchFile: the input as a file, for readers that need a path; in memory if the system has /dev/shm.
 #pragma once
 
 #include <unistd.h>
@@ -12,7 +12,7 @@
 
 namespace fuzz {
 
-/// One folder per process, removed at its end (not after a find).
+/// Files are in one folder per process, removed when the process ends normally.
 class ScratchFile {
  public:
   ScratchFile(const std::string& name, std::string_view content) : path_(folder() / name) {

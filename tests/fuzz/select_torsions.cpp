@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Target: the words that select torsions, on a protein of two chains with helices and strands.
+// Target: expressions that select torsions, on a protein of three chains with helices and strands.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -21,7 +21,7 @@ namespace {
 using hinge::molecular::Molecule;
 using hinge::molecular::Structure;
 
-/// Residues 1 ... 12 of chain A, 60, 60A and -3 of chain B, and the last of a chain without a name.
+/// Chain A has residues 1 to 12, chain B 60, 60A and -3, and a chain without a name has one residue.
 Molecule make_molecule() {
   Structure s = hinge::molecular::build_ideal_protein("AKRMFPWSTCVLGHED", "HHHHHCCEEEECCHHC");
   s.chains.assign({{"A", 0, 12}, {"B", 12, 15}, {"", 15, 16}});
@@ -54,10 +54,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view words = fuzz::Bytes(data, size).text();
   const auto without = select(molecule, words, false), with = select(molecule, words, true);
   fuzz::require(with.has_value() || !without, "omega decides what is a word");
-  if (!with || !without) return 0;  // only omega, which is nothing where it is not asked for
+  if (!with || !without) return 0;  // the expression selects omega only, which is not available without it
   fuzz::require(std::includes(with->begin(), with->end(), without->begin(), without->end()),
                 "omega takes torsions away");
-  // Parentheses change nothing around a whole expression, and sets obey the laws of sets.
+  // Parentheses around a whole expression change nothing, and selections obey the laws of sets.
   const std::string whole = "(" + std::string(words) + ")";
   const auto expect = [&](const std::string& other, const Positions& expected, const char* what) {
     const auto found = select(molecule, other, true);
@@ -72,7 +72,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto all = select(molecule, "all", true);
   std::set_difference(all->begin(), all->end(), with->begin(), with->end(), std::back_inserter(rest));
   if (!rest.empty()) expect("not " + whole, rest, "not is something else than the rest");
-  // The union counts, in whatever order: alternatives by themselves select what they do in a list.
+  // An expression with `or` selects the union of what its parts select.
   const auto comma = words.find(" or ");
   if (comma == std::string_view::npos || words.find('(') != std::string_view::npos) return 0;
   const auto head = select(molecule, words.substr(0, comma), true),

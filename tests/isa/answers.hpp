@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What main.cpp may know of answers.cpp before it is sure that this CPU runs it.
+// Declarations that main.cpp can use before it knows that this CPU can run answers.cpp.
 #pragma once
 
 extern "C" {
-/// The hinge::detail::simd::InstructionSet answers.cpp was compiled for, as a number. Data: looking at it runs no code.
+/// The hinge::detail::simd::InstructionSet of answers.cpp as a number. It is data: reading it runs no code.
 extern const unsigned char needed_instruction_set;
 
-/// Asks everything and prints what differs from the literals; the number of differences.
+/// Runs all queries, prints differences from the stored hashes, and returns their number.
 int compare_answers();
 }

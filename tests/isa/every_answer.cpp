@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hashes of what every primitive and engine answers, random scenes, ties and threads, a line each: build_all.sh
-// compiles this in many ways and compares the lines. Here only engines and threads are compared with each other.
+// Prints one line per hash of the answers of every primitive and engine, for random scenes, ties and threads.
+// build_all.sh compiles this in many ways and compares the lines; this program compares only engines and threads.
 #include <tbb/global_control.h>
 
 #include <cstddef>
@@ -58,11 +58,11 @@ void ties(const char* what, std::uint64_t seed, Grid grid, const Model<P>& model
         tied_answers_of<P, F, D, Lazy>(seed, grid, model, filter, matrix, steps));
 }
 
-/// Verdicts and pairs of one model over one, two and eight threads.
+/// Prints hashes of verdicts and pairs of one model, and compares one, two and eight threads.
 template <class P, class F, class D>
 void threads(const char* what, std::uint64_t seed, Grid grid, const Model<P>& model, const F& filter, const D& matrix) {
   constexpr std::size_t count = 40;
-  // More threads than this machine may have.
+  // Allows more threads than the machine may have.
   const tbb::global_control eight(tbb::global_control::max_allowed_parallelism, 8);
   using H = Hierarchy<P, F, D>;
   const H hierarchy(model, filter, matrix);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compiled for the baseline whatever answers.cpp is compiled for, and without functions that both use: the linker could
-// take the copy of answers.cpp. Exit status 0: the same answers; 1: others; 77: this CPU cannot tell.
+// Compiled for the baseline, and shares no inline functions with answers.cpp, because the linker could keep the copy of
+// answers.cpp. Exit status 0: answers are equal; 1: they differ; 77: this CPU lacks the instruction set.
 #include <cstdio>
 
 #include "hinge/detail/simd/instruction_set.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random mechanisms taken through every query, and what comes out folded into three hashes: poses, verdicts with the
-// pairs they name, and distances. Verdicts must not change with anything a compiler may do.
+// Runs every query on random mechanisms and folds the answers into three hashes: poses, verdicts with their pairs, and
+// distances. No compiler option may change the verdicts.
 #pragma once
 
 #include <bit>
@@ -20,7 +20,7 @@
 
 namespace hinge::isa {
 
-/// 64-bit FNV-1a, byte by byte, lowest first.
+/// 64-bit FNV-1a, byte by byte, lowest byte first.
 class Hash {
  public:
   void add(std::uint64_t word) noexcept {
@@ -41,7 +41,8 @@ class Hash {
   std::uint64_t value_ = 0xcbf29ce484222325ULL;
 };
 
-/// By hand and in sequence: neither the library's distributions nor the order of arguments are the same everywhere.
+/// Random numbers that are equal everywhere: standard distributions and the evaluation order of arguments differ
+/// between compilers.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -65,7 +66,7 @@ class Random {
   }
 
  private:
-  /// Rounded before it is added, also where the compiler may contract.
+  /// Not inlined, so that the product is rounded before the addition even if the compiler may contract.
   [[gnu::noinline]] static double product(double a, double b) { return a * b; }
 
   std::mt19937_64 engine_;
@@ -93,7 +94,8 @@ inline Capsule primitive(Random& random, const Vec3& at, const Capsule*) {
   return Capsule{a, b, random.uniform(0.0, 0.3)};
 }
 
-/// A world with `on_world` primitives, a chain of links with one to eight each, one with `large`, and branches.
+/// A world with `on_world` primitives and a chain of links with branches. Links have one to eight primitives; one has
+/// `large`.
 template <class P>
 Model<P> random_model(Random& random, std::size_t links, std::size_t on_world, std::size_t large) {
   ModelBuilder<P> builder;
@@ -121,7 +123,7 @@ Model<P> random_model(Random& random, std::size_t links, std::size_t on_world, s
   return builder.finish();
 }
 
-/// Indices and yes or no on one side, everything that is a rounded number on the other.
+/// Hashes: verdicts are indices and yes or no; poses and distances are rounded numbers.
 struct Answers {
   Hash poses, verdicts, distances;
 
@@ -134,7 +136,7 @@ struct Answers {
       distances.add(hit.threshold);
     }
   }
-  /// How close, and not which of several equally close pairs.
+  /// Adds the gap, but not the pair, because several pairs may be equally close.
   void add_closest(const std::optional<Hit>& hit) { distances.add(hit ? hit->gap() : 1e300); }
 };
 
@@ -152,7 +154,7 @@ void ask(H& model, H& other, const QueryOptions& options, const QueryOptions& ac
   answers.add_closest(model.closest(other, TwelfthExcluded{}, across));
 }
 
-/// Everything a hierarchy can be told, and all it then answers.
+/// Runs all updates and all queries of a hierarchy.
 template <class P, class F, class D, template <class, class, class> class EngineOf>
 Answers answers_of(std::uint64_t seed, const Model<P>& model, const F& filter, const D& matrix, int configurations) {
   Random random(seed);
@@ -166,7 +168,7 @@ Answers answers_of(std::uint64_t seed, const Model<P>& model, const F& filter, c
   for (int step = 0; step < configurations; ++step) {
     QueryOptions options, across;
     const double range = step % 9 == 8 ? 0x1p22 : step % 2 == 0 ? 3.2 : 0.2;
-    if (step % 3 == 2) {  // little moves
+    if (step % 3 == 2) {  // small moves
       for (int k = 0; k < 3; ++k) q[random.below(q.size())] = random.uniform(-range, range);
       options.moved_only = across.moved_only = true;
     } else {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes full of exact ties and of pairs an ulp from one, on coordinates that no rounding and no contraction changes:
-// whole numbers of a grid, moved by whole numbers of it along the axes.
+// Scenes with many exact ties and pairs one ulp from a tie. Coordinates are integers of a grid, moved by integers along
+// the axes, so neither rounding nor contraction changes them.
 #pragma once
 
 #include <cmath>
@@ -14,8 +14,8 @@
 
 namespace hinge::isa {
 
-/// Binary: eighths, where d = M can hold exactly. Decimal: tenths, where it holds on paper, as in PDB files, and what
-/// is stored falls on either side of it.
+/// Binary: multiples of 1/8, where d = M can hold exactly. Decimal: multiples of 1/10 as in PDB files, where ties hold
+/// only on paper and stored values are on either side.
 enum class Grid : std::uint8_t { binary, decimal };
 
 inline double grid_value(Grid grid, std::int64_t k) {
@@ -45,8 +45,8 @@ inline Triangle tied(Grid grid, Random& random, const Triangle*) {
   return {a, Vec3(a + by), Vec3(a + grid_point(grid, random, 9))};
 }
 
-/// A triangle of whole numbers and a corner on its face or edge: at u a + v b + w c with u + v + w = 2^20, in units of
-/// 2^-20, so exactly. Every other one is then nudged by an ulp.
+/// Returns a triangle with integer corners, and a second one with a corner on its face or edge: at u a + v b + w c with
+/// u + v + w = 2^20, in units of 2^-20, so exact. Every second one is then moved by an ulp.
 inline std::pair<Triangle, Triangle> touching(Random& random) {
   constexpr std::int64_t whole = std::int64_t{1} << 20;
   const auto draw = [&] { return static_cast<std::int64_t>(random.below(4096)) - 2048; };
@@ -77,7 +77,7 @@ inline std::pair<Triangle, Triangle> touching(Random& random) {
   return {{point(0), point(1), point(2)}, {at, away, second}};
 }
 
-/// The world and three links that slide along x, y and z, one on the other.
+/// The world and a chain of three links that slide along x, y and z.
 template <class P>
 Model<P> tied_model(Grid grid, Random& random, std::size_t each) {
   ModelBuilder<P> builder;
@@ -90,7 +90,7 @@ Model<P> tied_model(Grid grid, Random& random, std::size_t each) {
   return builder.finish();
 }
 
-/// As above, one half of each pair on the world, the other on the last link: touching at the reference.
+/// The same links; one triangle of each pair is on the world, the other on the last link. They touch at the reference.
 inline Model<Triangle> touching_model(Random& random, std::size_t pairs) {
   ModelBuilder<Triangle> builder;
   std::vector<Triangle> others;
@@ -105,7 +105,7 @@ inline Model<Triangle> touching_model(Random& random, std::size_t pairs) {
   return builder.finish();
 }
 
-/// Thresholds on the grid and an ulp beside it.
+/// Thresholds on the grid or one ulp from it.
 inline TypedThresholds tied_thresholds(Grid grid, std::size_t n, Random& random) {
   constexpr std::size_t types = 6;
   std::vector<std::uint16_t> type(n);
@@ -120,7 +120,7 @@ inline TypedThresholds tied_thresholds(Grid grid, std::size_t n, Random& random)
   return {std::move(type), types, std::move(table)};
 }
 
-/// Configurations on the grid; near the reference, where touching pairs stay near to touching.
+/// Runs all queries at configurations on the grid, near the reference, where touching pairs almost touch.
 template <class P, class F, class D, template <class, class, class> class EngineOf>
 Answers tied_answers_of(std::uint64_t seed, Grid grid, const Model<P>& model, const F& filter, const D& matrix,
                         int configurations) {

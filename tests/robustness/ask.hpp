@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ask: what every kind of case shares: refusals as answers, one question in several modes, lists as vectors.
+// Helpers for all kinds of cases: refusals as answers, queries in several modes, the choice of an engine.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@
 
 namespace hinge::robustness {
 
-/// What `ask` answers, or that the library refused.
+/// Returns the answer of `ask`, or a refused answer if it throws an error of the library. way: how the case is asked.
 template <class Ask>
 Answer asked(std::string way, const Ask& ask) {
   Answer answer;
@@ -38,7 +38,7 @@ inline void contradict(Answer& answer, const std::string& what) {
   answer.contradiction += (answer.contradiction.empty() ? "" : "; ") + what;
 }
 
-/// Yes/no and the list of hits are two questions with one answer. `offset`: added to the second primitive's number.
+/// Stores the hits and checks that yes/no and the list agree. `offset` is added to the second primitive's index.
 inline void take_hits(Answer& answer, bool any, const std::vector<Hit>& hits, std::size_t offset = 0) {
   answer.hit = any;
   answer.pair_count = hits.size();
@@ -49,7 +49,7 @@ inline void take_hits(Answer& answer, bool any, const std::vector<Hit>& hits, st
   if (any == hits.empty()) contradict(answer, "yes/no and the list of hits differ");
 }
 
-/// Of closed solids whose threshold is 0: the distance is 0 exactly when they meet.
+/// Stores the distance. Valid for thresholds of 0: the distance must be 0 if and only if there is a hit.
 inline void take_closest(Answer& answer, const std::optional<Hit>& closest) {
   if (closest) answer.distance = closest->distance;
   if (answer.hit != (answer.distance == 0.0)) contradict(answer, "distance 0 and yes/no differ");
@@ -60,7 +60,7 @@ inline Vec3 vector_of(const std::vector<double>& values, const std::string& what
   return {values[0], values[1], values[2]};
 }
 
-/// run.operator()<EngineOf>() for the engine of this name.
+/// Calls run.operator()<EngineOf>() with the engine of this name.
 template <class Run>
 auto on(EngineName engine, const Run& run) {
   if (engine == EngineName::brute) return run.template operator()<Brute>();

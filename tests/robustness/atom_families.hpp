@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random atoms by family: ties to the last bit, sizes and places that rounding does not like, and input to refuse.
+// Random atoms by family: ties to the last bit, scales and positions where rounding matters, and invalid input.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace hinge::test {
 
 using AtomFamily = Family<robustness::Atoms>;
 
-/// Each point a group of its own, all of one type.
+/// Returns atoms at these points: one type, one group per atom.
 inline robustness::Atoms atoms_at(const std::vector<Vec3>& points, double threshold) {
   robustness::Atoms atoms;
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -38,7 +38,7 @@ inline double neighbour(Random& r, double x) {
   return k == 0 ? x : std::nextafter(x, k == 1 ? 0.0 : std::numeric_limits<double>::infinity());
 }
 
-/// Two points and their rounded distance, or a double beside it.
+/// Returns two points with a threshold equal to their rounded distance or one double next to it.
 inline robustness::Atoms nearly_tied(Random& r, const Vec3& p, const Vec3& q) {
   return atoms_at({p, q}, neighbour(r, std::sqrt(squared_norm(Vec3(p - q)))));
 }
@@ -54,7 +54,7 @@ struct WholeLength {
   double length = 0.0;
 };
 
-/// A vector of whole numbers whose length is whole, too.
+/// Returns an integer vector whose length is an integer.
 inline WholeLength whole_length(Random& r) {
   static constexpr std::array<std::array<double, 4>, 9> all{{{1, 2, 2, 3},
                                                              {2, 3, 6, 7},
@@ -81,7 +81,7 @@ inline robustness::Atoms exact_tie_binary(Random& r) {
   return atoms_at({p, Vec3(p + w.v * unit)}, neighbour(r, w.length * unit));
 }
 
-/// A pair about which plain doubles are wrong, unless none turns up.
+/// Returns a pair for which plain double arithmetic gives the wrong verdict; any pair after 64 failed attempts.
 inline robustness::Atoms double_rounding_flip(Random& r) {
   robustness::Atoms atoms;
   for (int attempt = 0; attempt < 64; ++attempt) {
@@ -111,7 +111,7 @@ inline robustness::Atoms far_from_origin(Random& r) {
   return nearly_tied(r, p, Vec3(p + r.vector(3.0)));
 }
 
-/// Ties at a scale whose squares are no doubles, or poor ones.
+/// Returns ties at scales where squared lengths overflow, underflow or lose bits.
 inline robustness::Atoms tied_at(Random& r, int lowest, int highest) {
   const WholeLength w = whole_length(r);
   const double unit =
@@ -141,7 +141,7 @@ inline robustness::Atoms all_at_one_point(Random& r) {
   return atoms_at(std::vector<Vec3>(1 + r.below(40), r.vector(1e3)), r.one_in(2) ? 0.0 : 1.0);
 }
 
-/// Evenly spaced, or each half as far out as the one before.
+/// Returns points evenly spaced on a line, or each at half the distance of the point before.
 inline robustness::Atoms on_a_line(Random& r) {
   const bool halving = r.one_in(2);
   const double step = r.one_in(2) ? 1.5 : 1.0;
@@ -150,7 +150,7 @@ inline robustness::Atoms on_a_line(Random& r) {
   return atoms_at(points, r.one_in(2) ? 1.5 : neighbour(r, std::sqrt(2.0) * step));
 }
 
-/// Random types, thresholds, groups and exclusions.
+/// Sets random types, thresholds, groups and exclusions.
 inline void mix(Random& r, robustness::Atoms& atoms, std::size_t groups, double largest) {
   atoms.type_count = 1 + static_cast<std::int64_t>(r.below(3));
   const auto types = static_cast<std::size_t>(atoms.type_count);
@@ -164,7 +164,7 @@ inline void mix(Random& r, robustness::Atoms& atoms, std::size_t groups, double 
     if (!r.one_in(3)) atoms.excluded.insert(atoms.excluded.end(), {k, k + 1});
 }
 
-/// No atom, one, and many in one group, in few, or each in its own.
+/// Returns no atom, one atom, or many atoms in one group, few groups, or one group each.
 inline robustness::Atoms group_extremes(Random& r) {
   const std::size_t n = r.one_in(3) ? r.below(2) : 20;
   std::vector<Vec3> points;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Case: one line of a file of robustness cases, what is known to be true of it, and what an engine answers.
+// Case: one line of a file of robustness cases, its true answer, and the answers of an engine.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace hinge::robustness {
 
-// The input as it stands in the file: lengths of lists and ranges of indices are left to whoever builds a model of it.
+// Input as it is in the file. The code that builds a model checks lengths of lists and ranges of indices.
 
 struct TrianglePair {
   std::vector<double> a, b;  ///< three corners each
@@ -70,8 +70,8 @@ struct Truth {
   bool stable = true;  ///< false: rounding world coordinates by a few ulps can change the verdict
   std::optional<std::size_t> pair_count;
   std::optional<std::vector<std::uint32_t>> pairs;  ///< flat, sorted
-  std::optional<Bracket> distance;                  ///< of the closest pair; none: not said, or no pair is tested
-  /// Are verdict and distances those of the world coordinates that the library computes, not of the input?
+  std::optional<Bracket> distance;                  ///< of the closest pair; empty: unknown, or no pair is tested
+  /// Do verdict and distances hold for the library's computed world coordinates instead of the input?
   bool of_placed = false;
   std::vector<LinkPairTruth> link_pairs;
   std::optional<std::array<std::size_t, 2>> closest;  ///< links

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random chains and trees of small meshes by family, and chains to refuse.
+// Random chains and trees of small meshes by family, and invalid chains.
 #pragma once
 
 #include <array>
@@ -23,18 +23,18 @@ using ChainFamily = Family<Chain>;
 
 inline std::vector<double> three(double x, double y, double z) { return {x, y, z}; }
 
-/// A tetrahedron along x from `from` to `to`.
+/// Returns a tetrahedron along x from `from` to `to`.
 inline robustness::Mesh spike(double from, double to, double width) {
   return {{from, -width, -width, from, width, -width, from, 0.0, width, to, 0.0, 0.0},
           {0, 1, 2, 0, 1, 3, 1, 2, 3, 2, 0, 3}};
 }
 
-/// Each link's frame at x = 1 of its parent's, the first at the world's origin.
+/// Returns a link with its frame at x = 1 of its parent's frame; a first link is at the world's origin.
 inline ChainLink link_of(std::int64_t parent, std::vector<double> axis, double angle, robustness::Mesh mesh) {
   return {parent, three(parent < 0 ? 0.0 : 1.0, 0.0, 0.0), std::move(axis), angle, std::move(mesh)};
 }
 
-/// Whole numbers, whose lengths mostly are no doubles.
+/// Returns an integer axis; its length is rarely a double.
 inline std::vector<double> any_axis(Random& r) {
   const auto one = [&] { return static_cast<double>(r.below(7)) - 3.0; };
   const double x = one(), y = one();
@@ -49,7 +49,7 @@ inline Chain random_arm(Random& r) {
   return chain;
 }
 
-/// One angle that is very large, very small or a rounded whole or half turn.
+/// Returns a chain with one angle that is very large, very small, or a rounded full or half turn.
 inline Chain angle_extremes(Random& r) {
   constexpr double pi = std::numbers::pi;
   constexpr std::array<double, 10> angles{1e6, -1e6, pi, -pi, 1e-12, 2 * pi, 0.0, 1e22, 0x1p-1074, -1e-300};
@@ -62,7 +62,7 @@ inline Chain angle_extremes(Random& r) {
   return chain;
 }
 
-/// A polygon whose last link comes back to the first: apart, touching but for rounding, or overlapping.
+/// Returns a polygon whose last link reaches the first: with a gap, touching up to rounding, or overlapping.
 inline Chain ring_closure(Random& r) {
   Chain chain;
   const auto corners = static_cast<std::int64_t>(3 + r.below(6));
@@ -74,7 +74,7 @@ inline Chain ring_closure(Random& r) {
   return chain;
 }
 
-/// Flat links, in turn about x, y and z.
+/// Returns a chain of flat links that rotate about x, y and z in turn.
 inline Chain long_chain(Random& r) {
   Chain chain;
   const auto n = static_cast<std::int64_t>(12 + r.below(13));
@@ -84,7 +84,7 @@ inline Chain long_chain(Random& r) {
   return chain;
 }
 
-/// Every link carries up to two.
+/// Returns a tree in which every link has up to two children.
 inline Chain branched_tree(Random& r) {
   Chain chain;
   const auto n = static_cast<std::int64_t>(4 + r.below(4));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The truth about atoms, in whole multiples of the smallest double (Boost.Multiprecision).
+// True answers for atoms, computed in integer multiples of the smallest double (Boost.Multiprecision).
 #pragma once
 
 #include <algorithm>
@@ -19,12 +19,12 @@ namespace hinge::test {
 using Big = boost::multiprecision::cpp_int;
 using Simd = boost::multiprecision::cpp_bin_float_50;
 
-/// x / 2^-1074, whole for every double.
+/// Returns x / 2^-1074, an integer for every double.
 inline Big in_smallest_doubles(double x) {
   int exponent = 0;
   const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &exponent), 53));
   const int shift = exponent - 53 + 1074;
-  // Below the normal doubles the last bits of the mantissa are zeros.
+  // For denormals the last bits of the mantissa are zeros.
   return shift >= 0 ? Big(mantissa) << static_cast<unsigned>(shift) : Big(mantissa / (std::int64_t{1} << -shift));
 }
 
@@ -37,7 +37,8 @@ inline Big exact_square(const double* p, const double* q) {
   return sum;
 }
 
-/// d < m. Extended precision decides where its rounding cannot matter, and whole numbers the rest.
+/// Returns whether d < m exactly. Extended precision decides if its rounding error cannot matter, otherwise integers
+/// do.
 inline bool exactly_closer(const double* p, const double* q, double m) {
   long double squared = 0;
   for (int k = 0; k < 3; ++k) {
@@ -45,21 +46,21 @@ inline bool exactly_closer(const double* p, const double* q, double m) {
     squared += d * d;
   }
   const long double square = static_cast<long double>(m) * m, difference = squared - square;
-  // Six roundings of half an epsilon at most; a NaN or an underflow to 0 decides nothing.
+  // At most six roundings of half an epsilon. A NaN or an underflow to 0 leaves the decision to integers.
   const long double doubt = 8 * std::numeric_limits<long double>::epsilon() * std::max(squared, square);
   if (doubt > 0 && std::abs(difference) > doubt) return difference < 0;
   const Big threshold = in_smallest_doubles(m);
   return exact_square(p, q) < threshold * threshold;
 }
 
-/// One ulp to either side of the rounded value, except where it is exact in an obvious way.
+/// Returns the two doubles next to the rounded value; the value itself twice if it is exact.
 inline robustness::Bracket bracket_of(const Simd& x) {
   const auto d = static_cast<double>(x);
   if (Simd(d) == x) return {d, d};
   return {std::nextafter(d, 0.0), std::nextafter(d, std::numeric_limits<double>::infinity())};
 }
 
-/// Of atoms that can be answered for.
+/// Returns the true answer for valid atoms.
 inline robustness::Truth exact_truth(const robustness::Atoms& atoms) {
   robustness::Truth truth;
   truth.pairs.emplace();
@@ -74,7 +75,8 @@ inline robustness::Truth exact_truth(const robustness::Atoms& atoms) {
       if (atoms.group[i] == atoms.group[j]) continue;
       if (excluded.contains({static_cast<std::int64_t>(i), static_cast<std::int64_t>(j)})) continue;
       const double *p = atoms.x.data() + 3 * i, *q = atoms.x.data() + 3 * j;
-      // Right to a few roundings of a longer mantissa: enough to find a pair as close as the closest.
+      // The error is a few roundings in extended precision, so the pair found is as close as the closest in double
+      // precision.
       const long double d = std::hypot(static_cast<long double>(p[0]) - q[0], static_cast<long double>(p[1]) - q[1],
                                        static_cast<long double>(p[2]) - q[2]);
       if (d < least) least = d, closest = {i, j};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The truth about two sets of placed triangles: extended precision rules out pairs, rationals decide all others.
+// True answers for two sets of placed triangles: extended precision rules out pairs, rationals decide the others.
 #pragma once
 
 #include <algorithm>
@@ -22,12 +22,12 @@ using Extended = std::array<long double, 3>;
 
 inline long double dot(const Extended& a, const Extended& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// a + s b
+/// Returns a + s b.
 inline Extended plus(const Extended& a, long double s, const Extended& b) {
   return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
 }
 
-/// Two triangles seen from the first's first corner, and bounds of their distance that hold whatever the rounding.
+/// Two triangles relative to the first corner of the first, with rigorous bounds of their distance.
 class ExtendedPair {
  public:
   ExtendedPair(const Triangle& x, const Triangle& y) {
@@ -48,9 +48,9 @@ class ExtendedPair {
   long double upper() const { return upper_; }
 
  private:
-  /// Along any direction the gap of the corners' ranges bounds the distance from below, and the length of a difference
-  /// of points of the triangles from above. 64 half epsilons hold the roundings of both: 6 of a corner or a convex sum
-  /// of corners, 5 of a dot product and 3 of a norm, for each triangle.
+  /// Updates the bounds with direction d, a difference of points of the triangles. Its length is an upper bound; the
+  /// gap of the corners' projections onto it is a lower bound. 64 half epsilons cover the roundings: per triangle 6 for
+  /// a corner or a convex combination of corners, 5 for a dot product, 3 for a norm.
   void look_along(const Extended& d) {
     const long double length = std::sqrt(dot(d, d));
     const long double doubt = 32 * std::numeric_limits<long double>::epsilon() * size_;
@@ -80,7 +80,7 @@ class ExtendedPair {
     look_along(plus(plus(r, s, u), -t, v));
   }
 
-  /// Corner k of a side and the nearest point of the other's plane, if that is inside.
+  /// Tries corner k of a side and its projection onto the other triangle's plane, if that is inside the triangle.
   void look_at_face(std::size_t side, std::size_t k) {
     const auto& face = corner_[1 - side];
     const Extended u = plus(face[1], -1, face[0]), v = plus(face[2], -1, face[0]),
@@ -134,7 +134,7 @@ inline ExactMeshes exact_meshes(std::span<const Triangle> a, std::span<const Tri
     return exact;
   }
   if (apart.empty()) return exact;
-  // Bounds much closer than half an ulp of the coordinates tell enough; where they fall apart, rationals do.
+  // Bounds that differ by much less than half an ulp of the coordinates suffice; otherwise rationals decide.
   if (lower > 0 && upper - lower <= 0x1p-55L * exact.span) {
     exact.distance = {std::nextafter(static_cast<double>(lower), 0.0),
                       std::nextafter(static_cast<double>(upper), std::numeric_limits<double>::infinity())};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// expect_right: a case whose truth is known, on every engine.
+// Checks cases with known answers on every engine.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@
 
 namespace hinge::robustness {
 
-/// Cases per family.
+/// Returns the number of cases per family.
 inline std::size_t case_count() { return std::getenv("HINGE_TEST_ALL") != nullptr ? 100'000 : 1'000; }
 
 inline Truth to_refuse() {
@@ -40,7 +40,7 @@ inline std::string text(const std::vector<double>& values) {
   return line;
 }
 
-/// The numbers of small cases, so that a failure can be reproduced without its seed.
+/// Returns the numbers of a small case, to reproduce a failure without its seed.
 inline std::string text(const Case& one) {
   std::string line = one.family;
   const auto* pair = std::get_if<TrianglePair>(&one.input);
@@ -60,8 +60,8 @@ inline testing::AssertionResult expect_right(const Case& one) {
   return result;
 }
 
-/// Draws the cases of a family and expects all engines to be right; make(random, case) fills in what is there and what
-/// is true. Ends with the first failure; prints `also()` behind the counts.
+/// Generates the cases of a family and expects right answers from all engines. make(random, case) sets input and truth.
+/// Stops at the first failure; prints `also()` after the counts.
 template <class Make, class Also>
 void expect_family(std::uint64_t seed, const std::string& name, const char* kind, const Make& make, const Also& also) {
   test::Random random(seed);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Family: a name and what draws a case of it.
+// Family: a name and a generator of cases.
 #pragma once
 
 #include "engine/random_mechanism.hpp"

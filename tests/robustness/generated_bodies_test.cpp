@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mesh pairs and chains of every family, on every engine. Verdicts and distances are about the coordinates that the
-// library places and hands out, decided in rationals; those in turn are held against 50 digits.
+// Tests mesh pairs and chains of every family on every engine. Rationals decide verdicts and distances on the library's
+// world coordinates; these coordinates are compared with poses in 50 digits.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ using test::Simd;
 
 using WideVector = std::array<Simd, 3>;
 
-/// A placement to 50 digits: columns of the rotation, then the translation.
+/// A pose in 50 digits: columns of the rotation, then the translation.
 struct WidePose {
   std::array<WideVector, 4> column;
 
@@ -53,13 +53,13 @@ struct WidePose {
     for (std::size_t row = 0; row < 3; ++row) to[row] += column[3][row];
     return to;
   }
-  /// This, then b.
+  /// Returns the product of this pose and b.
   WidePose then(const WidePose& b) const {
     return {{turned(b.column[0]), turned(b.column[1]), turned(b.column[2]), placed(b.column[3])}};
   }
 };
 
-/// Translation by the origin, then the rotation by the angle about the axis (Rodrigues).
+/// Returns the pose of a link in its parent: translation to the origin, then rotation about the axis (Rodrigues).
 WidePose motion(const ChainLink& link) {
   const WideVector axis{link.axis[0], link.axis[1], link.axis[2]};
   const Simd length = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
@@ -76,7 +76,7 @@ WidePose motion(const ChainLink& link) {
   return pose;
 }
 
-/// Largest distance between the placed corners and where they belong.
+/// Returns the largest distance between placed corners and their positions in 50 digits.
 double largest_error(std::span<const Triangle> placed, const std::vector<Triangle>& local, const WidePose& pose) {
   Simd worst = 0;
   for (std::size_t k = 0; k < local.size(); ++k)
@@ -93,7 +93,8 @@ double largest_error(std::span<const Triangle> placed, const std::vector<Triangl
   return static_cast<double>(sqrt(worst));
 }
 
-/// Of the coordinates the library places; checked against 50 digits on the way. Sets `worst`: of the bound.
+/// Returns the true answer for the library's world coordinates. Sets `worst` to the largest share of the error bound
+/// that these coordinates use.
 Truth truth_of(const MeshPair& pair, double& worst) {
   ModelBuilder<Triangle> builder;
   const auto a = triangles_in(pair.a), b = triangles_in(pair.b);
@@ -105,7 +106,7 @@ Truth truth_of(const MeshPair& pair, double& worst) {
   const auto placed_a = both.placed().first(a.size()), placed_b = both.placed().subspan(a.size());
   for (const double share : {largest_error(placed_a, a, WidePose::of(at_a)) / placed_rounding(pair.a, pair.place_a),
                              largest_error(placed_b, b, WidePose::of(at_b)) / placed_rounding(pair.b, pair.place_b)})
-    worst = std::max(worst, share);  // of an empty mesh: not a number, which max() passes over
+    worst = std::max(worst, share);  // NaN for an empty mesh; max() ignores it
   test::ExactMeshes exact = test::exact_meshes(placed_a, placed_b);
   for (std::size_t p = 1; p < exact.pairs.size(); p += 2) exact.pairs[p] += static_cast<std::uint32_t>(a.size());
   Truth truth;
@@ -133,7 +134,7 @@ TEST_P(MeshFamilies, EqualExactAnswers) {
 INSTANTIATE_TEST_SUITE_P(Generated, MeshFamilies, testing::ValuesIn(test::mesh_families()),
                          [](const auto& family) { return std::string(family.param.name); });
 
-/// The same of a chain's links.
+/// The same for the links of a chain.
 Truth truth_of(const Chain& chain, double& worst) {
   auto links = hierarchy_of<Brute>(chain);
   const auto placed = links.placed();
@@ -176,7 +177,7 @@ TEST_P(ChainFamilies, EqualExactAnswers) {
   const auto make = [&](Random& random, Case& one) {
     one.input = GetParam().make(random);
     if (!GetParam().refuse) one.truth = truth_of(std::get<Chain>(one.input), worst);
-    // An eighth: more than was ever seen, though less than the bound may be.
+    // An eighth is above the largest share ever observed; the bound itself allows more.
     EXPECT_LE(worst, 0.125) << "links misplaced";
   };
   expect_family(34, GetParam().name, "chain", make,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Atoms and triangle pairs of every family, on every engine, against exact rationals.
+// Tests atoms and triangle pairs of every family on every engine against exact rationals.
 #include <gtest/gtest.h>
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// judge: verdicts without tolerance, distances within the stated bound.
+// Compares answers with the truth: verdicts exactly, distances within their error bound.
 #include "robustness/judge.hpp"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ double largest(const std::vector<double>& values) {
   return most;
 }
 
-/// |R| |v| + |t|, the size that the rounding of R v + t is relative to; the largest of a mesh.
+/// Returns the largest |R| |v| + |t| of the mesh; the rounding error of R v + t is relative to it.
 double placed_size(const Mesh& mesh, const std::vector<double>& place) {
   double most = 0.0;
   if (place.size() != 12) return most;
@@ -36,7 +36,7 @@ double placed_size(const Mesh& mesh, const std::vector<double>& place) {
   return most;
 }
 
-/// Length of the chain from the world to a link's farthest vertex: no point of the link is farther out.
+/// Returns the length of the chain from the world to the farthest vertex of a link; no point of the link is farther.
 double reach(const Chain& chain, std::size_t link) {
   const double corner = root_of_3 * largest(chain.links[link].mesh.v);
   double length = corner;
@@ -47,8 +47,8 @@ double reach(const Chain& chain, std::size_t link) {
   return length;
 }
 
-/// Is the distance within 16 ulp of itself and 8 ulp of the largest coordinate difference `span` of the truth, and the
-/// rounding of world coordinates? The smallest denormal on top: below the normal doubles there are no 16 ulp.
+/// Is the distance within 16 ulp of itself, 8 ulp of the largest coordinate difference `span`, and the rounding of
+/// world coordinates? The smallest denormal is added, because 16 ulp underflow below the normal doubles.
 bool within(double distance, const Bracket& truth, double span, double rounding) {
   if (std::isinf(truth.low)) return distance == truth.low;
   const double allowed = ulp * (16 * truth.high + 8 * span) + rounding + std::numeric_limits<double>::denorm_min();
@@ -64,7 +64,7 @@ struct Allowance {
   double span = 0.0, rounding = 0.0;
 };
 
-/// Triangles are not placed: no rounding but that of the distance.
+/// Triangles are not transformed, so only the distance is rounded.
 Allowance allowance(const TrianglePair& pair, bool) {
   double span = 0.0;
   for (std::size_t k = 0; k < 18; ++k)
@@ -75,7 +75,7 @@ Allowance allowance(const TrianglePair& pair, bool) {
   return {span, 0.0};
 }
 
-/// Nor are points at the reference; differences of their coordinates are at most the distance.
+/// Points at the reference are not transformed either. Their coordinate differences are at most the distance.
 Allowance allowance(const Atoms&, bool) { return {}; }
 
 Allowance allowance(const MeshPair& pair, bool of_placed) {
@@ -128,7 +128,7 @@ void judge_links(const Chain& chain, const Truth& truth, const Answer& answer, s
   if (truth.link_pairs.size() != answer.link_pairs.size())
     found.push_back(std::to_string(answer.link_pairs.size()) + " pairs of links tested, expected " +
                     std::to_string(truth.link_pairs.size()));
-  // Any pair may be named that is as close as the closest within what its distance may be off.
+  // Any pair is accepted whose distance is within the error bound of the smallest.
   if (truth.closest && !(closest != nullptr && within(closest->distance.low, least, any.span, any.rounding)))
     found.push_back(answer.closest ? "closest: links " + std::to_string((*answer.closest)[0]) + " and " +
                                          std::to_string((*answer.closest)[1])
@@ -137,7 +137,7 @@ void judge_links(const Chain& chain, const Truth& truth, const Answer& answer, s
     found.push_back(not_within(answer.distance, least));
   if (truth.tip) {
     const double off = answer.tip ? (*answer.tip - *truth.tip).norm() : std::numeric_limits<double>::infinity();
-    // The file's tip is rounded, too.
+    // The tip in the file is rounded too.
     const double allowed = link_rounding(chain, chain.links.size() - 1) + root_of_3 * half_ulp * truth.tip->norm();
     if (!(off <= allowed)) found.push_back("tip off by " + hexadecimal(off) + ", at most " + hexadecimal(allowed));
   }
@@ -150,8 +150,8 @@ void judge(const Case& one, const Truth& truth, const Answer& answer, std::vecto
   }
   if (truth.refuse) return;
   if (!answer.contradiction.empty()) found.push_back(answer.contradiction);
-  // An unstable case touches, or nearly so, where the rounding of world vertices decides: both verdicts are right for
-  // an implementation whose promise is about the rounded ones.
+  // An unstable case touches or nearly touches, so the rounding of world vertices decides: both verdicts are right for
+  // a library whose guarantee is about the rounded vertices.
   if (truth.stable) {
     if (answer.hit != truth.hit) found.emplace_back(truth.hit ? "free, expected a hit" : "hit, expected free");
     if (truth.pair_count && answer.pair_count != *truth.pair_count)
@@ -172,16 +172,16 @@ void judge(const Case& one, const Truth& truth, const Answer& answer, std::vecto
 
 }  // namespace
 
-/// A coordinate of R v + t is rounded four times on its way, each time by half an ulp of what is at most placed_size.
-/// Other than rigid, R may be off by 1e-9, but the truth is about R as given.
+/// A coordinate of R v + t is rounded four times, each time by half an ulp of at most placed_size. R may deviate from a
+/// rotation by 1e-9, but the truth uses R as given.
 double placed_rounding(const Mesh& mesh, const std::vector<double>& place) {
   return root_of_3 * 4 * half_ulp * placed_size(mesh, place);
 }
 
-/// Per joint, in half ulps of the reach: the sines are right to 3, the axis to 3, and an entry of Rodrigues' matrix
-/// adds 5 roundings to the errors of its factors: below 16 for the matrix as an operator. The product with the parent's
-/// matrix rounds each entry 3 times, below 3 sqrt(3), and its translation 4. Together below 32 per joint, the placing
-/// of vertices included.
+/// Error per joint, in half ulps of the reach. Sines are accurate to 3, the axis to 3, and an entry of Rodrigues'
+/// matrix adds 5 roundings to the errors of its factors: below 16 for the matrix as an operator. The product with the
+/// parent's matrix rounds each entry 3 times, below 3 sqrt(3), and its translation 4 times. In sum below 32 per joint,
+/// including the transformation of vertices.
 double link_rounding(const Chain& chain, std::size_t link) {
   double joints = 1.0;
   for (std::int64_t k = chain.links[link].parent; k >= 0; k = chain.links[static_cast<std::size_t>(k)].parent) ++joints;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// judge: an answer held against the truth, and what rounding may change.
+// Compares answers with the truth, and bounds the effects of rounding.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace hinge::robustness {
 
-/// Everything wrong with the answers an engine gave to a case whose truth is known, one sentence each.
+/// Returns a sentence for every error in the answers of an engine to a case with known truth.
 std::vector<std::string> faults(const Case& one, const std::vector<Answer>& answers);
 
-/// Bound of how far rounding may put a vertex of a placed mesh (translation * rotation) from where it belongs.
+/// Returns a bound of the rounding error of a vertex of a placed mesh.
 double placed_rounding(const Mesh& mesh, const std::vector<double>& place);
 
-/// The same of a link of a chain, its frame and its vertices.
+/// The same for a link of a chain, including its frame and its vertices.
 double link_rounding(const Chain& chain, std::size_t link);
 
 }  // namespace hinge::robustness

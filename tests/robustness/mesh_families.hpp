@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random pairs of small placed meshes by family, and pairs to refuse.
+// Random pairs of small placed meshes by family, and invalid pairs.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ inline std::vector<double> shifted(double x, double y, double z) {
   return placement(pose);
 }
 
-/// A half wide to each side. `faces`: -x, +x and so on, two triangles each.
+/// Returns a box with half edge `half`; only the first `faces` of its faces (-x, +x and so on), two triangles each.
 inline Mesh box(double half, std::size_t faces = 6) {
   Mesh mesh;
   for (std::size_t k = 0; k < 8; ++k)
@@ -47,7 +47,8 @@ inline Mesh box(double half, std::size_t faces = 6) {
   return mesh;
 }
 
-/// Corners at a distance `size` along the axes; all eight triangles, or the four about the corner at -x.
+/// Returns an octahedron with corners at distance `size` on the axes: all eight triangles, or the four at the corner
+/// -x.
 inline Mesh octahedron(double size, bool half) {
   Mesh mesh;
   for (int axis = 0; axis < 3; ++axis)
@@ -78,7 +79,7 @@ inline double small_gap(Random& r) {
   return r.one_in(3) ? 0.0 : r.one_in(2) ? gap : -gap;
 }
 
-/// Two boxes of which the facing sides are left, side by side.
+/// Returns two boxes side by side, reduced to their x faces.
 inline MeshPair facing(Random& r, double at, double gap) {
   return {box(1.0, 2), box(1.0, r.one_in(8) ? 6 : 2), shifted(at, r.one_in(2) ? -at : 0.0, 0.0),
           shifted(at + 2.0 + gap, r.one_in(2) ? -at : r.uniform(-2.0, 2.0), 0.25)};
@@ -93,7 +94,7 @@ inline MeshPair box_gap_far_offset(Random& r) {
   return facing(r, std::floor(std::pow(10.0, r.uniform(6.0, 9.0))), r.one_in(2) ? 0x1p-10 : -0x1p-10);
 }
 
-/// An octahedron's lower corner above, on or in the top of a large box.
+/// Returns an octahedron whose corner at -x is outside, on or inside the +x face of a large box.
 inline MeshPair tiny_octahedron(Random& r) {
   const double size = std::ldexp(1.0, -static_cast<int>(10 + r.below(24)));
   const double gap =
@@ -113,7 +114,7 @@ inline Mesh needle(double width) {
   return {{-1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, width, 0.0, 0.0, 0.0, width}, {0, 1, 2, 0, 1, 3, 0, 2, 3, 1, 2, 3}};
 }
 
-/// Long and thin, crossing at a small height.
+/// Returns two long, thin needles that cross at a small distance.
 inline MeshPair needles(Random& r) {
   Pose pose;
   pose.rotation = rotation_about(Vec3::UnitZ(), r.uniform(-3.0, 3.0));
@@ -122,7 +123,7 @@ inline MeshPair needles(Random& r) {
           shifted(0, 0, 0), placement(pose)};
 }
 
-/// One wholly inside the other, which is no contact of surfaces, or the same twice.
+/// Returns one mesh inside the other, which is no contact of surfaces, or the same mesh twice.
 inline MeshPair nested_or_equal(Random& r) {
   const Mesh outer = box(1.0, 2);
   if (r.one_in(4)) return {outer, outer, shifted(0.5, 1, 2), shifted(0.5, 1, 2)};
@@ -144,7 +145,7 @@ inline MeshPair duplicated_triangles(Random& r) {
   return {repeated(box(1.0, 2), 2 + r.below(3)), soup(r, 2, 1.0), shifted(0, 0, 0), placement(r.pose(2.0))};
 }
 
-/// Segments and points among them.
+/// Returns triangles that include segments and points.
 inline MeshPair zero_area_triangles(Random& r) {
   Mesh flat = soup(r, 3, 1.0);
   flat.f[1] = flat.f[0];
@@ -185,7 +186,7 @@ inline MeshPair meshes_to_refuse(Random& r) {
     case 7: each([](double x, std::size_t k) { return k % 4 == 2 ? -x : x; }); break;  // mirrored
     default: each([](double, std::size_t) { return 0.0; }); break;
   }
-  // A vertex that no triangle names is no primitive, and nothing is wrong with it.
+  // A vertex without a triangle is no primitive and no error, so each such vertex gets a triangle.
   for (std::int64_t k = 0; k < 8; ++k)
     if (std::find(mesh.f.begin(), mesh.f.end(), k) == mesh.f.end()) mesh.f.insert(mesh.f.end(), {k, k, k});
   return pair;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// read_cases: from JSON to cases.
+// Reads cases from JSON.
 #include "robustness/read_cases.hpp"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ double number(const Json& json, const char* key) {
   const std::string text = json.is_string() ? json.get<std::string>() : json.dump();
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
-  // What is too large for a double must not pass as an infinity nobody wrote.
+  // A number that overflows must not become an infinity.
   const bool overflows = std::isinf(value) && text.find_first_of("iI") == std::string::npos;
   if (!json.is_string() || text.empty() || *end != '\0' || overflows)
     throw LoadError("field '" + std::string(key) + "': " + text + ", expected a string holding a double");
@@ -66,7 +66,7 @@ std::vector<std::int64_t> indices(const Json& object, const char* key) {
   return list<std::int64_t>(object, key, whole);
 }
 
-/// Pairs, one after the other.
+/// Returns the indices of all pairs in one list.
 std::vector<std::int64_t> flat_pairs(const Json& object, const char* key) {
   std::vector<std::int64_t> ends;
   for (const auto& pair : list<std::vector<std::int64_t>>(object, key, [](const Json&entry, const char*name) {
@@ -78,7 +78,7 @@ std::vector<std::int64_t> flat_pairs(const Json& object, const char* key) {
   return ends;
 }
 
-/// In the answers, where an index that is none is an error of the file.
+/// Reads an index of an answer; a negative index is an error in the file.
 std::size_t position(const Json& json, const char* key) {
   const std::int64_t value = whole(json, key);
   if (value < 0) throw LoadError("field '" + std::string(key) + "': " + json.dump() + ", expected an index");
@@ -105,7 +105,7 @@ void read_triangles(const Json& json, Case& one) {
   one.truth->distance = bracket(json, "dist");
 }
 
-/// Sets `truth` when the line holds an answer; true when there is more to it than that the input is to be refused.
+/// Sets `truth` if the line has an answer. Returns true if the answer is more than a refusal.
 bool expects_answer(const Json& json, const char* verdict, Case& one) {
   const std::string expect = json.contains("expect") ? text(json, "expect") : json.contains(verdict) ? "answer" : "";
   if (expect.empty()) return false;
@@ -189,7 +189,7 @@ Case read_case(const std::string& line) {
   return one;
 }
 
-/// The parser's message without its own name and number: "[json.exception.parse_error.101] parse error at ...".
+/// Returns the parser's message without its own prefix "[json.exception.parse_error.101] ".
 std::string plain(const std::string& message) {
   const std::size_t end = message.starts_with('[') ? message.find("] ") : std::string::npos;
   return end == std::string::npos ? message : message.substr(end + 2);
@@ -215,11 +215,11 @@ std::vector<Case> read_cases(const std::filesystem::path& folder) {
       if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
       try {
         cases.push_back(read_case(line));
-      } catch (const std::exception& bad) {  // the parser's, or a LoadError of ours
+      } catch (const std::exception& bad) {  // from the parser, or a LoadError
         throw LoadError(file.string() + ":" + std::to_string(number) + ": " + plain(bad.what()));
       }
     }
-    // A folder opens, too, but cannot be read.
+    // A folder can be opened as a file, but not read.
     if (!stream.eof()) throw LoadError(file.string() + ":" + std::to_string(number + 1) + ": cannot be read");
   }
   return cases;

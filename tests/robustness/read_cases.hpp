@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// read_cases: all cases of a folder of .jsonl files. Numbers are strings that hold hexadecimal doubles.
+// Reads all cases in a folder of .jsonl files. Numbers are strings with hexadecimal doubles.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,9 @@
 
 namespace hinge::robustness {
 
-/// Files in the order of their names. LoadError, naming file and line: folder or file that cannot be read, no such
-/// file, a line that is no case, an unknown kind. Lists of a wrong length are no error here, but the library's
-/// business.
+/// Reads the files in the order of their names. Throws LoadError with file and line: an unreadable folder or file, no
+/// .jsonl file, a line that is no case, an unknown kind. Lists of a wrong length are no error here: the library must
+/// reject them.
 std::vector<Case> read_cases(const std::filesystem::path& folder);
 
 }  // namespace hinge::robustness

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// robustness_cases DIR: every case of the .jsonl files in DIR on every engine, one line of JSON each, judged where the
-// file holds the answer.
+// robustness_cases DIR: runs every case of the .jsonl files in DIR on every engine, prints one line of JSON each, and
+// checks the answers that the file contains.
 #include <array>
 #include <cstddef>
 #include <cstdio>
@@ -77,7 +77,7 @@ int main(int count, char** arguments) {
   }
   try {
     const int status = run_all(read_cases(arguments[1]));
-    // A full disk shows only now.
+    // A full disk is reported only when flushing.
     if (std::fflush(stdout) != 0) throw hinge::LoadError("standard output: cannot be written");
     return status;
   } catch (const std::exception& error) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// robustness_cases from outside: exit status, lines, and what it says about files it cannot use.
+// Tests the program robustness_cases: exit status, output lines, and messages about invalid files.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -15,7 +15,7 @@ namespace robustness_cases_test {
 
 using hinge::test::Said;
 
-/// A folder of its own, removed with everything in it.
+/// A temporary folder; the destructor removes it.
 class Folder {
  public:
   Folder() : path_(std::filesystem::temp_directory_path() / ("robustness_cases-" + std::to_string(getpid()))) {
@@ -82,7 +82,7 @@ TEST(RobustnessCases, CountsCasesAndEnginesWhereTheTruthIsThere) {
   said = run(folder.path(), "2>/dev/null");
   EXPECT_EQ(said.status, 1);
   EXPECT_EQ(lines_of(said.out).back(), "passed 3, failed 3");
-  // More than 16 ulp off.
+  // The error is more than 16 ulp.
   folder.write("b.jsonl", triangles + R"(,"intersect":false,"dist":"0x1.00000000001p+1"})" + "\n");
   EXPECT_EQ(run(folder.path(), "2>&1 >/dev/null").status, 1);
 }
@@ -101,7 +101,7 @@ TEST(RobustnessCases, ReportsRefusals) {
     EXPECT_NE(json["message"], "");
   }
   EXPECT_EQ(lines[3], "passed 3, failed 0");
-  // What is refused though it has an answer fails.
+  // A refusal fails if the case has an answer.
   folder.write("a.jsonl", atoms(nan, "\"0x1p+0\"", R"(,"collides":false,"pair_count":0,"pairs":[],"min_dist":null)"));
   said = run(folder.path(), "2>&1");
   EXPECT_EQ(said.status, 1);

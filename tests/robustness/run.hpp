@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// run: the input of a case put to one engine, in every way there is.
+// Runs the input of a case on one engine, in all ways of asking.
 #pragma once
 
 #include <variant>
@@ -9,7 +9,7 @@
 
 namespace hinge::robustness {
 
-// What the library refuses is an answer; any other exception passes.
+// An error of the library is an answer; any other exception propagates.
 std::vector<Answer> run(const TrianglePair& pair, EngineName engine);
 std::vector<Answer> run(const Atoms& atoms, EngineName engine);
 std::vector<Answer> run(const MeshPair& pair, EngineName engine);

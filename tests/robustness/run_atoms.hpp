@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// run_atoms: points with thresholds by type; a link per group, as pairs inside one are not tested.
+// Runs points with thresholds by type. Each group is a link, because pairs inside a group are not tested.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 
 namespace hinge::robustness {
 
-/// The excluded pairs of a case. ModelError: an atom with itself, or one there is none of.
+/// Returns the excluded pairs of a case. Throws ModelError: an atom with itself, or an unknown atom.
 inline test::ExcludedPairs exclusions_of(const Atoms& atoms) {
   const std::vector<std::int64_t>& pairs = atoms.excluded;
   std::vector<std::vector<PrimitiveId>> excluded(atoms.type.size());
@@ -36,7 +36,8 @@ inline test::ExcludedPairs exclusions_of(const Atoms& atoms) {
   return test::ExcludedPairs(std::move(excluded));
 }
 
-/// The smallest distance whatever the thresholds. As these are >= 0, d - M above the best d rules a pair out.
+/// Finds the smallest distance over all pairs, independent of thresholds. Thresholds are >= 0, so a pair with d - M
+/// above the smallest distance is not closer.
 class Shortest {
  public:
   static constexpr bool ranks = true;
@@ -64,7 +65,7 @@ inline void check_lengths(const Atoms& atoms) {
   check(atoms.group.size(), atoms.count, "groups");
 }
 
-/// Each group slides on a joint of its own and stays at the reference, where points keep their coordinates.
+/// Each group is on its own prismatic joint and stays at the reference, where points keep their coordinates.
 inline Model<Point> model_of(const Atoms& atoms) {
   ModelBuilder<Point> builder;
   std::map<std::int64_t, LinkId> links;

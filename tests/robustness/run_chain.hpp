@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// run_chain: meshes on links that turn against each other; parent and child are not tested.
+// Runs meshes on the links of a chain with revolute joints. Parent and child are not tested.
 #pragma once
 
 #include <algorithm>
@@ -13,12 +13,12 @@
 
 namespace hinge::robustness {
 
-/// The smallest distance of every tested pair of links.
+/// Finds the smallest distance of every tested pair of links.
 class LinkDistances {
  public:
   static constexpr bool ranks = true;
 
-  /// links[k]: of primitive k, 0 the world; tested pairs of links of the case, which start at 0.
+  /// links[k]: link of primitive k, with 0 the world. tested: pairs of links of the case, which count from 0.
   LinkDistances(std::span<const LinkId> links, std::size_t count, std::vector<LinkPairAnswer> tested)
       : links_(links), pairs_(std::move(tested)), place_(count * count, 0), count_(count) {
     for (std::size_t k = 0; k < pairs_.size(); ++k) place_[pairs_[k].i * count + pairs_[k].j] = k;
@@ -43,8 +43,8 @@ class LinkDistances {
   double largest_ = std::numeric_limits<double>::infinity();
 };
 
-/// Links in the order of the case, so case link k is link k + 1. ModelError: what the tree refuses, or a parent that is
-/// no earlier link.
+/// Adds the links of a case in order: link k of the case is link k + 1 of the model. Throws ModelError if the tree
+/// rejects a link or a parent is not an earlier link.
 inline void add_links(ModelBuilder<Triangle>& builder, const Chain& chain) {
   for (std::size_t k = 0; k < chain.links.size(); ++k) {
     const ChainLink& link = chain.links[k];
@@ -89,7 +89,7 @@ Answer run_chain(const Chain& chain) {
     for (const Hit& hit : links.self_collisions())
       for (LinkPairAnswer& pair : answer.link_pairs)
         pair.hit |= pair.i == link_of(hit.first) && pair.j == link_of(hit.second);
-    // Pairs of links from here on.
+    // From here on, pairs are pairs of links.
     answer.pairs.clear();
     answer.pair_count = 0;
     for (const LinkPairAnswer& pair : answer.link_pairs) {

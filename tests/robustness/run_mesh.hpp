@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// run_mesh: two placed meshes: poses handed over for two links of one model, and joints that place two models.
+// Runs two placed meshes in two ways: as links of one model with given poses, and as two models with fixed joints.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace hinge::robustness {
 
-/// ModelError: lists that hold no whole vertices or triangles, or a vertex there is none of.
+/// Throws ModelError: incomplete vertices or triangles, or an unknown vertex.
 inline std::vector<Triangle> triangles_in(const Mesh& mesh) {
   if (mesh.v.size() % 3 != 0) throw ModelError("vertices: " + std::to_string(mesh.v.size()) + " numbers, expected 3n");
   if (mesh.f.size() % 3 != 0) throw ModelError("faces: " + std::to_string(mesh.f.size()) + " indices, expected 3n");

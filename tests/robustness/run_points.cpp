@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points on every engine.
+// Runs points on every engine.
 #include "robustness/run.hpp"
 #include "robustness/run_atoms.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// run_tri: two triangles, on two links of one model and in two models.
+// Runs two triangles in two ways: as links of one model, and as two models.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ namespace hinge::robustness {
 template <template <class, class, class> class EngineOf>
 using Triangles = Hierarchy<Triangle, DifferentLinks, UniformClearance, EngineOf>;
 
-/// Triangles of different links that meet.
+/// A hierarchy of triangles that tests pairs of different links with a threshold of 0.
 template <template <class, class, class> class EngineOf>
 Triangles<EngineOf> triangles_of(ModelBuilder<Triangle>& builder, std::vector<std::pair<LinkId, LinkId>> ignored = {}) {
   const Model<Triangle> model = builder.finish();
@@ -31,7 +31,7 @@ Answer self_answer(H& model) {
   return answer;
 }
 
-/// Primitives are numbered as if the other model's followed in one with this one's.
+/// The primitives of the other model are numbered after those of this model.
 template <class H>
 Answer mutual_answer(H& model, H& other) {
   Answer answer;

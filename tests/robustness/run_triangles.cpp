@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangles, meshes and chains of meshes on every engine.
+// Runs triangles, meshes and chains of meshes on every engine.
 #include "robustness/run.hpp"
 #include "robustness/run_chain.hpp"
 #include "robustness/run_mesh.hpp"

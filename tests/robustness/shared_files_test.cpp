@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The stored cases with exact answers, on every engine.
+// Tests the stored cases with exact answers on every engine.
 #include <gtest/gtest.h>
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Models and non-models of every concept; to compile is to pass.
+// Checks models and non-models of every concept at compile time.
 #include <array>
 #include <type_traits>
 #include <vector>
@@ -50,7 +50,7 @@ struct NoCopy {
 };
 static_assert(!Primitive<NoCopy>);
 
-/// A plain primitive; classes derived from it get one refinement almost right.
+/// A plain primitive. A derived class adds refinements, each slightly wrong.
 struct Plain {
   Plain placed(const Pose&) const noexcept { return *this; }
   Aabb bounds() const noexcept { return {}; }
@@ -75,7 +75,7 @@ static_assert(RefinesNothing<OnePoint>);
 static_assert(HasClosestPoints<Point> && HasClosestPoints<Triangle> && HasHull<Sphere> && HasHull<Triangle>);
 static_assert(HasAxisInvariance<Point> && ChecksItself<Sphere> && IsPointLike<Point> && !IsPointLike<Sphere>);
 static_assert(Certifiable<Point> && Certifiable<Sphere> && Certifiable<Capsule> && Certifiable<Triangle>);
-/// The motion of a segment can be bounded only along the direction of its closest points.
+/// Without closest points the motion of a segment cannot be bounded along their direction, so it is not certifiable.
 struct Segment : Plain {
   Segment placed(const Pose&) const noexcept { return *this; }
   std::array<Vec3, 2> hull() const noexcept { return {}; }
@@ -85,7 +85,7 @@ struct Segment : Plain {
 static_assert(HasHull<Segment> && !HasClosestPoints<Segment> && !Certifiable<Segment>);
 
 static_assert(PairFilter<AdmitAll> && PairFilter<DifferentLinks> && !ListsExclusions<DifferentLinks>);
-/// Declares admits anew, which hides all of its base's.
+/// Declares `admits` again, which hides all overloads of the base class.
 template <class Stock>
 struct OwnOf : Stock {
   bool admits(PrimitiveId, PrimitiveId) const noexcept { return false; }
@@ -103,7 +103,7 @@ struct Mutates {
 };
 struct WordyFilter {
   bool admits(PrimitiveId, PrimitiveId) const noexcept { return true; }
-  std::vector<int> excluded(PrimitiveId) const noexcept { return {}; }  // numbers are no primitives
+  std::vector<int> excluded(PrimitiveId) const noexcept { return {}; }  // integers are no primitive ids
   int admits(LinkId, LinkId) const noexcept { return 1; }               // not a bool
   int size() const noexcept { return 0; }                               // not a std::size_t
   std::vector<int> links() const noexcept { return {}; }
@@ -123,7 +123,7 @@ struct OwnOnly : NoReach {
 static_assert(!DistanceMatrix<NoReach> && DistanceMatrix<OwnOnly> && !CrossMatrix<OwnOnly> && !KnowsSize<OwnOnly>);
 
 struct RoundsSums : OwnOnly {
-  double sum(PrimitiveId, PrimitiveId) const noexcept { return 1.0; }  // rounded: the terms are asked for
+  double sum(PrimitiveId, PrimitiveId) const noexcept { return 1.0; }  // rounded: AdditiveRadii needs the exact sum
 };
 struct SumsRadii : OwnOnly {
   RadiusSum sum(PrimitiveId, PrimitiveId) const noexcept { return {}; }
@@ -163,7 +163,7 @@ static_assert(CrossEngine<Lazy<Point, AdmitAll, UniformClearance>, Point, AdmitA
 static_assert(!CrossEngine<Lazy<Point, AdmitAll, OwnOnly>, Point, AdmitAll, OwnOnly, AdmitAll>);
 static_assert(CrossEngine<Simd<Point, AdmitAll, TypedThresholds>, Point, AdmitAll, TypedThresholds, AdmitAll>);
 static_assert(!CrossEngine<Simd<Point, AdmitAll, OwnOnly>, Point, AdmitAll, OwnOnly, AdmitAll>);
-/// An order can be learned against another model, whether the engine has one or not.
+/// Pair orders can be calibrated against another model with every engine.
 template <class P, template <class, class, class> class EngineOf>
 using On = Hierarchy<P, AdmitAll, UniformClearance, EngineOf>;
 template <class P>

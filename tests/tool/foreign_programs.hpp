@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A tool beside programs of its name that are not of its build.
+// Tests a tool next to programs of the same name from other builds.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 
 namespace hinge::test {
 
-/// The tool hands over to a program of another instruction set of its own build, and to no other.
+/// Expects the tool to start a program for another instruction set only if it is from the same build.
 inline void expect_own_build_only(const std::filesystem::path& tool) {
   namespace fs = std::filesystem;
   const detail::simd::InstructionSet best = detail::simd::of_this_cpu();
@@ -56,7 +56,7 @@ inline void expect_own_build_only(const std::filesystem::path& tool) {
   const std::string mark = "hinge build id: " + name;
   const std::size_t at = bytes.find(mark);
   ASSERT_NE(at, std::string::npos);
-  bytes[bytes.find('\0', at) - 1] ^= 1;  // the last digit of the sources' hash
+  bytes[bytes.find('\0', at) - 1] ^= 1;  // the last digit of the hash of the sources
   std::ofstream(other, std::ios::binary) << bytes;
   expect_refused();
   fs::remove_all(folder);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers of the command line, JSON of any bytes, input files, and counts in bounded memory.
+// Tests numbers on the command line, JSON of arbitrary bytes, input files, and counting in bounded memory.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -73,7 +73,7 @@ TEST(FrequentKeys, MemoryIsBoundedAndWhatIsFrequentStays) {
   SampleStream stream(1, 0);
   for (std::uint64_t n = 0; n < rounds; ++n) {
     keys.add(n % frequent);
-    keys.add(1000 + static_cast<std::uint64_t>(stream.uniform() * 1e15));  // hardly ever twice
+    keys.add(1000 + static_cast<std::uint64_t>(stream.uniform() * 1e15));  // rarely repeated
     ASSERT_LE(keys.size(), 1000U);
   }
   EXPECT_GT(keys.count_error(), 0U);

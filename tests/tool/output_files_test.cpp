@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Output files: unique temporaries, links, devices, pipes, signals, and what may not be written over.
+// Tests output files: unique temporary files, links, devices, pipes, signals, and protected files.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -29,12 +29,12 @@ std::string content(const fs::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// A folder of its own, removed afterwards.
+/// A test with a temporary folder, removed afterwards.
 class OutputFiles : public testing::Test {
  protected:
   OutputFiles() { fs::create_directories(folder); }
   ~OutputFiles() override { fs::remove_all(folder); }
-  /// Names of what is in the folder, sorted.
+  /// Returns the sorted names in the folder.
   std::vector<std::string> names() const {
     std::vector<std::string> all;
     for (const auto& entry : fs::directory_iterator(folder)) all.push_back(entry.path().filename());
@@ -181,7 +181,7 @@ TEST_F(OutputFiles, AreWrittenToTheEndUnderNohup) {
   EXPECT_EQ(content(out), "whole");
 }
 
-/// What a child process with this descriptor closed exits with, its standard error in `said`.
+/// Returns the exit status of a child process that has this descriptor closed; its standard error is written to `said`.
 template <class Run>
 int with_closed(int descriptor, const fs::path& said, const Run& run) {
   const pid_t child = fork();

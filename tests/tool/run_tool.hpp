@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs a command-line tool as a user would, and keeps what it says.
+// Runs a command-line tool as a user does, and captures its output.
 #pragma once
 
 #include <sys/wait.h>
@@ -12,11 +12,11 @@
 namespace hinge::test {
 
 struct Said {
-  int status = -1;  ///< exit status; -1: did not exit by itself
-  std::string out;  ///< standard output; standard error goes along with `2>&1` in the arguments
+  int status = -1;  ///< exit status; -1: ended by a signal
+  std::string out;  ///< standard output; also standard error if the arguments contain `2>&1`
 };
 
-/// environment: assignments for the shell, such as "HINGE_ISA=avx2", or nothing.
+/// Runs the program in a shell. environment: assignments such as "HINGE_ISA=avx2", or nothing.
 inline Said run_tool(const std::string& program, const std::string& arguments, const std::string& environment = "") {
   Said said;
   FILE* pipe = popen((environment + " '" + program + "' " + arguments).c_str(), "r");

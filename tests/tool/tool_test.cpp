@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the command-line tools share: how they end, and files that are there whole or not at all.
+// Tests code shared by the command-line tools: exit statuses, CSV fields, and files that are complete or absent.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
