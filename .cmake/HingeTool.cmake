@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# hinge_add_tool(NAME LIBRARY [SYSTEM_INCLUDES DIR...] [LIBRARIES TARGET...]): the command-line tool NAME, made of
-# apps/*.cpp beside the caller and LIBRARY, whose private needs are named once more. Sets ${NAME}_programs.
+# hinge_add_tool(NAME LIBRARY [SYSTEM_INCLUDES DIR...] [LIBRARIES TARGET...]): adds the command-line tool NAME from the
+# caller's apps/*.cpp and LIBRARY, and sets ${NAME}_programs. The private dependencies of LIBRARY are given again.
 find_package(CLI11 QUIET)
 find_package(nlohmann_json QUIET)
 find_package(fmt QUIET)
@@ -11,7 +11,7 @@ set(HINGE_TOOL_LEVELS "x86-64-v3;x86-64-v4" CACHE STRING
 function(hinge_add_tool tool library)
   cmake_parse_arguments(PARSE_ARGV 2 needs "" "" "SYSTEM_INCLUDES;LIBRARIES")
   set(${tool}_programs "" PARENT_SCOPE)
-  # The tool is for whoever works on Hinge or installs it, not for a host project that links the library.
+  # The tool is for developers and for installations, not for a host project that links the library.
   if(NOT PROJECT_IS_TOP_LEVEL AND NOT HINGE_INSTALL)
     return()
   endif()
@@ -20,7 +20,7 @@ function(hinge_add_tool tool library)
     return()
   endif()
   file(GLOB sources CONFIGURE_DEPENDS apps/*.cpp)
-  # Programs of other instruction sets are run only when they were built from the same sources.
+  # The tool starts a program for another instruction set only if both were built from the same sources.
   set(build_id ${CMAKE_CURRENT_BINARY_DIR}/build_id.cpp)
   set(write_build_id ${PROJECT_SOURCE_DIR}/.cmake/write_build_id.cmake)
   file(GLOB_RECURSE hashed CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/*.hpp include/*.hpp src/*.[hc]pp
@@ -34,14 +34,14 @@ function(hinge_add_tool tool library)
   add_executable(${tool} ${sources})
   target_link_libraries(${tool} PRIVATE ${library} ${libraries})
   set(programs ${tool})
-  # One more program per instruction set, compiled as a whole: a library shared between them would mix inline functions.
-  # The tool hands over to the best one. Not where speed is no matter.
+  # One more program per instruction set, compiled as a whole: a shared library would mix copies of inline functions.
+  # The tool starts the best program. Only for Release builds, where speed matters.
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND CMAKE_BUILD_TYPE STREQUAL "Release")
     get_target_property(library_sources ${library} SOURCES)
     set(x86-64-v3 avx2)
     set(x86-64-v4 avx512)
     foreach(level x86-64-v3 x86-64-v4)
-      if(NOT level IN_LIST HINGE_TOOL_LEVELS)  # what an earlier build left would be run, and be out of date
+      if(NOT level IN_LIST HINGE_TOOL_LEVELS)  # otherwise an outdated program of an earlier build would be run
         file(REMOVE ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${tool}-${${level}})
       endif()
     endforeach()

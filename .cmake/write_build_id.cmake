@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Writes OUT, a source that defines hinge_build_id: TOOL, VERSION and a hash of every source of the core (ROOT/include)
-# and of the module in FOLDER. Programs with the same one were compiled from the same sources, wherever these lay.
+# Writes OUT, a source file that defines hinge_build_id: TOOL, VERSION and a hash of all sources of the core
+# (ROOT/include) and of the module in FOLDER. Programs with equal ids were compiled from the same sources, in any
+# folder.
 file(GLOB_RECURSE sources ${ROOT}/include/*.hpp ${FOLDER}/include/*.hpp ${FOLDER}/src/*.[hc]pp ${FOLDER}/apps/*.[hc]pp)
 list(SORT sources)
 set(hashes "")

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Uses Hinge the three ways a project can, from outside: installed package, fetched source, pkg-config.
+# Uses Hinge from outside in three ways: installed package, fetched source, pkg-config.
 # Arguments: a finished build folder, the C++ compiler.
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -15,8 +15,8 @@ cmake --install "$build" --prefix "$scratch/first" >/dev/null
 mv "$scratch/first" "$scratch/prefix"
 "$scratch/prefix/bin/biocd" --version
 
-# Not optimised, several sources at once: what is asked is whether it builds and runs.
-consume() {  # folder, cmake arguments
+# Not optimised, several sources at once: only building and running is tested.
+consume() {  # arguments: folder, cmake arguments
   echo "== $1"
   cmake -G Ninja -S "$1" -B "$scratch/$1" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS=-O0 -DCMAKE_UNITY_BUILD=ON "${@:2}" >"$scratch/$1.log" 2>&1 ||
     { cat "$scratch/$1.log"; exit 1; }

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# run_fuzz.sh BUILD SECONDS [TARGET...]: every fuzz target of a build for so long, two at a time. Corpus and artefacts
-# stay in BUILD/corpus/TARGET and BUILD/artefacts/TARGET. Status 1 when something was found.
+# run_fuzz.sh BUILD SECONDS [TARGET...]: runs every fuzz target of a build for this time, two at once. Corpus and
+# artefacts stay in BUILD/corpus/TARGET and BUILD/artefacts/TARGET. Status 1 if anything was found.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 build=$(cd "$1" && pwd)
@@ -16,14 +16,14 @@ if [ ${#targets[@]} -eq 0 ]; then
   for program in "$build"/bin/fuzz_*; do targets+=("${program##*/fuzz_}"); done
 fi
 
-# More memory or time than any input of this size may take.
+# Limits above the memory and time that any input of this size may use.
 limits=(-timeout=5 -rss_limit_mb=1024 -malloc_limit_mb=1024)
 
 fuzz_one() {
   local here=$1 build=$2 seconds=$3 target=$4 extra=() folder
   mkdir -p "$build/corpus/$target" "$build/artefacts/$target"
   [ -f "$here/dictionaries/$target.dict" ] && extra+=("-dict=$here/dictionaries/$target.dict")
-  # Without a seed inputs would grow too slowly to ever make a scene.
+  # Without seeds, inputs would grow too slowly to form a scene.
   [ -d "$here/seeds/$target" ] || extra+=(-len_control=0 -max_len=1024)
   for folder in "$here/seeds/$target" "$here/finds/$target"; do [ -d "$folder" ] && extra+=("$folder"); done
   local status=0 log=$build/artefacts/$target.log

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Compiles every_answer.cpp with two compilers, with and without optimisation and contraction, for three instruction
-# sets, and compares what comes out. Verdicts and pairs have to be the same in every build, poses and distances in every
-# build without contraction, which the exported target switches off. Takes a folder to build in; CPU time: half an hour.
+# sets, and compares the output. Verdicts and pairs must be equal in every build; poses and distances in every build
+# without contraction, which the exported target disables. Argument: a build folder. CPU time: half an hour.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 out=${1:?a folder to build in}
@@ -24,7 +24,7 @@ builds() {
     for optimised in -O3 -O0; do
       for level in $levels; do
         for contraction in off fast; do
-          # Nothing is contracted without optimisation, or where there is no fused multiply-add.
+          # There is no contraction without optimisation or without fused multiply-add instructions.
           [ "$contraction" = fast ] && { [ "$optimised" = -O0 ] || [ "$level" = x86-64 ]; } && continue
           echo "$compiler $optimised $contraction $level"
         done
