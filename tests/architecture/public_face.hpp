@@ -13,6 +13,7 @@
 
 namespace architecture {
 
+/// Returns whether the path is a header that users may include.
 inline bool is_public_header(const std::string& path) {
   return path.ends_with(".hpp") && !path.starts_with("include/hinge/detail/") &&
          starts_with_any(path, {"include/hinge/", "molecular/include/", "robotics/include/"});

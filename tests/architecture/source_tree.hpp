@@ -21,6 +21,7 @@ struct Include {
   bool quoted = false;
 };
 
+/// Returns all files with these extensions in the folders, read recursively; missing folders are ignored.
 inline SourceTree read_sources(const std::filesystem::path& root, const std::vector<std::string>& folders,
                                const std::set<std::string>& extensions = {".hpp", ".cpp"}) {
   namespace fs = std::filesystem;
@@ -38,6 +39,7 @@ inline SourceTree read_sources(const std::filesystem::path& root, const std::vec
   return tree;
 }
 
+/// Returns the #include lines among these lines.
 inline std::vector<Include> includes(const std::vector<std::string>& lines) {
   static const std::regex pattern(R"re(^\s*#\s*include\s*([<"])([^>"]+)[>"])re");
   std::vector<Include> found;

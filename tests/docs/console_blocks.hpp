@@ -28,6 +28,7 @@ inline std::vector<std::string> lines_of(std::string_view text) {
   return lines;
 }
 
+/// Returns the commands of all console blocks of a page.
 inline std::vector<ConsoleCommand> console_commands(const std::vector<std::string>& page) {
   std::vector<ConsoleCommand> commands;
   bool inside = false, continued = false;

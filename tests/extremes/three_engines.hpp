@@ -17,6 +17,7 @@
 
 namespace hinge::test {
 
+/// The functions of one engine; hierarchies are shared by copies.
 template <class P>
 struct AnyEngine {
   std::string name;
@@ -62,6 +63,7 @@ inline Model<Point> own_groups(const std::vector<Vec3>& points) {
   return builder.finish();
 }
 
+/// Returns whether tests run at full size (HINGE_TEST_ALL).
 inline bool exhaustive() { return std::getenv("HINGE_TEST_ALL") != nullptr; }
 
 }  // namespace hinge::test

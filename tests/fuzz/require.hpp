@@ -10,6 +10,7 @@
 
 namespace fuzz {
 
+/// Reports a find and aborts.
 [[noreturn]] inline void find(const std::string& what) {
   std::fprintf(stderr, "find: %s\n", what.c_str());
   std::abort();

@@ -24,6 +24,7 @@
 
 namespace fuzz {
 
+/// Returns a primitive with adversarial coordinates; capsules and triangles may be degenerate.
 template <class P>
 P make_primitive(Numbers& numbers);
 
@@ -109,6 +110,7 @@ inline hinge::Pose make_pose(Numbers& numbers) {
   return pose;
 }
 
+/// Returns a fixed, prismatic or revolute joint.
 inline hinge::Joint make_joint(Numbers& numbers) {
   Bytes& bytes = numbers.bytes();
   hinge::Pose origin;
@@ -142,6 +144,7 @@ hinge::Model<P> make_model(Numbers& numbers, std::size_t most) {
   return builder.finish();
 }
 
+/// Returns a selection of DOF; the bits of one byte leave DOF out.
 inline hinge::DofSelection make_selection(const hinge::KinematicTree& tree, Bytes& bytes) {
   std::vector<hinge::DofId> free;
   const std::uint8_t left_out = bytes.byte();

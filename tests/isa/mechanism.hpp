@@ -72,6 +72,7 @@ class Random {
   std::mt19937_64 engine_;
 };
 
+/// A filter that excludes about a twelfth of the pairs.
 struct TwelfthExcluded {
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept {
     return (index(i) < index(j) ? 5 * index(i) + 7 * index(j) : 5 * index(j) + 7 * index(i)) % 12 != 0;
@@ -198,6 +199,7 @@ Answers answers_of(std::uint64_t seed, const Model<P>& model, const F& filter, c
   return answers;
 }
 
+/// Returns random thresholds of up to 0.8, some of them 0.
 inline TypedThresholds thresholds(std::size_t n, std::size_t types, Random& random) {
   std::vector<std::uint16_t> type(n);
   for (auto& t : type) t = static_cast<std::uint16_t>(random.below(types));

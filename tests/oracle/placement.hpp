@@ -11,6 +11,7 @@
 
 namespace hinge::oracle {
 
+/// Returns rotation by rows, then translation.
 inline Placement placement(const Pose& pose) {
   Placement p{};
   for (std::size_t r = 0; r < 3; ++r) {
@@ -21,6 +22,7 @@ inline Placement placement(const Pose& pose) {
   return p;
 }
 
+/// Returns the coordinates of the corners a, b, c.
 inline std::array<double, 9> corners(const Triangle& t) {
   return {t.a[0], t.a[1], t.a[2], t.b[0], t.b[1], t.b[2], t.c[0], t.c[1], t.c[2]};
 }

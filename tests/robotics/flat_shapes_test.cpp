@@ -39,7 +39,7 @@ std::shared_ptr<const Robot> slider(const Shape& shape) {
 
 struct Case {
   Shape shape;
-  double reach;  ///< from the slide's position back to the shape's nearest point
+  double reach;  ///< distance from the joint's position back to the nearest point of the shape
 };
 
 /// The disc is a prism of height 0 around the circle, at most 1 mm outside it.

@@ -25,18 +25,22 @@
 
 namespace hinge::test {
 
+/// Returns a number in [low, high).
 inline double uniform(SampleStream& stream, double low, double high) { return low + (high - low) * stream.uniform(); }
 
+/// Returns a point with coordinates in [-size, size).
 inline Vec3 random_point(SampleStream& stream, double size) {
   return {uniform(stream, -size, size), uniform(stream, -size, size), uniform(stream, -size, size)};
 }
 
+/// Returns a random rotation of up to 3 rad and a translation with coordinates in [-size, size).
 inline Pose random_pose(SampleStream& stream, double size) {
   Vec3 axis = random_point(stream, 1.0);
   axis /= std::sqrt(squared_norm(axis));
   return {rotation_about(axis, uniform(stream, -3.0, 3.0)), random_point(stream, size)};
 }
 
+/// Returns a mesh of separate random triangles.
 inline std::shared_ptr<robotics::TriangleMesh> random_mesh(SampleStream& stream, std::size_t triangles, double size) {
   auto mesh = std::make_shared<robotics::TriangleMesh>();
   for (std::size_t t = 0; t < triangles; ++t) {

@@ -30,6 +30,7 @@ struct SharedRobot {
   bool has_text_meshes;  ///< OBJ: readers round coordinates to single precision
 };
 
+/// Returns the ten shared robots.
 inline const std::vector<SharedRobot>& shared_robots() {
   static const std::vector<SharedRobot> robots = {
       {"panda", 12, 11, 10, 8, 2364, 21, false},        {"fanuc_m10ia", 9, 7, 7, 6, 6934, 11, false},
@@ -40,6 +41,7 @@ inline const std::vector<SharedRobot>& shared_robots() {
   return robots;
 }
 
+/// Returns the folder of a shared robot, which may not exist.
 inline std::filesystem::path shared_folder(const std::string& robot) {
   return std::filesystem::path(HINGE_SHARED_DATA) / "robots" / robot;
 }
@@ -50,6 +52,7 @@ struct LoadedRobot {
   robotics::LinkPairs disabled;
 };
 
+/// Reads a shared robot with its SRDF and further excluded pairs.
 inline LoadedRobot load_shared(const std::string& name) {
   using namespace robotics;
   const std::filesystem::path stem = shared_folder(name) / name;

@@ -14,6 +14,7 @@
 
 namespace hinge::test {
 
+/// Runs robocd; see run_tool.
 inline Said run_robocd(const std::string& arguments, const std::string& environment = "") {
   return run_tool(HINGE_ROBOCD, arguments, environment);
 }
@@ -69,6 +70,7 @@ inline constexpr const char* arm_urdf = R"(<robot name="arm">
 </robot>
 )";
 
+/// SRDF of the arm: two groups, a state of each, one disabled pair.
 inline constexpr const char* arm_srdf = R"(<robot name="arm">
   <group name="all"><joint name="shoulder"/><joint name="elbow"/></group>
   <group name="slide"><joint name="elbow"/></group>

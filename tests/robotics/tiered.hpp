@@ -21,6 +21,7 @@
 
 namespace hinge::test {
 
+/// Returns a robot of one link with these triangles.
 inline robotics::RobotDescription lone_link(std::vector<Triangle> triangles) {
   auto mesh = std::make_shared<robotics::TriangleMesh>();
   mesh->triangles = std::move(triangles);
@@ -31,6 +32,7 @@ inline robotics::RobotDescription lone_link(std::vector<Triangle> triangles) {
   return robot;
 }
 
+/// Returns the shapes of the first link after applying the tier.
 inline std::vector<robotics::PlacedShape> tiered(const robotics::RobotDescription& robot, robotics::Tier tier,
                                                  std::size_t most_spheres = 32) {
   robotics::Tiers tiers;
@@ -39,12 +41,14 @@ inline std::vector<robotics::PlacedShape> tiered(const robotics::RobotDescriptio
   return robotics::with_tiers(robot, tiers).links.at(0).geometry;
 }
 
+/// Returns a degenerate triangle per point.
 inline std::vector<Triangle> as_triangles(std::span<const Vec3> points) {
   std::vector<Triangle> triangles;
   for (const Vec3& p : points) triangles.push_back({p, p, p});
   return triangles;
 }
 
+/// Returns the triangles of the hull tier of these points.
 inline std::vector<Triangle> hull_of(std::span<const Vec3> points) {
   const auto geometry = tiered(lone_link(as_triangles(points)), robotics::Tier::hull);
   return std::get<robotics::MeshShape>(geometry.at(0).shape).mesh->triangles;
@@ -69,6 +73,7 @@ inline Vec3 random_point(SampleStream& stream) {
   return {2 * x - 1, 2 * y - 1, 2 * z - 1};
 }
 
+/// Returns points with coordinates in (-1, 1).
 inline std::vector<Vec3> random_points(std::uint64_t seed, std::size_t count) {
   SampleStream stream(seed, 0);
   std::vector<Vec3> points;

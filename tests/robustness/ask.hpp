@@ -34,6 +34,7 @@ Answer asked(std::string way, const Ask& ask) {
   return answer;
 }
 
+/// Adds a contradiction to the answer.
 inline void contradict(Answer& answer, const std::string& what) {
   answer.contradiction += (answer.contradiction.empty() ? "" : "; ") + what;
 }
@@ -55,6 +56,7 @@ inline void take_closest(Answer& answer, const std::optional<Hit>& closest) {
   if (answer.hit != (answer.distance == 0.0)) contradict(answer, "distance 0 and yes/no differ");
 }
 
+/// Returns three values as a vector; throws ModelError for any other number of values.
 inline Vec3 vector_of(const std::vector<double>& values, const std::string& what) {
   if (values.size() != 3) throw ModelError(what + ": " + std::to_string(values.size()) + " numbers, expected three");
   return {values[0], values[1], values[2]};

@@ -33,6 +33,7 @@ inline robustness::Atoms atoms_at(const std::vector<Vec3>& points, double thresh
   return atoms;
 }
 
+/// Returns x or one of the doubles next to it.
 inline double neighbour(Random& r, double x) {
   const std::size_t k = r.below(3);
   return k == 0 ? x : std::nextafter(x, k == 1 ? 0.0 : std::numeric_limits<double>::infinity());
@@ -43,12 +44,14 @@ inline robustness::Atoms nearly_tied(Random& r, const Vec3& p, const Vec3& q) {
   return atoms_at({p, q}, neighbour(r, std::sqrt(squared_norm(Vec3(p - q)))));
 }
 
+/// Returns a point with integer coordinates in [-below, below).
 inline Vec3 whole_point(Random& r, std::size_t below) {
   Vec3 p;
   for (double& x : p) x = static_cast<double>(r.below(2 * below)) - static_cast<double>(below);
   return p;
 }
 
+/// A vector and its exact length.
 struct WholeLength {
   Vec3 v = Vec3::Zero();
   double length = 0.0;
@@ -74,6 +77,7 @@ inline WholeLength whole_length(Random& r) {
   return w;
 }
 
+/// Returns a pair at an integer distance times a power of two, with a threshold at or next to it.
 inline robustness::Atoms exact_tie_binary(Random& r) {
   const WholeLength w = whole_length(r);
   const double unit = std::ldexp(1.0, static_cast<int>(r.below(40)) - 20);
@@ -93,6 +97,7 @@ inline robustness::Atoms double_rounding_flip(Random& r) {
   return atoms;
 }
 
+/// Returns a tie in thousandths, as in PDB files; the stored doubles decide it.
 inline robustness::Atoms float_flip_pdb_grid(Random& r) {
   const WholeLength w = whole_length(r);
   const double times = static_cast<double>(100 + r.below(300));
@@ -141,7 +146,7 @@ inline robustness::Atoms all_at_one_point(Random& r) {
   return atoms_at(std::vector<Vec3>(1 + r.below(40), r.vector(1e3)), r.one_in(2) ? 0.0 : 1.0);
 }
 
-/// Returns points evenly spaced on a line, or each at half the distance of the point before.
+/// Returns points evenly spaced on a line, or each at half the previous point's distance from the origin.
 inline robustness::Atoms on_a_line(Random& r) {
   const bool halving = r.one_in(2);
   const double step = r.one_in(2) ? 1.5 : 1.0;

@@ -95,12 +95,14 @@ class ExtendedPair {
   long double size_ = 0, lower_ = 0, upper_ = std::numeric_limits<long double>::infinity();
 };
 
+/// The true answer for two sets of triangles.
 struct ExactMeshes {
-  std::vector<std::uint32_t> pairs;  ///< that meet, flat and sorted
+  std::vector<std::uint32_t> pairs;  ///< pairs that meet, flat and sorted
   robustness::Bracket distance{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   double span = 0.0;  ///< largest coordinate difference
 };
 
+/// Returns the largest coordinate difference.
 inline double span_of(std::span<const Triangle> a, std::span<const Triangle> b) {
   Aabb box;
   for (const auto& side : {a, b})
@@ -108,6 +110,7 @@ inline double span_of(std::span<const Triangle> a, std::span<const Triangle> b) 
   return a.empty() && b.empty() ? 0.0 : (box.upper - box.lower).maxCoeff();
 }
 
+/// Returns the true answer for every triangle of a against every triangle of b.
 inline ExactMeshes exact_meshes(std::span<const Triangle> a, std::span<const Triangle> b) {
   ExactMeshes exact;
   exact.span = span_of(a, b);

@@ -24,12 +24,14 @@ namespace hinge::robustness {
 /// Returns the number of cases per family.
 inline std::size_t case_count() { return std::getenv("HINGE_TEST_ALL") != nullptr ? 100'000 : 1'000; }
 
+/// Returns the truth of an invalid input.
 inline Truth to_refuse() {
   Truth truth;
   truth.refuse = true;
   return truth;
 }
 
+/// Returns the values as hexadecimal doubles.
 inline std::string text(const std::vector<double>& values) {
   std::string line;
   for (const double x : values) {
@@ -51,6 +53,7 @@ inline std::string text(const Case& one) {
   return line;
 }
 
+/// Runs a case on every engine and returns a failure that lists all errors.
 inline testing::AssertionResult expect_right(const Case& one) {
   auto result = testing::AssertionSuccess();
   for (const auto& [engine, name] : engine_names)

@@ -21,6 +21,7 @@ using robustness::MeshPair;
 
 using MeshFamily = Family<MeshPair>;
 
+/// Returns a pose as 3 x 4 numbers, row-major.
 inline std::vector<double> placement(const Pose& pose) {
   std::vector<double> m;
   for (int row = 0; row < 3; ++row) {
@@ -30,6 +31,7 @@ inline std::vector<double> placement(const Pose& pose) {
   return m;
 }
 
+/// Returns a translation as 3 x 4 numbers, row-major.
 inline std::vector<double> shifted(double x, double y, double z) {
   Pose pose;
   pose.translation = {x, y, z};
@@ -61,6 +63,7 @@ inline Mesh octahedron(double size, bool half) {
   return mesh;
 }
 
+/// Returns separate random triangles.
 inline Mesh soup(Random& r, std::size_t triangles, double size) {
   Mesh mesh;
   for (std::size_t k = 0; k < triangles; ++k) {
@@ -74,6 +77,7 @@ inline Mesh soup(Random& r, std::size_t triangles, double size) {
   return mesh;
 }
 
+/// Returns 0 or a gap of either sign between 2^-43 and 2^-4.
 inline double small_gap(Random& r) {
   const double gap = std::ldexp(1.0, -static_cast<int>(4 + r.below(40)));
   return r.one_in(3) ? 0.0 : r.one_in(2) ? gap : -gap;

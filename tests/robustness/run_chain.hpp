@@ -57,6 +57,7 @@ inline void add_links(ModelBuilder<Triangle>& builder, const Chain& chain) {
   }
 }
 
+/// Returns a hierarchy of the chain at its angles.
 template <template <class, class, class> class EngineOf>
 Triangles<EngineOf> hierarchy_of(const Chain& chain) {
   ModelBuilder<Triangle> builder;
