@@ -12,7 +12,7 @@
 
 namespace architecture {
 
-/// A file has one verb or noun; a longer file has two.
+/// Largest number of lines: a longer file does more than one job and should be split.
 inline constexpr std::size_t longest_file = 300;
 
 /// Returns one sentence per violation in files of the library and its modules.
