@@ -27,7 +27,7 @@
 namespace hinge::bench {
 
 using Json = nlohmann::ordered_json;
-using Exact = test::Simd;
+using Exact = test::Float50;
 
 inline constexpr std::uint64_t robustness_seed = 2005;
 

@@ -17,7 +17,7 @@ namespace {
 
 using Rational = boost::multiprecision::cpp_rational;
 using hinge::test::OracleDistance;
-using Digits = hinge::test::Simd;  // fifty digits
+using Digits = hinge::test::Float50;  // fifty digits
 
 Rational sum(std::initializer_list<double> terms) {
   Rational total = 0;

@@ -32,7 +32,7 @@ namespace exact_solids_test {
 
 using test::Random;
 using test::SolidOracle;
-using Simd = SolidOracle::Simd;
+using Float50 = SolidOracle::Float50;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double half_ulp = 0x1p-53;
@@ -286,21 +286,21 @@ void check_distance(const P& p, const P& q, const SolidOracle& oracle, Worst& wo
   for (const double squared : {squared_distance(p, q), squared_distance(q, p), last_distance(p, q)})
     EXPECT_EQ(squared == 0.0, meet);
   if (meet) return;
-  const Simd gap = oracle.gap(), size = oracle.largest_difference();
-  if (gap > ldexp(Simd(1), 511)) {
+  const Float50 gap = oracle.gap(), size = oracle.largest_difference();
+  if (gap > ldexp(Float50(1), 511)) {
     EXPECT_GT(squared_distance(p, q), 0x1p1021);
-  } else if (gap < ldexp(Simd(1), -510)) {
+  } else if (gap < ldexp(Float50(1), -510)) {
     EXPECT_LT(squared_distance(p, q), 0x1p-1019);
   } else {
     const Bound b = bound(p);
-    const Simd stated = half_ulp * (b.size * size + b.between * oracle.between() + b.gap * gap);
-    const Simd target = half_ulp * (16 * size + 32 * gap);
-    const Simd error = abs(Simd(std::sqrt(squared_distance(p, q))) - gap);
+    const Float50 stated = half_ulp * (b.size * size + b.between * oracle.between() + b.gap * gap);
+    const Float50 target = half_ulp * (16 * size + 32 * gap);
+    const Float50 error = abs(Float50(std::sqrt(squared_distance(p, q))) - gap);
     EXPECT_LE(error, stated) << gap;
     EXPECT_LE(error, target) << "more than was ever seen, though less than the bound may be";
     worst.of_bound = std::max(worst.of_bound, static_cast<double>(error / stated));
     worst.of_target = std::max(worst.of_target, static_cast<double>(error / target));
-    EXPECT_LE(abs(Simd(std::sqrt(last_distance(p, q))) - gap), 11 * half_ulp * gap);
+    EXPECT_LE(abs(Float50(std::sqrt(last_distance(p, q))) - gap), 11 * half_ulp * gap);
   }
 }
 
@@ -325,7 +325,7 @@ void check_pair(const P& p, const P& q, Random& random, Worst& worst) {
     const bool expected = oracle.below(m);
     for (const bool verdict : {closer_than(p, q, m), closer_than(q, p, m), last_rung(p, q, m)})
       EXPECT_EQ(verdict, expected) << "m = " << m << ", gap " << oracle.gap();
-    worst.ties += m == gap && Simd(gap) == oracle.gap() ? 1 : 0;
+    worst.ties += m == gap && Float50(gap) == oracle.gap() ? 1 : 0;
   }
   EXPECT_TRUE(closer_than(p, q, infinity));
   check_distance(p, q, oracle, worst);

@@ -23,7 +23,7 @@ namespace hinge::test {
 class SolidOracle {
  public:
   using Big = boost::multiprecision::cpp_int;
-  using Simd = boost::multiprecision::cpp_bin_float_50;
+  using Float50 = boost::multiprecision::cpp_bin_float_50;
 
   SolidOracle(const Point& p, const Point& q)
       : SolidOracle(Capsule{p.position, p.position, 0.0}, {q.position, q.position, 0.0}) {}
@@ -74,12 +74,13 @@ class SolidOracle {
   }
 
   /// Distance of the segments and of the surfaces (negative for an overlap), to about 45 digits.
-  Simd between() const { return ldexp(root(), unit_); }
-  Simd gap() const {
-    const Simd excess(Big(numerator_ - radii_ * radii_ * denominator_));
-    return excess == 0 ? Simd(0) : Simd(ldexp(excess / (Simd(denominator_) * (root() + Simd(radii_))), unit_));
+  Float50 between() const { return ldexp(root(), unit_); }
+  Float50 gap() const {
+    const Float50 excess(Big(numerator_ - radii_ * radii_ * denominator_));
+    return excess == 0 ? Float50(0)
+                       : Float50(ldexp(excess / (Float50(denominator_) * (root() + Float50(radii_))), unit_));
   }
-  Simd largest_difference() const { return ldexp(Simd(largest_), unit_); }
+  Float50 largest_difference() const { return ldexp(Float50(largest_), unit_); }
 
  private:
   using Vector = std::array<Big, 3>;
@@ -96,7 +97,7 @@ class SolidOracle {
 
   static Big dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
   static Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-  Simd root() const { return sqrt(Simd(numerator_) / Simd(denominator_)); }
+  Float50 root() const { return sqrt(Float50(numerator_) / Float50(denominator_)); }
 
   void take(const Big& numerator, const Big& denominator) {
     if (found_ && numerator * denominator_ >= numerator_ * denominator) return;

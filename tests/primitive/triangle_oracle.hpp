@@ -17,7 +17,7 @@
 namespace hinge::test {
 
 using Big = boost::multiprecision::cpp_int;
-using Simd = boost::multiprecision::cpp_bin_float_50;
+using Float50 = boost::multiprecision::cpp_bin_float_50;
 
 /// Coordinates are integer multiples of 2^unit.
 class OracleDistance {
@@ -50,7 +50,7 @@ class OracleDistance {
   }
 
   /// Accurate to 50 digits.
-  Simd distance() const { return ldexp(sqrt(Simd(numerator_) / Simd(denominator_)), unit_); }
+  Float50 distance() const { return ldexp(sqrt(Float50(numerator_) / Float50(denominator_)), unit_); }
 
  private:
   using Point = std::array<Big, 3>;

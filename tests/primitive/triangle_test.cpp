@@ -26,17 +26,17 @@
 namespace hinge {
 namespace triangle_test {
 
+using test::Float50;
 using test::OracleDistance;
 using test::Random;
-using test::Simd;
 using test::TriangleFamily;
 
-Simd largest_difference(const Triangle& p, const Triangle& q) {
-  Simd largest = 0;
+Float50 largest_difference(const Triangle& p, const Triangle& q) {
+  Float50 largest = 0;
   const std::array<const Vec3*, 6> points{&p.a, &p.b, &p.c, &q.a, &q.b, &q.c};
   for (const Vec3* a : points)
     for (const Vec3* b : points)
-      for (int k = 0; k < 3; ++k) largest = std::max(largest, Simd(abs(Simd((*a)[k]) - Simd((*b)[k]))));
+      for (int k = 0; k < 3; ++k) largest = std::max(largest, Float50(abs(Float50((*a)[k]) - Float50((*b)[k]))));
   return largest;
 }
 
@@ -66,25 +66,25 @@ struct Worst {
 
 /// Checks the documented error of distances: 28 half ulps of the largest coordinate difference plus 16 half ulps of
 /// the distance, if the square of the distance is a normal double.
-void check_distance(const Triangle& p, const Triangle& q, const Simd& exact, Worst& worst) {
+void check_distance(const Triangle& p, const Triangle& q, const Float50& exact, Worst& worst) {
   constexpr double half_ulp = 0x1p-53;
-  const Simd size = largest_difference(p, q);
+  const Float50 size = largest_difference(p, q);
   const double squared = squared_distance(p, q);
-  if (exact > ldexp(Simd(1), 511) || exact < ldexp(Simd(1), -510)) {
+  if (exact > ldexp(Float50(1), 511) || exact < ldexp(Float50(1), -510)) {
     EXPECT_TRUE(squared > 0.0);
   } else {
-    const Simd error = abs(sqrt(Simd(squared)) - exact);
-    const Simd bound = half_ulp * (28 * size + 16 * exact), target = half_ulp * (16 * size + 32 * exact);
+    const Float50 error = abs(sqrt(Float50(squared)) - exact);
+    const Float50 bound = half_ulp * (28 * size + 16 * exact), target = half_ulp * (16 * size + 32 * exact);
     EXPECT_LE(error, target) << "more than was ever seen, though less than the bound may be";
     EXPECT_LE(error, bound) << "distance " << exact << ", found " << std::sqrt(squared);
     worst.of_bound = std::max(worst.of_bound, static_cast<double>(error / bound));
     worst.of_target = std::max(worst.of_target, static_cast<double>(error / target));
   }
   const auto [x, y] = closest_points(p, q);
-  Simd between = 0;
-  for (int k = 0; k < 3; ++k) between += (Simd(x[k]) - Simd(y[k])) * (Simd(x[k]) - Simd(y[k]));
+  Float50 between = 0;
+  for (int k = 0; k < 3; ++k) between += (Float50(x[k]) - Float50(y[k])) * (Float50(x[k]) - Float50(y[k]));
   EXPECT_LE(abs(sqrt(between) - exact),
-            half_ulp * (28 * size + 16 * exact + 8 * far_from_zero(p, q)) + ldexp(Simd(1), -1071));
+            half_ulp * (28 * size + 16 * exact + 8 * far_from_zero(p, q)) + ldexp(Float50(1), -1071));
 }
 
 void check_pair(const Triangle& p, const Triangle& q, Random& random, Worst& worst) {
@@ -106,13 +106,14 @@ void check_pair(const Triangle& p, const Triangle& q, Random& random, Worst& wor
     EXPECT_TRUE(closer_than(p, q, 0x1p-1074));
     // A common point, up to the rounding of its coordinates.
     for (const Triangle* t : {&p, &q})
-      EXPECT_LE(OracleDistance(*t, {x, x, x}).distance(), 0x1p-53 * 16 * far_from_zero(p, q) + ldexp(Simd(1), -1071));
+      EXPECT_LE(OracleDistance(*t, {x, x, x}).distance(),
+                0x1p-53 * 16 * far_from_zero(p, q) + ldexp(Float50(1), -1071));
     return;
   }
-  const Simd distance = oracle.distance();
+  const Float50 distance = oracle.distance();
   check_distance(p, q, distance, worst);
   if (std::isnormal(in_whole_numbers)) {
-    EXPECT_LE(abs(Simd(in_whole_numbers) - distance * distance), 0x1p-51 * distance * distance);
+    EXPECT_LE(abs(Float50(in_whole_numbers) - distance * distance), 0x1p-51 * distance * distance);
   }
   const auto d = static_cast<double>(distance);
   constexpr double infinity = std::numeric_limits<double>::infinity();

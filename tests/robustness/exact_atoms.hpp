@@ -17,7 +17,7 @@
 namespace hinge::test {
 
 using Big = boost::multiprecision::cpp_int;
-using Simd = boost::multiprecision::cpp_bin_float_50;
+using Float50 = boost::multiprecision::cpp_bin_float_50;
 
 /// Returns x / 2^-1074, an integer for every double.
 inline Big in_smallest_doubles(double x) {
@@ -54,9 +54,9 @@ inline bool exactly_closer(const double* p, const double* q, double m) {
 }
 
 /// Returns the two doubles next to the rounded value; the value itself twice if it is exact.
-inline robustness::Bracket bracket_of(const Simd& x) {
+inline robustness::Bracket bracket_of(const Float50& x) {
   const auto d = static_cast<double>(x);
-  if (Simd(d) == x) return {d, d};
+  if (Float50(d) == x) return {d, d};
   return {std::nextafter(d, 0.0), std::nextafter(d, std::numeric_limits<double>::infinity())};
 }
 
@@ -89,7 +89,7 @@ inline robustness::Truth exact_truth(const robustness::Atoms& atoms) {
   truth.hit = !truth.pairs->empty();
   if (closest.second == 0) return truth;
   const Big square = exact_square(atoms.x.data() + 3 * closest.first, atoms.x.data() + 3 * closest.second);
-  truth.distance = bracket_of(ldexp(sqrt(Simd(square)), -1074));
+  truth.distance = bracket_of(ldexp(sqrt(Float50(square)), -1074));
   return truth;
 }
 

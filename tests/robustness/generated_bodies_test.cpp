@@ -24,11 +24,11 @@ namespace hinge::robustness {
 namespace generated_bodies_test {
 
 using test::ChainFamily;
+using test::Float50;
 using test::MeshFamily;
 using test::Random;
-using test::Simd;
 
-using WideVector = std::array<Simd, 3>;
+using WideVector = std::array<Float50, 3>;
 
 /// A pose in 50 digits: columns of the rotation, then the translation.
 struct WidePose {
@@ -62,8 +62,8 @@ struct WidePose {
 /// Returns the pose of a link in its parent: translation to the origin, then rotation about the axis (Rodrigues).
 WidePose motion(const ChainLink& link) {
   const WideVector axis{link.axis[0], link.axis[1], link.axis[2]};
-  const Simd length = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
-  const Simd c = cos(Simd(link.angle)), s = sin(Simd(link.angle));
+  const Float50 length = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
+  const Float50 c = cos(Float50(link.angle)), s = sin(Float50(link.angle));
   WidePose pose;
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t row = 0; row < 3; ++row) pose.column[k][row] = (1 - c) * axis[row] * axis[k] / (length * length);
@@ -78,14 +78,14 @@ WidePose motion(const ChainLink& link) {
 
 /// Returns the largest distance between placed corners and their positions in 50 digits.
 double largest_error(std::span<const Triangle> placed, const std::vector<Triangle>& local, const WidePose& pose) {
-  Simd worst = 0;
+  Float50 worst = 0;
   for (std::size_t k = 0; k < local.size(); ++k)
     for (const auto corner : {&Triangle::a, &Triangle::b, &Triangle::c}) {
       const Vec3 &v = local[k].*corner, &found = placed[k].*corner;
       const WideVector wanted = pose.placed({v[0], v[1], v[2]});
-      Simd squared = 0;
+      Float50 squared = 0;
       for (std::size_t row = 0; row < 3; ++row) {
-        const Simd off = wanted[row] - found[static_cast<int>(row)];
+        const Float50 off = wanted[row] - found[static_cast<int>(row)];
         squared += off * off;
       }
       worst = std::max(worst, squared);
