@@ -49,5 +49,6 @@
 #include "hinge/primitive/triangle.hpp"
 #include "hinge/query/collectors.hpp"
 #include "hinge/query/link_pair_hits.hpp"
+#include "hinge/query/mode.hpp"
 #include "hinge/query/query_options.hpp"
 #include "hinge/version.hpp"

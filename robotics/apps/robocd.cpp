@@ -9,8 +9,8 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/detail/simd/instruction_set.hpp"
+#include "hinge/query/mode.hpp"
 #include "hinge/version.hpp"
-#include "hinge_tools/mode.hpp"
 #include "hinge_tools/number_option.hpp"
 #include "hinge_tools/pick_instruction_set.hpp"
 #include "hinge_tools/run_tool.hpp"

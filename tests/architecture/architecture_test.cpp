@@ -49,6 +49,14 @@ TEST(Floors, OraclesStayInTheirFolders) {
 
 TEST(PublicFace, NamesNothingPrivate) { EXPECT_EQ(joined(architecture::private_names_in_public(library())), ""); }
 
+TEST(PublicFace, NeedsNothingThatIsNotInstalled) {
+  EXPECT_EQ(joined(architecture::headers_left_behind(library())), "");
+  const std::vector<std::string> lines = {"#include \"hinge_tools/x.hpp\"", "#include \"hinge/core/vec3.hpp\""};
+  EXPECT_EQ(architecture::headers_left_behind({{"molecular/include/hinge/molecular/x.hpp", lines}}).size(), 1U);
+  EXPECT_EQ(architecture::headers_left_behind({{"include/hinge/detail/core/x.hpp", lines}}).size(), 1U);
+  EXPECT_EQ(architecture::headers_left_behind({{"molecular/src/io/x.hpp", lines}}).size(), 0U);
+}
+
 TEST(PublicFace, IsOneIncludeAway) { EXPECT_EQ(joined(architecture::not_under_umbrella(library())), ""); }
 
 /// Checks examples, pages and the program that links an installed library.

@@ -110,6 +110,18 @@ inline std::vector<std::string> private_names_in_public(const SourceTree& tree) 
   return violations;
 }
 
+/// Returns one sentence per installed header that includes a header that is not installed.
+inline std::vector<std::string> headers_left_behind(const SourceTree& tree) {
+  std::vector<std::string> violations;
+  for (const auto& [path, lines] : tree) {
+    if (!is_public_header(path) && !path.starts_with("include/hinge/detail/")) continue;
+    for (const Include& include : includes(lines))
+      if (include.quoted && !include.name.starts_with("hinge/"))
+        violations.push_back(path + " includes \"" + include.name + "\", which is not installed");
+  }
+  return violations;
+}
+
 /// Returns public headers that the umbrella header of their folder omits. batch/ensemble.hpp needs TBB and is separate.
 inline std::vector<std::string> not_under_umbrella(const SourceTree& tree) {
   std::vector<std::string> missing;

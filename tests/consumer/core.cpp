@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A program that uses the core: boxes that touch and boxes that do not, and the laws of its own pair filters.
-#include "hinge/bounds/aabb.hpp"
-#include "hinge/policy/laws.hpp"
-#include "hinge/version.hpp"
+#include "hinge/hinge.hpp"
 
 struct EveryOther : hinge::AdmitAll {
   bool admits(hinge::PrimitiveId i, hinge::PrimitiveId j) const noexcept { return (index(i) + index(j)) % 2 == 1; }

@@ -21,7 +21,7 @@
 #include "hinge/molecular/radii.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/primitive/point.hpp"
-#include "hinge_tools/mode.hpp"
+#include "hinge/query/mode.hpp"
 
 namespace hinge::molecular {
 

@@ -18,6 +18,7 @@
 #include "hinge/policy/collector.hpp"
 #include "hinge/primitive/triangle.hpp"
 #include "hinge/query/link_pair_hits.hpp"
+#include "hinge/query/mode.hpp"
 #include "hinge/robotics/any_hierarchy.hpp"
 #include "hinge/robotics/contact.hpp"
 #include "hinge/robotics/containment.hpp"
@@ -25,7 +26,6 @@
 #include "hinge/robotics/link_pairs.hpp"
 #include "hinge/robotics/robot.hpp"
 #include "hinge/robotics/tested_pairs.hpp"
-#include "hinge_tools/mode.hpp"
 
 namespace hinge::robotics {
 

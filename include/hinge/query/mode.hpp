@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mode: the query mode of a command-line tool, as users name it.
+// Mode: a query mode chosen at run time, as the checkers of the modules take it and as users write it.
 #pragma once
 
 #include <charconv>
