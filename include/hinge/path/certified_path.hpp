@@ -11,10 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
-#include "hinge/core/number_text.hpp"
 #include "hinge/detail/bounds/round.hpp"
 #include "hinge/detail/path/displacements.hpp"
 #include "hinge/detail/path/group_rates.hpp"
@@ -88,8 +86,7 @@ class CertifiedPath {
 template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
 PathAnswer CertifiedPath<P, F, D, EngineOf>::check(std::span<const double> from, std::span<const double> to,
                                                    double smallest_step) {
-  if (!(smallest_step > 0.0))
-    throw ConfigurationError("smallest step " + number_text(smallest_step) + ": expected a share above 0");
+  check_smallest_step(smallest_step);
   path_ = StraightPath(from, to, hierarchy_.dof_count());
   smallest_step_ = smallest_step;
   answer_ = {};

@@ -22,13 +22,10 @@
 
 namespace hinge {
 
-/// Tests both ends and evenly spaced states between them, so that no value changes by more than `resolution` (rad or
-/// model length unit) from one state to the next. The states are tested in order of bisection. The hierarchy is left at
-/// the last tested state. Throws ConfigurationError for a bad path (see StraightPath), and for a resolution that is not
-/// finite, not above 0, or needs more than 2^53 states.
-template <class H>
-PathAnswer check_sampled(H& hierarchy, std::span<const double> from, std::span<const double> to, double resolution) {
-  const StraightPath path(from, to, hierarchy.dof_count());
+/// Returns the number of steps of equal length that sample the path, so that no value changes by more than `resolution`
+/// (rad or model length unit) in a step; at least 1. Throws ConfigurationError if the resolution is not finite, not
+/// above 0, or needs more than 2^53 states.
+inline std::uint64_t count_steps(const StraightPath& path, double resolution) {
   if (!is_finite(resolution) || !(resolution > 0.0))
     throw ConfigurationError("resolution " + number_text(resolution) + ": expected a finite number above 0");
   double largest = 0.0;
@@ -37,7 +34,18 @@ PathAnswer check_sampled(H& hierarchy, std::span<const double> from, std::span<c
   if (!(wanted <= 0x1p53))
     throw ConfigurationError("resolution " + number_text(resolution) + ": a path of " + number_text(largest) +
                              " takes more than 2^53 states");
-  const auto steps = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(wanted));
+  return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(wanted));
+}
+
+/// Tests both ends and evenly spaced states between them, so that no value changes by more than `resolution` (rad or
+/// model length unit) from one state to the next. The states are tested in order of bisection. The hierarchy is left at
+/// the last tested state. Throws ConfigurationError for a bad path (see StraightPath), and for a resolution that is not
+/// finite, not above 0, or needs more than 2^53 states.
+template <class H>
+PathAnswer check_sampled(H& hierarchy, std::span<const double> from, std::span<const double> to, double resolution) {
+  const StraightPath path(from, to, hierarchy.dof_count());
+  const std::uint64_t steps = count_steps(path, resolution);
+  const bool moves = std::ranges::any_of(path.rate(), [](double rate) { return rate != 0.0; });
 
   PathAnswer answer;
   std::vector<double> q;
@@ -54,7 +62,7 @@ PathAnswer check_sampled(H& hierarchy, std::span<const double> from, std::span<c
     answer.hit = any.hit();
     return true;
   };
-  if (collides(0.0) || (largest > 0.0 && collides(1.0))) return answer;
+  if (collides(0.0) || (moves && collides(1.0))) return answer;
   for (std::uint64_t stride = std::bit_ceil(steps); stride > 1; stride /= 2)
     for (std::uint64_t k = stride / 2; k < steps; k += stride)
       if (collides(static_cast<double>(k) / static_cast<double>(steps))) return answer;

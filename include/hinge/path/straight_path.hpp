@@ -60,4 +60,10 @@ class StraightPath {
   std::vector<double> from_, to_, rate_;
 };
 
+/// Throws ConfigurationError unless the smallest step of a certified path, a share of the path, is above 0.
+inline void check_smallest_step(double smallest_step) {
+  if (!(smallest_step > 0.0))
+    throw ConfigurationError("smallest step " + number_text(smallest_step) + ": expected a share above 0");
+}
+
 }  // namespace hinge

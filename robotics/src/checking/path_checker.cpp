@@ -152,14 +152,13 @@ template <class Check>
 RobotPathAnswer PathChecker::answer(std::span<const double> from, std::span<const double> to, const Check& check) {
   const std::vector<double> first = robot_->expand(from), last = robot_->expand(to);
   RobotPathAnswer answer;
-  // Where something always collides, a path without length still refuses a bad step.
-  const PathAnswer found = check(first, always_ ? first : last);
   if (always_) {
     answer.verdict = PathVerdict::colliding;
     answer.configuration.assign(from.begin(), from.end());
     answer.contact = always_;
     return answer;
   }
+  const PathAnswer found = check(first, last);
   answer.counts = found.counts;
   answer.verdict = found.verdict;
   answer.parameter = found.parameter;
@@ -170,6 +169,7 @@ RobotPathAnswer PathChecker::answer(std::span<const double> from, std::span<cons
 }
 
 RobotPathAnswer PathChecker::certify(std::span<const double> from, std::span<const double> to, double smallest_step) {
+  check_smallest_step(smallest_step);
   return answer(from, to, [&](const std::vector<double>& a, const std::vector<double>& b) {
     // While surfaces stay apart, no component enters or leaves a solid. One test at the start is enough.
     PathAnswer at_start;
@@ -177,7 +177,6 @@ RobotPathAnswer PathChecker::certify(std::span<const double> from, std::span<con
     AnyHit inside;
     WithInsides{hierarchy_, *solid_pairs_, *robot_}.add_insides(inside);
     if (!inside.done()) return certified_.check(a, b, smallest_step);
-    certified_.check(a, a, smallest_step);  // refuses a bad step
     at_start.verdict = PathVerdict::colliding;
     at_start.counts.configurations = 1;
     at_start.configuration = a;
@@ -187,6 +186,7 @@ RobotPathAnswer PathChecker::certify(std::span<const double> from, std::span<con
 }
 
 RobotPathAnswer PathChecker::sample(std::span<const double> from, std::span<const double> to, double resolution) {
+  count_steps(StraightPath(robot_->expand(from), robot_->expand(to), hierarchy_.dof_count()), resolution);
   return answer(from, to, [&](const std::vector<double>& a, const std::vector<double>& b) {
     WithInsides scene{hierarchy_, *solid_pairs_, *robot_};
     return check_sampled(scene, a, b, resolution);
