@@ -13,7 +13,6 @@
 #include "description/read_file.hpp"
 #include "description/read_xml.hpp"
 #include "hinge/core/error.hpp"
-#include "hinge_tools/number_option.hpp"
 
 namespace hinge::robotics {
 
@@ -191,7 +190,7 @@ class SrdfReader {
       if (!found) return;
       if (!named.insert(name_of(element)).second) twice_.add(element, name_of(element));
       const auto values = parse_numbers(file_.attribute(element, "value"));
-      if (!values || values->size() != 1 || !(std::abs(values->front()) <= tool::largest_value))
+      if (!values || values->size() != 1 || !(std::abs(values->front()) <= largest_joint_value))
         file_.refuse(element.GetLineNum(), "joint '" + name_of(element) + "' has value \"" +
                                                element.Attribute("value") +
                                                "\", expected one finite number of at most 1e15");

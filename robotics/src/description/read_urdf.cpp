@@ -212,8 +212,8 @@ class UrdfReader {
       description.upper = joint.limits->upper;
     }
     // Some programs write the largest double for a joint without limits.
-    constexpr double no_limit = 1e15;
-    if (description.type == JointType::revolute && description.lower <= -no_limit && description.upper >= no_limit) {
+    if (description.type == JointType::revolute && description.lower <= -largest_joint_value &&
+        description.upper >= largest_joint_value) {
       description.type = JointType::continuous;
       notes_.push_back(at(outlined.line) + "joint '" + outlined.name +
                        "' has limits of 1e15 rad or more: taken as continuous");
