@@ -29,8 +29,7 @@ void add_model_options(CLI::App& command, Options& o) {
   command
       .add_option("--rigid-from", o.rigid_from,
                   "conformations (DCD, XTC, .npy, PDB, mmCIF, plain or .gz): torsions inside groups that these keep "
-                  "rigid stay at their "
-                  "reference (repeatable)")
+                  "rigid stay at their reference (repeatable)")
       ->allow_extra_args(false);
   add_number(command, "--rigid-tolerance", o.rigid_tolerance, lengths_above_0,
              "by how much distances inside a rigid group may vary: standard deviation, angstrom");

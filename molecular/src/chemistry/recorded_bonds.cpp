@@ -166,8 +166,7 @@ void take_recorded_bonds(Structure& s, const RecordedBonds& recorded) {
   }
   for (const auto& [atoms, order] : between) {
     // If two residues share a number, SSBOND cannot address the second one; the names SG then identify a disulphide.
-    const bool disulphide =
-        disulphides.contains(atoms) || (s.atoms[atoms.first].name == "SG" && s.atoms[atoms.second].name == "SG");
+    const bool disulphide = disulphides.contains(atoms) || joins_sg(s, atoms.first, atoms.second);
     list.add(atoms.first, atoms.second, disulphide ? BondOrigin::disulphide : BondOrigin::record, order);
   }
   std::sort(s.bonds.begin(), s.bonds.end(),

@@ -31,6 +31,11 @@ RecordedBonds record_bonds(const Structure& structure);
 /// Sets structure.bonds from these records, in place of perceive_bonds. Atoms are found by Atom::record.
 void take_recorded_bonds(Structure& structure, const RecordedBonds& recorded);
 
+/// True if both atoms are named SG. A recorded bond between them is a disulphide, whatever record names it.
+inline bool joins_sg(const Structure& structure, std::uint32_t i, std::uint32_t j) {
+  return structure.atoms[i].name == "SG" && structure.atoms[j].name == "SG";
+}
+
 /// True if the bond joins a residue to the next one of its chain, in sequence order.
 bool joins_neighbours(const Structure& structure, const Bond& bond);
 

@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "chemistry/recorded_bonds.hpp"
 #include "chemistry/residue_table.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
@@ -194,15 +195,12 @@ class Assembler {
         if (s_.atoms[i].name == a.atom) return i;
       return std::nullopt;
     };
-    const auto sulphurs = [&](std::uint32_t i, std::uint32_t j) {
-      return s_.atoms[i].name == "SG" && s_.atoms[j].name == "SG";
-    };
     std::size_t dangling = 0;
     for (const RawLink& link : raw_.links) {
       const auto a = atom(link.first), b = atom(link.second);
       if (a && b && *a != *b)
         s_.links.push_back(
-            {std::min(*a, *b), std::max(*a, *b), link.disulphide || sulphurs(*a, *b), false, BondOrder::unknown});
+            {std::min(*a, *b), std::max(*a, *b), link.disulphide || joins_sg(s_, *a, *b), false, BondOrder::unknown});
       else
         ++dangling;
     }
@@ -232,8 +230,7 @@ class Assembler {
       if (a == atoms.end() || b == atoms.end() || a->second == several || b->second == several) continue;
       const auto [i, j] = std::minmax(a->second, b->second);
       if (!known.emplace(i, j).second) continue;
-      const bool disulphide = s_.atoms[i].name == "SG" && s_.atoms[j].name == "SG";
-      s_.links.push_back({i, j, disulphide, true, pair.repeated ? BondOrder::multiple : BondOrder::unknown});
+      s_.links.push_back({i, j, joins_sg(s_, i, j), true, pair.repeated ? BondOrder::multiple : BondOrder::unknown});
     }
   }
 

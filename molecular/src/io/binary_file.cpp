@@ -11,6 +11,7 @@
 
 #include "hinge/core/error.hpp"
 #include "io/read_file.hpp"
+#include "io/unpacked_file.hpp"
 
 namespace hinge::molecular {
 
@@ -28,7 +29,7 @@ BinaryFile::BinaryFile(const std::filesystem::path& path) : name_(path.string())
   }
   size_ = static_cast<std::uint64_t>(status.st_size);
   std::array<char, 2> start{};
-  if (read(0, start) < 2 || start[0] != '\x1f' || start[1] != '\x8b') return;
+  if (read(0, start) < 2 || !starts_gzip(start[0], start[1])) return;
   ::close(std::exchange(descriptor_, -1));
   unpacked_ = read_bytes(path);
   size_ = unpacked_.size();

@@ -12,7 +12,7 @@ namespace hinge::molecular {
 UnpackedFile::UnpackedFile(const std::filesystem::path& path)
     : file_(path, "a PDB or mmCIF file"), packed_(std::size_t{1} << 16U) {
   constexpr int gzip_alone = 15 + 16;  // inflateInit2's window bits for gzip only
-  is_gzipped_ = fill() && stream_.avail_in >= 2 && packed_[0] == '\x1f' && packed_[1] == '\x8b';
+  is_gzipped_ = fill() && stream_.avail_in >= 2 && starts_gzip(packed_[0], packed_[1]);
   if (is_gzipped_ && inflateInit2(&stream_, gzip_alone) != Z_OK) throw std::bad_alloc();
 }
 

@@ -15,6 +15,9 @@
 
 namespace hinge::molecular {
 
+/// True if the first two bytes of a file are those of a gzip member.
+inline bool starts_gzip(char first, char second) noexcept { return first == '\x1f' && second == '\x8b'; }
+
 /// A gzipped file consists of one or more members; only zeros, which pad the last block of a tape, may follow. zlib's
 /// gzread would stop at any other data after a member and drop them silently.
 class UnpackedFile {

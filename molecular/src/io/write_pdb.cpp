@@ -90,7 +90,7 @@ void write_links(std::ostream& out, const Structure& s) {
     const Atom &a = s.atoms[bond.first], &b = s.atoms[bond.second];
     if (a.residue == b.residue || joins_neighbours(s, bond)) continue;
     const Residue &r = s.residues[a.residue], &t = s.residues[b.residue];
-    if (bond.origin == BondOrigin::disulphide && a.name == "SG" && b.name == "SG") {
+    if (bond.origin == BondOrigin::disulphide && joins_sg(s, bond.first, bond.second)) {
       out << "SSBOND " << right(std::to_string(++count % 1000), 3) << ' ' << residue_field(s, r) << "   "
           << residue_field(s, t) << right("", 23) << symmetry << length(bond) << "\n";
     } else {
