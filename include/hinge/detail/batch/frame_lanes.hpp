@@ -100,18 +100,7 @@ class FrameLanes {
       return {one, zero, zero, zero, one, zero, zero, zero, one, x * q, y * q, z * q};
     }
     Double8 s, c;
-    if (small) {
-      simd::sincos(q, s, c);
-    } else {
-      std::array<double, half> sines, cosines;
-      for (std::size_t k = 0; k < half; ++k) {
-        const SinCos sc = sincos(value[k]);
-        sines[k] = sc.sin;
-        cosines[k] = sc.cos;
-      }
-      s = Double8(sines.data());
-      c = Double8(cosines.data());
-    }
+    simd::sincos(value, small, s, c);
     const Double8 px(joint.point[0]), py(joint.point[1]), pz(joint.point[2]);
     const auto r = rotation_columns(x, y, z, s, c);
     return {r[0],

@@ -46,18 +46,7 @@ inline void compute_motions(const JointBatch& batch, const double* q, JointMotio
     largest = std::max(largest, std::abs(angle[k]));
   }
   simd::Double8 s, c;
-  if (largest <= cody_waite_limit) {
-    simd::sincos(simd::Double8(angle.data()), s, c);
-  } else {
-    std::array<double, n> sines, cosines;
-    for (std::size_t k = 0; k < n; ++k) {
-      const SinCos sc = sincos(angle[k]);
-      sines[k] = sc.sin;
-      cosines[k] = sc.cos;
-    }
-    s = simd::Double8(sines.data());
-    c = simd::Double8(cosines.data());
-  }
+  simd::sincos(angle.data(), largest <= cody_waite_limit, s, c);
   const simd::Double8 x(batch.axis.data()), y(batch.axis.data() + n), z(batch.axis.data() + 2 * n);
   const simd::Double8 px(batch.point.data()), py(batch.point.data() + n), pz(batch.point.data() + 2 * n);
   const auto r = rotation_columns(x, y, z, s, c);

@@ -20,6 +20,16 @@
 
 namespace hinge::detail {
 
+/// Lanes whose box, from `lower` to `upper`, shares a point with the box.
+[[gnu::always_inline]] inline simd::Bits lanes_meeting(const std::array<simd::Float16, 3>& lower,
+                                                       const std::array<simd::Float16, 3>& upper,
+                                                       const FloatBox& box) noexcept {
+  const auto axis = [&](std::size_t k) __attribute__((always_inline)) {
+    return less_equal(lower[k], simd::Float16(box.upper[k])) & less_equal(simd::Float16(box.lower[k]), upper[k]);
+  };
+  return axis(0) & axis(1) & axis(2);
+}
+
 /// Sixteen primitives in world coordinates, stored in `floats` numbers that the engine owns. The generic version stores
 /// their boxes, so the squared gap of boxes bounds the squared distance from below. Specialisations with a better
 /// kernel have the same members. They also have `turn` when a rotation of the stored coordinates gives the rotated
@@ -75,10 +85,7 @@ struct Batch {
     }
     /// Returns the lanes that share a point with the box, up to rounding.
     [[gnu::always_inline]] simd::Bits meets(const FloatBox& box) const noexcept {
-      const auto axis = [&](std::size_t k) __attribute__((always_inline)) {
-        return less_equal(lower_[k], simd::Float16(box.upper[k])) & less_equal(simd::Float16(box.lower[k]), upper_[k]);
-      };
-      return axis(0) & axis(1) & axis(2);
+      return lanes_meeting(lower_, upper_, box);
     }
 
    private:
@@ -179,10 +186,7 @@ struct Batch<Point> {
       }
     }
     [[gnu::always_inline]] simd::Bits meets(const FloatBox& box) const noexcept {
-      const auto axis = [&](std::size_t k) __attribute__((always_inline)) {
-        return less_equal(lower_[k], simd::Float16(box.upper[k])) & less_equal(simd::Float16(box.lower[k]), upper_[k]);
-      };
-      return axis(0) & axis(1) & axis(2);
+      return lanes_meeting(lower_, upper_, box);
     }
 
    private:

@@ -2,6 +2,9 @@
 // Sine and cosine of eight angles at once, with the bits of the scalar functions.
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include "hinge/detail/core/sincos.hpp"
 #include "hinge/detail/simd/lanes.hpp"
 
@@ -19,6 +22,19 @@ namespace hinge::detail::simd {
   const Double8 first = choose_less(odd, half, c, s), second = choose_less(odd, half, s, c);
   sine = choose_less(q, Double8(1.5), first, -first);
   cosine = choose_less(abs(q - Double8(1.5)), Double8(1.0), -second, second);
+}
+
+/// Computes sincos per lane for any finite angles. small: no |angle| exceeds cody_waite_limit.
+[[gnu::always_inline]] inline void sincos(const double* angle, bool small, Double8& sine, Double8& cosine) noexcept {
+  if (small) return sincos(Double8(angle), sine, cosine);
+  std::array<double, 8> sines, cosines;
+  for (std::size_t k = 0; k < 8; ++k) {
+    const SinCos sc = detail::sincos(angle[k]);
+    sines[k] = sc.sin;
+    cosines[k] = sc.cos;
+  }
+  sine = Double8(sines.data());
+  cosine = Double8(cosines.data());
 }
 
 }  // namespace hinge::detail::simd
