@@ -59,11 +59,14 @@ TEST(AxisGrid, NamesEveryLineThroughAPoint) {
         lines.push_back(line);
       }
       const detail::AxisGrid grid(lines, box);
+      std::size_t answered = 0;
       for (std::size_t k = 0; k < lines.size(); ++k) {
         bool found = false;
         const bool inside = grid.visit_near(Aabb(points[k]), [&](std::size_t l) { found = found || l == k; });
         ASSERT_TRUE(found || !inside) << "manner " << manner << " offset " << offset << " line " << k;
+        answered += inside ? 1U : 0U;
       }
+      EXPECT_EQ(answered, lines.size()) << "manner " << manner << " offset " << offset;
       EXPECT_FALSE(grid.visit_near(Aabb(Vec3::Constant(1e300)), [](std::size_t) {}));
     }
   const detail::AxisGrid nothing({}, Aabb());
