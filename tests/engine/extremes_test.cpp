@@ -38,19 +38,19 @@ Model<Point> two_groups(double size) {
   return builder.finish();
 }
 
-void expect_equal(PointsOn<Simd>& wide, PointsOn<Brute>& brute, double margin) {
+void expect_equal(PointsOn<Simd>& simd, PointsOn<Brute>& brute, double margin) {
   const std::vector<Hit> all = brute.self_collisions();
-  EXPECT_EQ(wide.self_collides(), !all.empty());
-  EXPECT_EQ(wide.self_collisions(), all);
-  EXPECT_EQ(wide.self_within(margin), brute.self_within(margin));
-  EXPECT_EQ(wide.self_closest().value().gap(), brute.self_closest().value().gap());
+  EXPECT_EQ(simd.self_collides(), !all.empty());
+  EXPECT_EQ(simd.self_collisions(), all);
+  EXPECT_EQ(simd.self_within(margin), brute.self_within(margin));
+  EXPECT_EQ(simd.self_closest().value().gap(), brute.self_closest().value().gap());
 }
 
-void expect_on_its_sides(PointsOn<Simd>& wide, PointsOn<Brute>& brute, double margin) {
+void expect_on_its_sides(PointsOn<Simd>& simd, PointsOn<Brute>& brute, double margin) {
   for (const double below : {0.0, margin}) {
-    const auto list = [&](const QueryOptions& o) { return wide.self_within(below, o); };
+    const auto list = [&](const QueryOptions& o) { return simd.self_within(below, o); };
     test::expect_on_their_sides({}, brute.self_within(below), list, [&](const QueryOptions& o) {
-      return below == 0.0 ? wide.self_collides(o) : !list(o).empty();
+      return below == 0.0 ? simd.self_collides(o) : !list(o).empty();
     });
   }
 }
@@ -62,17 +62,17 @@ std::uint64_t expect_on_their_sides(PointsOn<Simd>& a, PointsOn<Simd>& b, const 
 }
 
 void expect_equal_on(const Model<Point>& model, double clearance, const std::vector<double>& q = {}) {
-  PointsOn<Simd> wide(model, AdmitAll{}, UniformClearance(clearance));
+  PointsOn<Simd> simd(model, AdmitAll{}, UniformClearance(clearance));
   PointsOn<Brute> brute(model, AdmitAll{}, UniformClearance(clearance));
   if (!q.empty()) {
-    wide.update(q);
+    simd.update(q);
     brute.update(q);
   }
-  expect_equal(wide, brute, clearance);
-  expect_on_its_sides(wide, brute, clearance);
+  expect_equal(simd, brute, clearance);
+  expect_on_its_sides(simd, brute, clearance);
 }
 
-TEST(WideExtremes, HoldAtAnySizeOfTheModel) {
+TEST(SimdExtremes, HoldAtAnySizeOfTheModel) {
   for (const double size : {4e-322, 1e-310, 1e-300, 1e-160, 1e-30, 1.0, 1e30, 1e150}) {
     SCOPED_TRACE(size);
     expect_equal_on(sliders({{0, 0, 0}, {size, 0, 0}, {0, size * 3, 0}}), size * 2);
@@ -80,7 +80,7 @@ TEST(WideExtremes, HoldAtAnySizeOfTheModel) {
   }
 }
 
-TEST(WideExtremes, HoldForAnyClearanceAndTravel) {
+TEST(SimdExtremes, HoldForAnyClearanceAndTravel) {
   const Model<Point> model = sliders({{0, 0, 0}, {1, 0, 0}, {0, 0.25, 0}});
   for (const double clearance : {0.0, 1e-200, 0.5, 1e20, 1e45}) expect_equal_on(model, clearance);
   for (const double travel : {1e-200, 1e20, 1e100})
@@ -88,7 +88,7 @@ TEST(WideExtremes, HoldForAnyClearanceAndTravel) {
       expect_equal_on(model, 0.5, q);
 }
 
-TEST(WideExtremes, HoldForTwoModelsOfVeryDifferentSize) {
+TEST(SimdExtremes, HoldForTwoModelsOfVeryDifferentSize) {
   const Model<Point> model = sliders({{0, 0, 0}, {1, 0, 0}, {0, 0.25, 0}});
   for (const double size : {1e-300, 1e-60, 1e-42, 1e-38, 1e-30, 1e-10, 1e10, 1e30, 1e60, 1e150}) {
     SCOPED_TRACE(size);
@@ -105,7 +105,7 @@ TEST(WideExtremes, HoldForTwoModelsOfVeryDifferentSize) {
   }
 }
 
-TEST(WideExtremes, HoldForCoordinatesFarBeyondTheSizeOfTheModel) {
+TEST(SimdExtremes, HoldForCoordinatesFarBeyondTheSizeOfTheModel) {
   test::Random random(11);
   const std::vector<double> places = {0.0, 1.0, 1e15, 1e16, 0x1p127, 0x1p128, 0x1p129, 0x1p200, 0x1p881, 0x1p990};
   const auto draw = [&] { return places[random.below(places.size())] * (random.below(2) == 0 ? 1.0 : -1.0); };
@@ -116,7 +116,7 @@ TEST(WideExtremes, HoldForCoordinatesFarBeyondTheSizeOfTheModel) {
     const std::vector<Vec3> far = {Vec3(draw(), 0, 0), Vec3(draw(), draw(), 0), Vec3(0, draw(), draw())};
     const double clearance = random.below(2) == 0 ? 0.0 : std::abs(draw());
     const Model<Point>& model = round % 2 == 0 ? groups : own;
-    PointsOn<Simd> wide(model, AdmitAll{}, UniformClearance(clearance)),
+    PointsOn<Simd> simd(model, AdmitAll{}, UniformClearance(clearance)),
         other(small, AdmitAll{}, UniformClearance(clearance));
     PointsOn<Brute> brute(model, AdmitAll{}, UniformClearance(clearance)),
         other_brute(small, AdmitAll{}, UniformClearance(clearance));
@@ -124,7 +124,7 @@ TEST(WideExtremes, HoldForCoordinatesFarBeyondTheSizeOfTheModel) {
     for (Point& point : others) point.position = far[random.below(far.size())];
     other.update_placed(others);
     other_brute.update_placed(others);
-    std::vector<Pose> poses(wide.model().groups()->size());
+    std::vector<Pose> poses(simd.model().groups()->size());
     for (Pose& pose : poses) pose.translation = far[random.below(far.size())];
     poses.front() = Pose{};
     std::vector<Point> points(model.size());
@@ -132,40 +132,40 @@ TEST(WideExtremes, HoldForCoordinatesFarBeyondTheSizeOfTheModel) {
     for (int state = 0; state < 2; ++state) {
       for (const double margin : {0x1p-1074, 1.0, 0x1p130, 0x1p995}) {
         if (state == 0)
-          wide.update_poses(poses), brute.update_poses(poses);
+          simd.update_poses(poses), brute.update_poses(poses);
         else
-          wide.update_placed(points), brute.update_placed(points);
-        expect_equal(wide, brute, margin);
-        EXPECT_EQ(wide.within(other, margin), brute.within(other_brute, margin));
-        EXPECT_EQ(other.within(wide, margin), other_brute.within(brute, margin));
-        EXPECT_EQ(wide.closest(other).value().gap(), brute.closest(other_brute).value().gap());
+          simd.update_placed(points), brute.update_placed(points);
+        expect_equal(simd, brute, margin);
+        EXPECT_EQ(simd.within(other, margin), brute.within(other_brute, margin));
+        EXPECT_EQ(other.within(simd, margin), other_brute.within(brute, margin));
+        EXPECT_EQ(simd.closest(other).value().gap(), brute.closest(other_brute).value().gap());
         if (round % 5 != 0) continue;
-        expect_on_its_sides(wide, brute, margin);
-        expect_on_their_sides(wide, other, brute.within(other_brute, margin), margin);
+        expect_on_its_sides(simd, brute, margin);
+        expect_on_their_sides(simd, other, brute.within(other_brute, margin), margin);
       }
     }
   }
 }
 
-TEST(WideExtremes, HoldWhereSquaresUnderflow) {
+TEST(SimdExtremes, HoldWhereSquaresUnderflow) {
   const double w = std::ldexp(1.0, -75);
   const Model<Point> model = sliders(std::vector<Vec3>(4, Vec3::Zero()));
   for (const double clearance : {0.0, 1.5 * w}) {
-    PointsOn<Simd> wide(model, AdmitAll{}, UniformClearance(clearance));
+    PointsOn<Simd> simd(model, AdmitAll{}, UniformClearance(clearance));
     PointsOn<Brute> brute(model, AdmitAll{}, UniformClearance(clearance));
     for (const auto& points :
          {std::vector<Point>{
               {Vec3(0, 0, 0)}, {Vec3(1.516 * w, 0, 0)}, {Vec3(4e-20, 0, 0)}, {Vec3(4e-20, 1.0353 * w, 1.0353 * w)}},
           {{Vec3(0, 0, 0)}, {Vec3(1.035 * w, 1.035 * w, 0)}, {Vec3(4e-20, 0, 0)}, {Vec3(4e-20, 0, 1.2 * w)}}}) {
-      wide.update_placed(points);
+      simd.update_placed(points);
       brute.update_placed(points);
-      expect_equal(wide, brute, w);
-      expect_on_its_sides(wide, brute, w);
+      expect_equal(simd, brute, w);
+      expect_on_its_sides(simd, brute, w);
     }
   }
 }
 
-TEST(WideExtremes, LeaveNothingUndecidedWhereFloatsDoNotHoldThem) {
+TEST(SimdExtremes, LeaveNothingUndecidedWhereFloatsDoNotHoldThem) {
   // Both models have the same centre, so floats hold each of them in the other's length unit.
   const double size = 0x1p-59;
   const Model<Point> large = sliders({{-1, 0, 0}, {1, 0, 0}, {0, -0.5, 0}, {0, 0.5, 0}});

@@ -237,12 +237,12 @@ void run_sizes(std::span<const std::size_t> sizes, std::size_t combinations, int
   EXPECT_GT(total.free, total.states / 50);
 }
 
-TEST(WideSizes, EqualsBruteUpToThirtyThreePoints) {
+TEST(SimdSizes, EqualsBruteUpToThirtyThreePoints) {
   constexpr std::size_t sizes[] = {0, 1, 2, 3, 15, 16, 17, 31, 32, 33};
   run_sizes(sizes, matrices * filters, 6, 1);
 }
 
-TEST(WideSizes, EqualsBruteAroundTwoHundredFiftySix) {
+TEST(SimdSizes, EqualsBruteAroundTwoHundredFiftySix) {
   constexpr std::size_t sizes[] = {255, 256, 257};
   run_sizes(sizes, matrices * filters, 6, 2);
 }
@@ -250,14 +250,14 @@ TEST(WideSizes, EqualsBruteAroundTwoHundredFiftySix) {
 /// Brute force takes seconds on a large model, so `./run test` skips some cases that `./run test --all` runs.
 bool exhaustive() { return std::getenv("HINGE_TEST_ALL") != nullptr; }
 
-TEST(WideSizes, EqualsBruteOnLargeModels) {
+TEST(SimdSizes, EqualsBruteOnLargeModels) {
   constexpr std::size_t sizes[] = {1000, 2000, 5000};
   run_sizes(std::span(sizes).first(exhaustive() ? 3 : 2), 1, 3, 3);
 }
 
 /// Group sizes: small, one row of blocks, the largest without a tree, and 4097 points, which need three levels of
 /// boxes.
-TEST(WideSizes, EqualsBruteWhereGroupsHaveTrees) {
+TEST(SimdSizes, EqualsBruteWhereGroupsHaveTrees) {
   constexpr std::size_t row = detail::simd::width * detail::simd::width,
                         flat = detail::BlockLayout::largest_flat_group * detail::simd::width;
   Random random(4);
@@ -285,7 +285,7 @@ TEST(WideSizes, EqualsBruteWhereGroupsHaveTrees) {
 
 /// A rotated and translated lattice. Neighbours are one clearance apart up to the last bits of a double, so floats
 /// alone would misjudge half of the pairs.
-TEST(WideSizes, LosesNoPairAtItsThreshold) {
+TEST(SimdSizes, LosesNoPairAtItsThreshold) {
   Random random(5);
   std::size_t hits = 0, misses = 0;
   for (const GroupSizes groups : test::all_group_sizes)
@@ -327,7 +327,7 @@ TEST(WideSizes, LosesNoPairAtItsThreshold) {
 
 /// Exponentially spaced points, which floats cannot separate. Queries switch to the double-precision BVH in the
 /// middle of rigid groups, of chains, and of pairs of models.
-TEST(WideSizes, EqualsBruteWhereFloatsTellNothingApart) {
+TEST(SimdSizes, EqualsBruteWhereFloatsTellNothingApart) {
   Random random(6);
   const auto point = [&] { return Point{std::exp2(random.uniform(-20.0, 900.0)) * random.vector(1.0)}; };
   const auto model_of = [&](const std::vector<std::size_t>& per_link) {
@@ -362,7 +362,7 @@ Model<Point> crowd_at_one_point(std::size_t n) {
   return builder.finish();
 }
 
-TEST(WideSizes, PassesOverTypesWithoutThresholdsBetweenModels) {
+TEST(SimdSizes, PassesOverTypesWithoutThresholdsBetweenModels) {
   const std::size_t n = 20'000;
   std::vector<std::uint16_t> types(n, 0);
   types[5] = types[n / 2] = 1;

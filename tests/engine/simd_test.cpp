@@ -22,10 +22,10 @@ using test::Random;
 using test::UnlistedPairs;
 
 template <class P>
-class WideEquality : public testing::Test {};
-TYPED_TEST_SUITE(WideEquality, test::Primitives);
+class SimdEquality : public testing::Test {};
+TYPED_TEST_SUITE(SimdEquality, test::Primitives);
 
-TYPED_TEST(WideEquality, HoldsOnRandomMechanisms) {
+TYPED_TEST(SimdEquality, HoldsOnRandomMechanisms) {
   using P = TypeParam;
   // Brute force takes a microsecond per pair of extended primitives, so they have few large cases.
   const std::uint64_t seeds = std::is_same_v<P, Point> ? 300 : 100;
@@ -52,20 +52,20 @@ TEST(Simd, KeepsStaticBlocksThroughCoordinatesFromElsewhere) {
     for (int l = 0; l < 16; ++l) points.push_back({Vec3(100 + 10 * k + 0.3 * l, 7, 0)});
     builder.add_link(world, Prismatic{{1, 0, 0}, {}, {}}, points);
   }
-  Hierarchy<Point, AdmitAll, UniformClearance, Simd> wide(builder.finish(), AdmitAll{}, UniformClearance(0.5));
+  Hierarchy<Point, AdmitAll, UniformClearance, Simd> simd(builder.finish(), AdmitAll{}, UniformClearance(0.5));
   std::vector<double> q(8, 0.0);
-  wide.update(q);
-  EXPECT_FALSE(wide.self_collides());
-  std::vector<Point> elsewhere(wide.placed().begin(), wide.placed().end());
+  simd.update(q);
+  EXPECT_FALSE(simd.self_collides());
+  std::vector<Point> elsewhere(simd.placed().begin(), simd.placed().end());
   for (Point& p : elsewhere) p.position *= 3;
-  wide.update_placed(elsewhere);
-  EXPECT_FALSE(wide.self_collides());
+  simd.update_placed(elsewhere);
+  EXPECT_FALSE(simd.self_collides());
   q[5] = 1;
-  wide.update(q);
-  EXPECT_FALSE(wide.self_collides());
+  simd.update(q);
+  EXPECT_FALSE(simd.self_collides());
   q[0] = -100.1;  // one value of eight changes, so the engine does not test unmoved pairs again
-  wide.update(q);
-  EXPECT_EQ(wide.self_collisions().size(), 2U);
+  simd.update(q);
+  EXPECT_EQ(simd.self_collisions().size(), 2U);
 }
 
 /// The corners of a unit square, each on its own slider along x.
@@ -76,17 +76,17 @@ Model<Point> square() {
   return builder.finish();
 }
 
-TEST(WideInFloat, LeavesOpenWhatIsAtItsThresholdAndCountsIt) {
+TEST(SimdInFloat, LeavesOpenWhatIsAtItsThresholdAndCountsIt) {
   const ExcludedPairs one_side({{id<PrimitiveId>(1)}, {id<PrimitiveId>(0)}, {}, {}});
   // Sides have length 1: above the threshold for types 0 and 1, at it for types 0 and 0. No side has types 1 and 1.
   const TypedThresholds thresholds({0, 0, 0, 1}, 2, {1.0, 0.5, 0.5, 3.0});
-  Hierarchy wide(square(), one_side, thresholds);
+  Hierarchy simd(square(), one_side, thresholds);
   const auto ask = [&](Precision precision, double margin) {
     QueryCounts counts;
     QueryOptions options;
     options.precision = precision;
     options.counts = &counts;
-    return std::pair(wide.self_within(margin, options).size(), counts.undecided);
+    return std::pair(simd.self_within(margin, options).size(), counts.undecided);
   };
   using Answer = std::pair<std::size_t, std::uint64_t>;
   EXPECT_EQ(ask(Precision::exact, 0.0), Answer(0, 0));
@@ -100,14 +100,14 @@ TEST(WideInFloat, LeavesOpenWhatIsAtItsThresholdAndCountsIt) {
   EXPECT_EQ(ask(Precision::never_cry_wolf, 0.5), Answer(2, 2));
 }
 
-TEST(WideInFloat, NeverHitsAtAThresholdOfZero) {
-  Hierarchy wide(square(), AdmitAll{}, TypedThresholds({0, 0, 0, 1}, 2, {0.0, 0.0, 0.0, 1.0}));
-  wide.update_placed(std::vector<Point>(4));
+TEST(SimdInFloat, NeverHitsAtAThresholdOfZero) {
+  Hierarchy simd(square(), AdmitAll{}, TypedThresholds({0, 0, 0, 1}, 2, {0.0, 0.0, 0.0, 1.0}));
+  simd.update_placed(std::vector<Point>(4));
   QueryCounts counts;
   QueryOptions options;
   options.precision = Precision::never_miss;
   options.counts = &counts;
-  EXPECT_TRUE(wide.self_collisions(options).empty());
+  EXPECT_TRUE(simd.self_collisions(options).empty());
   EXPECT_EQ(counts.undecided, 0U);
 }
 

@@ -227,9 +227,9 @@ TEST(Crowds, InOneDiameterEqualBruteForce) {
   expect_n_log_n(ask_all(eighth, 2 * m, "lazy").counts, lazy.counts);
   // Blocks of the SIMD engine follow the order of links. Here consecutive atoms are far apart, so each block's box is
   // as large as the whole.
-  const Answer wide = ask_all(points, m, "simd");
-  EXPECT_EQ(wide.hits, lazy.hits);
-  expect_n_log_n(ask_all(eighth, 2 * m, "simd").counts, wide.counts);
+  const Answer simd = ask_all(points, m, "simd");
+  EXPECT_EQ(simd.hits, lazy.hits);
+  expect_n_log_n(ask_all(eighth, 2 * m, "simd").counts, simd.counts);
 }
 
 TEST(Crowds, OnALineEqualBruteForce) {
@@ -252,9 +252,9 @@ TEST(Crowds, ExponentiallySpacedEqualBruteForce) {
   EXPECT_GT(lazy.hits.size(), 1000U);
   expect_sampled(lazy.hits, points, m);
   // In float nearly all points coincide.
-  const Answer wide = ask_all(points, m, "simd");
-  EXPECT_EQ(wide.hits, lazy.hits);
-  EXPECT_LE(wide.counts.pairs_tested + wide.counts.boxes_tested, 100 * points.size());
+  const Answer simd = ask_all(points, m, "simd");
+  EXPECT_EQ(simd.hits, lazy.hits);
+  EXPECT_LE(simd.counts.pairs_tested + simd.counts.boxes_tested, 100 * points.size());
 }
 
 /// All joints have the same axis and all atoms are on it, so they are fixed in the frame of every link.

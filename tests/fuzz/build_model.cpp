@@ -37,13 +37,13 @@ class Attempt {
     if (!selection || !thresholds) return;
     const fuzz::ExcludedPairs filter(bytes_.one_in(16) ? model->size() + 1 : model->size(), bytes_);
     std::optional<On<hinge::Brute>> brute;
-    std::optional<On<hinge::Simd>> wide;
+    std::optional<On<hinge::Simd>> simd;
     const bool made = fuzz::accepts([&] { brute.emplace(*model, *selection, filter, *thresholds); });
-    fuzz::require(made == fuzz::accepts([&] { wide.emplace(*model, *selection, filter, *thresholds); }),
+    fuzz::require(made == fuzz::accepts([&] { simd.emplace(*model, *selection, filter, *thresholds); }),
                   "one engine takes what the other refuses");
     if (!made) return;
-    ask(*brute, *wide);
-    for (int step = 0; step < 4 && !bytes_.empty(); ++step) update(*brute, *wide);
+    ask(*brute, *simd);
+    for (int step = 0; step < 4 && !bytes_.empty(); ++step) update(*brute, *simd);
   }
 
  private:
@@ -160,8 +160,8 @@ class Attempt {
     return {{placed.begin(), placed.end()}, hierarchy.self_collisions()};
   }
 
-  void update(On<hinge::Brute>& brute, On<hinge::Simd>& wide) {
-    const Picture before = picture(wide);
+  void update(On<hinge::Brute>& brute, On<hinge::Simd>& simd) {
+    const Picture before = picture(simd);
     const std::uint8_t kind = bytes_.byte() % 4;
     const std::size_t off = bytes_.one_in(16) ? 1 : 0;
     const std::size_t groups = brute.model().groups()->size();
@@ -182,17 +182,17 @@ class Attempt {
         hierarchy.update(q);
       });
     };
-    const bool accepted = apply(wide);
+    const bool accepted = apply(simd);
     fuzz::require(apply(brute) == accepted, "one engine takes what the other refuses");
-    if (accepted) return ask(brute, wide);
-    const Picture after = picture(wide);
+    if (accepted) return ask(brute, simd);
+    const Picture after = picture(simd);
     fuzz::require(
         std::equal(before.placed.begin(), before.placed.end(), after.placed.begin(), same) && before.hits == after.hits,
         "a refused update changed the state");
   }
 
-  void ask(On<hinge::Brute>& brute, On<hinge::Simd>& wide) {
-    for (const P& p : wide.placed())
+  void ask(On<hinge::Brute>& brute, On<hinge::Simd>& simd) {
+    for (const P& p : simd.placed())
       fuzz::require(hinge::is_finite(p.bounds().lower) && hinge::is_finite(p.bounds().upper),
                     "a placed primitive is not finite");
     std::vector<double> clearance;
@@ -205,7 +205,7 @@ class Attempt {
     options.moved_only = bytes_.one_in(4);
     const double margin = odd();
     fuzz::accepts([&] {
-      const auto hits = wide.self_within(margin, options), expected = brute.self_within(margin, options);
+      const auto hits = simd.self_within(margin, options), expected = brute.self_within(margin, options);
       fuzz::require(std::equal(hits.begin(), hits.end(), expected.begin(), expected.end(),
                                [](const hinge::Hit& a, const hinge::Hit& b) {
                                  return a.first == b.first && a.second == b.second && a.threshold == b.threshold;
@@ -214,12 +214,12 @@ class Attempt {
       for (const hinge::Hit& hit : hits) fuzz::require(hit.distance >= 0.0, "a distance that is no number");
     });
     fuzz::accepts([&] {
-      fuzz::require(wide.self_collides(options) == !brute.self_collisions(options).empty(),
+      fuzz::require(simd.self_collides(options) == !brute.self_collisions(options).empty(),
                     "simd and brute differ in a yes or no");
-      fuzz::require(wide.self_closest(options).has_value() == brute.self_closest(options).has_value(),
+      fuzz::require(simd.self_closest(options).has_value() == brute.self_closest(options).has_value(),
                     "simd and brute differ in whether there is a closest pair");
     });
-    fuzz::require(wide.constant_contacts().size() == brute.constant_contacts().size(),
+    fuzz::require(simd.constant_contacts().size() == brute.constant_contacts().size(),
                   "simd and brute differ in constant contacts");
   }
 

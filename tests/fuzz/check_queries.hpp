@@ -38,26 +38,26 @@ struct Engines {
         matrix(thresholds),
         brute(model, selection, excluded, thresholds),
         lazy(model, selection, excluded, thresholds),
-        wide(model, selection, excluded, thresholds) {}
+        simd(model, selection, excluded, thresholds) {}
 
   template <class F>
   void each(const F& f) {
     f(brute, "brute");
     f(lazy, "lazy");
-    f(wide, "simd");
+    f(simd, "simd");
   }
   template <class F>
   void each(Engines& other, const F& f) {
     f(brute, other.brute, "brute");
     f(lazy, other.lazy, "lazy");
-    f(wide, other.wide, "simd");
+    f(simd, other.simd, "simd");
   }
 
   ExcludedPairs filter;
   hinge::TypedThresholds matrix;
   On<hinge::Brute> brute;
   On<hinge::Lazy> lazy;
-  On<hinge::Simd> wide;
+  On<hinge::Simd> simd;
 };
 
 enum class State : std::uint8_t { configuration, poses, coordinates };

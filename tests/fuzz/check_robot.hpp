@@ -21,18 +21,18 @@ inline void check_robot(const std::shared_ptr<const hinge::robotics::Robot>& rob
   using hinge::robotics::Mode;
   using hinge::robotics::RobotChecker;
   const auto tested = hinge::robotics::tested_pairs(*robot, disabled);
-  RobotChecker wide(robot, tested, LinkMargins(*robot, 0.01));
+  RobotChecker simd(robot, tested, LinkMargins(*robot, 0.01));
   // Brute force is quadratic and slow under sanitizers, so large robots run on one engine only.
   constexpr std::size_t most = 120;
   if (robot->model().size() > most) {
-    accepts([&] { wide.check(q, {Mode::Kind::all, 0.0}); });
+    accepts([&] { simd.check(q, {Mode::Kind::all, 0.0}); });
     return;
   }
   RobotChecker brute(robot, tested, LinkMargins(*robot, 0.01), {"brute"});
   accepts([&] {
     for (const Mode& mode : {Mode{Mode::Kind::all, 0.0}, Mode{Mode::Kind::within, 0.5}, Mode{Mode::Kind::any, 0.0},
                              Mode{Mode::Kind::closest, 0.0}}) {
-      const auto fast = wide.check(q, mode), slow = brute.check(q, mode);
+      const auto fast = simd.check(q, mode), slow = brute.check(q, mode);
       require(fast.collides == slow.collides, "simd and brute differ in a yes or no");
       require(fast.pairs.size() == slow.pairs.size(), "simd and brute differ in their pairs");
       for (std::size_t k = 0; k < fast.pairs.size(); ++k)
@@ -40,7 +40,7 @@ inline void check_robot(const std::shared_ptr<const hinge::robotics::Robot>& rob
                 "simd and brute differ in their pairs");
       require(fast.closest.has_value() == slow.closest.has_value(), "simd and brute differ in the closest pair");
     }
-    wide.contained();
+    simd.contained();
   });
 }
 

@@ -54,24 +54,24 @@ inline void check_answers(const std::shared_ptr<const hinge::molecular::Molecule
   hinge::molecular::CheckOptions options;
   std::vector<std::size_t> all;
   for (std::size_t k = 0; k < molecule->torsions().size(); ++k) all.push_back(k);
-  Checker wide(molecule, molecule->select(all), options);
+  Checker simd(molecule, molecule->select(all), options);
   options.engine = "brute";
   Checker brute(molecule, molecule->select(all), options);
-  std::vector<double> q(wide.dof_count(), 0.0);
+  std::vector<double> q(simd.dof_count(), 0.0);
   const auto& read = molecule->structure().models.front();
-  wide.check(q, {Mode::Kind::all, 0.0});
-  require(wide.positions() == read, "the reference differs from the file");
+  simd.check(q, {Mode::Kind::all, 0.0});
+  require(simd.positions() == read, "the reference differs from the file");
   for (double& value : q) value = 0.5;
   for (const Mode& mode : {Mode{Mode::Kind::all, 0.0}, Mode{Mode::Kind::within, 0.5}, Mode{Mode::Kind::any, 0.0},
                            Mode{Mode::Kind::closest, 0.0}}) {
-    const auto fast = wide.check(q, mode), slow = brute.check(q, mode);
+    const auto fast = simd.check(q, mode), slow = brute.check(q, mode);
     require(fast.collides == slow.collides, "simd and brute differ in a yes or no");
     require(fast.pairs == slow.pairs, "simd and brute differ in their pairs");
     require(fast.closest.has_value() == slow.closest.has_value() &&
                 (!fast.closest || fast.closest->hit.gap() == slow.closest->hit.gap()),
             "simd and brute differ in the closest pair");
   }
-  require(wide.check_coordinates(read, {}).pairs == brute.check_coordinates(read, {}).pairs,
+  require(simd.check_coordinates(read, {}).pairs == brute.check_coordinates(read, {}).pairs,
           "simd and brute differ in the file's coordinates");
 }
 

@@ -205,12 +205,12 @@ TEST(Hierarchy, CountsItsWork) {
   EXPECT_LT(few.pairs_tested, many.pairs_tested);
   EXPECT_GT(few.boxes_tested, 0U);
   EXPECT_GT(few.nodes_split, 0U);
-  QueryCounts wide_counts;
-  options.counts = &wide_counts;
-  PointsOn<Simd> wide(model, AdmitAll{}, UniformClearance{0.5});
-  wide.self_collisions(options);
-  EXPECT_GT(wide_counts.boxes_tested, 0U);
-  EXPECT_GT(wide_counts.pairs_tested, 0U);
+  QueryCounts simd_counts;
+  options.counts = &simd_counts;
+  PointsOn<Simd> simd(model, AdmitAll{}, UniformClearance{0.5});
+  simd.self_collisions(options);
+  EXPECT_GT(simd_counts.boxes_tested, 0U);
+  EXPECT_GT(simd_counts.pairs_tested, 0U);
 }
 
 TEST(Hierarchy, KeepsTheTreesOfGroupsThatStandStill) {

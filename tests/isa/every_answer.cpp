@@ -28,18 +28,18 @@ void print(const char* what, const char* part, std::uint64_t hash) {
   std::printf("%s|%s|%016llx\n", what, part, static_cast<unsigned long long>(hash));
 }
 
-void print(const char* what, const Answers& wide, const Answers& brute, const Answers& lazy) {
+void print(const char* what, const Answers& simd, const Answers& brute, const Answers& lazy) {
   const auto one = [&](const char* part, const Hash& a, const Hash& b, const Hash& c) {
     print(what, part, a.value());
     if (a.value() == b.value() && a.value() == c.value()) return;
     ++differences;
-    std::printf("%s: the %s of wide, brute and lazy differ: %016llx %016llx %016llx\n", what, part,
+    std::printf("%s: the %s of simd, brute and lazy differ: %016llx %016llx %016llx\n", what, part,
                 static_cast<unsigned long long>(a.value()), static_cast<unsigned long long>(b.value()),
                 static_cast<unsigned long long>(c.value()));
   };
-  one("verdicts", wide.verdicts, brute.verdicts, lazy.verdicts);
-  one("poses", wide.poses, brute.poses, lazy.poses);
-  one("distances", wide.distances, brute.distances, lazy.distances);
+  one("verdicts", simd.verdicts, brute.verdicts, lazy.verdicts);
+  one("poses", simd.poses, brute.poses, lazy.poses);
+  one("distances", simd.distances, brute.distances, lazy.distances);
 }
 
 template <class P, class F, class D>

@@ -29,7 +29,7 @@ inline void expect_engines_agree(const std::shared_ptr<const molecular::Molecule
   const auto selection = molecule->select(molecular::select_torsions(*molecule, spec, false));
   molecular::CheckOptions rules;
   rules.exempt_reference = true;  // reference collisions would decide near the reference
-  Checker wide(molecule, selection, rules);
+  Checker simd(molecule, selection, rules);
   rules.engine = "lazy";
   Checker lazy(molecule, selection, rules);
   rules.engine = "brute";
@@ -42,7 +42,7 @@ inline void expect_engines_agree(const std::shared_ptr<const molecular::Molecule
       for (const char* text : {"any", "all", "within:0.3", "closest"}) {
         const Mode mode = Mode::parse(text);
         const auto expected = brute.check(q, mode);
-        for (Checker* fast : {&wide, &lazy}) {
+        for (Checker* fast : {&simd, &lazy}) {
           const auto found = fast->check(q, mode);
           ASSERT_EQ(found.collides, expected.collides) << text << " sample " << k;
           ASSERT_EQ(found.pairs, expected.pairs) << text << " sample " << k;

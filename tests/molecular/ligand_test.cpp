@@ -434,7 +434,7 @@ TEST(Ligands, GiveEqualAnswersOnAllEngines) {
     test::expect_engines_agree(std::make_shared<const Molecule>(shared(file)), spec, count);
 }
 
-TEST(Ligands, InARibosomeGiveEqualAnswersOnWideAndLazy) {
+TEST(Ligands, InARibosomeGiveEqualAnswersOnSimdAndLazy) {
   const auto file = test::shared_molecules() / "6zu5.cif.gz";
   if (std::getenv("HINGE_TEST_ALL") == nullptr || !std::filesystem::exists(file))
     GTEST_SKIP() << "shared data and HINGE_TEST_ALL only";
@@ -449,11 +449,11 @@ TEST(Ligands, InARibosomeGiveEqualAnswersOnWideAndLazy) {
   EXPECT_EQ(kinds.at("gamma"), 3910U);
   const auto selection = m->select(select_torsions(*m, "ligands,alpha", false));
   CheckOptions rules;
-  Checker wide(m, selection, rules);
+  Checker simd(m, selection, rules);
   rules.engine = "lazy";
   Checker lazy(m, selection, rules);
-  const auto q = sample_configuration({7, {}}, 0, wide.dof_count());
-  EXPECT_EQ(wide.check(q, Mode::parse("all")).pairs, lazy.check(q, Mode::parse("all")).pairs);
+  const auto q = sample_configuration({7, {}}, 0, simd.dof_count());
+  EXPECT_EQ(simd.check(q, Mode::parse("all")).pairs, lazy.check(q, Mode::parse("all")).pairs);
 }
 
 }  // namespace ligand_test

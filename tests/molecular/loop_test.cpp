@@ -138,7 +138,7 @@ TEST(Loops, AreAFunctionOfSeedAndIndexAndJudgedAsByBruteForce) {
   const DofSelection selection = m->select(select_loop_torsions(*m, "A:7-11:chi", false));
   CheckOptions brute_rules;
   brute_rules.engine = "brute";
-  Checker wide(m, selection, {}), brute(m, selection, brute_rules);
+  Checker simd(m, selection, {}), brute(m, selection, brute_rules);
   const Sampling near{9, 0.3};
   ClosedSampler forward(*m, selection, near, 100), other(*m, selection, near, 100);
   for (std::uint64_t k = 50; k-- > 0;) other.sample(k);
@@ -147,7 +147,7 @@ TEST(Loops, AreAFunctionOfSeedAndIndexAndJudgedAsByBruteForce) {
     const ClosedSample sample = forward.sample(k);
     ASSERT_TRUE(sample.found());
     EXPECT_EQ(sample.q, other.sample(k).q);
-    const Verdict a = wide.check(sample.q, Mode::parse("all")), b = brute.check(sample.q, Mode::parse("all"));
+    const Verdict a = simd.check(sample.q, Mode::parse("all")), b = brute.check(sample.q, Mode::parse("all"));
     EXPECT_EQ(a.pairs, b.pairs);
     EXPECT_EQ(a.closure_residuals, b.closure_residuals);
     colliding += a.collides ? 1 : 0;

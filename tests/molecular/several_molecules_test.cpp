@@ -305,7 +305,7 @@ void expect_equal_engines(const std::shared_ptr<const Molecule>& molecule, const
                           const std::vector<PlacementRange>& ranges, CheckOptions rules, const Sampling& sampling,
                           std::uint64_t count) {
   const DofSelection selection = molecule->select_placed(torsions);
-  Checker wide(molecule, selection, rules);
+  Checker simd(molecule, selection, rules);
   rules.engine = "lazy";
   Checker lazy(molecule, selection, rules);
   rules.engine = "brute";
@@ -316,7 +316,7 @@ void expect_equal_engines(const std::shared_ptr<const Molecule>& molecule, const
     for (const char* text : {"any", "all", "within:0.5", "closest"}) {
       const Mode mode = Mode::parse(text);
       const Verdict expected = brute.check(q, mode);
-      for (Checker* checker : {&wide, &lazy}) {
+      for (Checker* checker : {&simd, &lazy}) {
         const Verdict verdict = checker->check(q, mode);
         ASSERT_EQ(verdict.collides, expected.collides) << text << " seed " << sampling.seed << " sample " << k;
         ASSERT_EQ(verdict.pairs, expected.pairs) << text << " seed " << sampling.seed << " sample " << k;
@@ -327,7 +327,7 @@ void expect_equal_engines(const std::shared_ptr<const Molecule>& molecule, const
     if (k % 10 != 0) continue;
     const auto positions = brute.positions();
     const Mode all = Mode::parse("all");
-    ASSERT_EQ(wide.check_coordinates(positions, all).pairs, brute.check_coordinates(positions, all).pairs);
+    ASSERT_EQ(simd.check_coordinates(positions, all).pairs, brute.check_coordinates(positions, all).pairs);
     ASSERT_EQ(lazy.check_coordinates(positions, all).pairs, brute.check_coordinates(positions, all).pairs);
   }
   std::printf("seed %d: %d of %d collide\n", static_cast<int>(sampling.seed), static_cast<int>(colliding),

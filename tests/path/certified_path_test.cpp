@@ -143,9 +143,9 @@ constexpr double arm = 2.0, height = 1.0;
 
 Bodies<Capsule> arm_above_floor(double clearance, double scale = 1.0, const Vec3& away = Vec3::Zero()) {
   ModelBuilder<Capsule> build;
-  const double wide = 20.0 * scale;
+  const double simd = 20.0 * scale;
   // The floor is a capsule of radius 0 along x.
-  build.add_primitive(world, {Vec3(-wide, 0, 0) + away, Vec3(wide, 0, 0) + away, 0.0});
+  build.add_primitive(world, {Vec3(-simd, 0, 0) + away, Vec3(simd, 0, 0) + away, 0.0});
   const Vec3 joint = Vec3(0, 0, height * scale) + away;
   build.add_link(world, Revolute{Vec3::UnitY(), joint, {}, {}},
                  {Capsule{joint + Vec3(0, 0, arm * scale), joint + Vec3(0, 0, arm * scale), 0.0}});
@@ -414,20 +414,20 @@ TEST(CertifiedPath, AnswersTheSameOnEveryEngine) {
     const test::ExcludedPairs pairs(model.size(), random, 3);
     const DofSelection selection = test::random_selection(model.tree(), random);
     Hierarchy<Point, test::ExcludedPairs, TypedThresholds, Brute> brute(model, selection, pairs, thresholds);
-    Hierarchy<Point, test::ExcludedPairs, TypedThresholds, Simd> wide(model, selection, pairs, thresholds);
+    Hierarchy<Point, test::ExcludedPairs, TypedThresholds, Simd> simd(model, selection, pairs, thresholds);
     std::vector<double> from(brute.dof_count()), to(from);
     for (double& q : from) q = random.uniform(-1, 1);
     for (std::size_t k = 0; k < to.size(); ++k) to[k] = from[k] + random.uniform(-0.3, 0.3);
     CertifiedPath by_brute(brute);
-    CertifiedPath by_wide(wide);
-    const PathAnswer a = by_brute.check(from, to), b = by_wide.check(from, to);
+    CertifiedPath by_simd(simd);
+    const PathAnswer a = by_brute.check(from, to), b = by_simd.check(from, to);
     EXPECT_EQ(a.verdict, b.verdict);
     EXPECT_EQ(a.parameter, b.parameter);
     if (a.is_free()) {  // otherwise the first colliding pair ends the check, and engines order pairs differently
       EXPECT_EQ(a.counts.pairs_listed, b.counts.pairs_listed);
       ++free;
     }
-    const PathAnswer again = by_wide.check(from, to);
+    const PathAnswer again = by_simd.check(from, to);
     EXPECT_EQ(again.counts.pairs_proved, b.counts.pairs_proved);
   }
   EXPECT_GT(free, 5);

@@ -198,7 +198,7 @@ TEST_P(RobotPathCheckerSlice, AgreesWithBruteForce) {
     const auto make = [&](const char* engine) {
       return RobotChecker(robot, tested_pairs(*robot), LinkMargins(*robot, clearance), {engine});
     };
-    RobotChecker wide = make("simd"), brute = make("brute");
+    RobotChecker simd = make("simd"), brute = make("brute");
     Environment around(clearance, "simd"), brute_around(clearance, "brute");
     const bool among_bodies = r % 4 != 3;
     for (std::size_t b = 0; among_bodies && b < 3; ++b) {
@@ -209,7 +209,7 @@ TEST_P(RobotPathCheckerSlice, AgreesWithBruteForce) {
         if (b == 2) environment->attach(body, robot, id<LinkId>(robot->link_count() - 1), in_link);
       }
     }
-    PathChecker paths = among_bodies ? PathChecker(wide, around) : PathChecker(wide);
+    PathChecker paths = among_bodies ? PathChecker(simd, around) : PathChecker(simd);
     const auto collides = [&](const std::vector<double>& q, RobotChecker& checker, Environment& environment) {
       checker.update(q);
       return checker.collides() || (among_bodies && checker.collides(environment));
@@ -231,7 +231,7 @@ TEST_P(RobotPathCheckerSlice, AgreesWithBruteForce) {
       }
       for (int state = 0; answer.is_free() && state < states; ++state) {
         for (std::size_t j = 0; j < q.size(); ++j) q[j] = from[j] + state / (states - 1.0) * (to[j] - from[j]);
-        if (collides(q, wide, around) || (state % 50 == 25 && collides(q, brute, brute_around))) {
+        if (collides(q, simd, around) || (state % 50 == 25 && collides(q, brute, brute_around))) {
           ADD_FAILURE() << "path " << k << " is called free, collides at state " << state;
           break;
         }

@@ -92,9 +92,9 @@ struct Case {
   std::optional<Truth> truth;
 };
 
-enum class EngineName : std::uint8_t { brute, lazy, wide };
+enum class EngineName : std::uint8_t { brute, lazy, simd };
 inline constexpr std::array<std::pair<EngineName, const char*>, 3> engine_names{
-    {{EngineName::brute, "brute"}, {EngineName::lazy, "lazy"}, {EngineName::wide, "simd"}}};
+    {{EngineName::brute, "brute"}, {EngineName::lazy, "lazy"}, {EngineName::simd, "simd"}}};
 
 /// An engine's answer for one pair of links.
 struct LinkPairAnswer {

@@ -167,15 +167,15 @@ static_assert(!CrossEngine<Simd<Point, AdmitAll, OwnOnly>, Point, AdmitAll, OwnO
 template <class P, template <class, class, class> class EngineOf>
 using On = Hierarchy<P, AdmitAll, UniformClearance, EngineOf>;
 template <class P>
-void learn(On<P, Simd>& wide, On<P, Lazy>& lazy, On<P, Brute>& brute) {
-  wide.calibrate_pair_order(wide);
+void calibrate(On<P, Simd>& simd, On<P, Lazy>& lazy, On<P, Brute>& brute) {
+  simd.calibrate_pair_order(simd);
   lazy.calibrate_pair_order(lazy);
   brute.calibrate_pair_order(brute);
 }
-template void learn(On<Point, Simd>&, On<Point, Lazy>&, On<Point, Brute>&);
-template void learn(On<Sphere, Simd>&, On<Sphere, Lazy>&, On<Sphere, Brute>&);
-template void learn(On<Capsule, Simd>&, On<Capsule, Lazy>&, On<Capsule, Brute>&);
-template void learn(On<Triangle, Simd>&, On<Triangle, Lazy>&, On<Triangle, Brute>&);
+template void calibrate(On<Point, Simd>&, On<Point, Lazy>&, On<Point, Brute>&);
+template void calibrate(On<Sphere, Simd>&, On<Sphere, Lazy>&, On<Sphere, Brute>&);
+template void calibrate(On<Capsule, Simd>&, On<Capsule, Lazy>&, On<Capsule, Brute>&);
+template void calibrate(On<Triangle, Simd>&, On<Triangle, Lazy>&, On<Triangle, Brute>&);
 
 static_assert(TypedThresholdMatrix<TypedThresholds> && !TypedThresholdMatrix<UniformClearance>);
 static_assert(!AdditiveRadii<TypedThresholds> && !AdditiveRadii<UniformClearance>);
