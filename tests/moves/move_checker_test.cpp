@@ -265,6 +265,38 @@ TEST(MoveChecker, AnswersForThousandsOfPointsAsFullQueries) {
   EXPECT_EQ(moves.counts().full_queries, 0U);
 }
 
+/// The engine sorts primitives into at most sixteen classes, whose thresholds may be larger than those of their pairs.
+/// A pair that stopped a move must be compared with its own threshold in the next moves.
+TEST(MoveChecker, ComparesRecentPairsWithTheirOwnThreshold) {
+  // Each link slides along x. Its points are far from those of other links along y; only the first points of links 0
+  // and 1 can meet.
+  constexpr std::size_t links = 6, per_link = 16, types = 40;
+  ModelBuilder<Point> builder;
+  for (std::size_t l = 0; l < links; ++l) {
+    std::vector<Point> points;
+    for (std::size_t k = 0; k < per_link; ++k)
+      points.push_back({Vec3(l == 1 ? 3.0 : 0.0, l < 2 && k == 0 ? 0.0 : 10.0 + double(l), double(k))});
+    builder.add_link(world, Prismatic{Vec3::UnitX(), {}, {}}, points);
+  }
+  const Model<Point> model = builder.finish();
+  // All types have one reach, so they share a class, and its threshold is 0.5.
+  std::vector<double> between(types * types, 0.1);
+  for (std::size_t t = 0; t < types; ++t) between[t * types + t] = 0.5;
+  std::vector<std::uint16_t> type(model.size());
+  for (std::size_t i = 0; i < type.size(); ++i) type[i] = static_cast<std::uint16_t>(i % types);
+  MoveChecker moves(Chain(model, ExcludedPairs(std::vector<std::vector<PrimitiveId>>(model.size())),
+                          TypedThresholds(type, types, between)));
+  const auto is_free = [&](double gap) {
+    const DofChange change{0, 3.0 - gap};
+    return moves.try_move(std::span(&change, 1));
+  };
+  EXPECT_FALSE(is_free(0.05));
+  EXPECT_TRUE(is_free(0.3));
+  EXPECT_FALSE(is_free(0.06));
+  EXPECT_GT(moves.counts().recalled, 0U);
+  EXPECT_EQ(moves.counts().full_queries, 0U);
+}
+
 TEST(MoveChecker, AllocatesNothingOnceItIsWarm) {
   Random random(seed + 5);
   const Model<Point> model = comb(random, 90, Vec3::Zero());

@@ -199,7 +199,7 @@ class MoveChecker {
         if (!all && blocks_->recall(parts(), tolerance, error, counts_, note)) return true;
       }
       const auto visit = [&](PrimitiveId i, PrimitiveId j) { return find_near(std::min(i, j), std::max(i, j), all); };
-      if (blocks_->search(parts(), tolerance, error, counts_.query, visit)) return true;
+      if (blocks_->search(parts(), matrix(), tolerance, error, counts_.query, visit)) return true;
       reject();
     }
     return false;

@@ -80,7 +80,7 @@ class BlockMoves {
   bool recall(const MovingParts& parts, double cutoff, double motion_error, MoveCounts& counts,
               const Visit& visit) requires TurnsOne<P> {
     set_thresholds(cutoff, motion_error);
-    const auto slots = recent_.find(blocks_, motions_, thresholds_, parts);
+    const auto slots = recent_.find(blocks_, motions_, thresholds_.margin(), parts);
     if (!slots) return false;
     ++counts.recalled;
     const auto [i, j] = std::minmax({blocks_.primitive_of_slot((*slots)[0]), blocks_.primitive_of_slot((*slots)[1])});
@@ -90,8 +90,9 @@ class BlockMoves {
   /// Calls visit(i, j) for every pair with d - M <= cutoff whose distance the move may have changed, and for some other
   /// pairs. visit must ask the filter; it returns false to stop. motion_error: model unit. search returns false if
   /// floats cannot hold the new coordinates: call reject() then.
-  template <class Visit>
-  bool search(const MovingParts& parts, double cutoff, double motion_error, QueryCounts& counts, const Visit& visit);
+  template <DistanceMatrix D, class Visit>
+  bool search(const MovingParts& parts, const D& matrix, double cutoff, double motion_error, QueryCounts& counts,
+              const Visit& visit);
 
   /// Accepts or drops the move.
   void accept(const MovingParts& parts);
@@ -215,9 +216,9 @@ void BlockMoves<P>::face_itself(std::uint32_t b, std::span<const PartLanes> piec
 }
 
 template <Primitive P>
-template <class Visit>
-bool BlockMoves<P>::search(const MovingParts& parts, double cutoff, double motion_error, QueryCounts& counts,
-                           const Visit& visit) {
+template <DistanceMatrix D, class Visit>
+bool BlockMoves<P>::search(const MovingParts& parts, const D& matrix, double cutoff, double motion_error,
+                           QueryCounts& counts, const Visit& visit) {
   const float extent = blocks_.extent();
   for (const MovedBlocks::Range& range : moved_.whole()) blocks_.hide(range.begin, range.end);
   for (const MovedBlocks::Cut& cut : moved_.cut()) blocks_.hide(cut.rank, cut.rank + 1);
@@ -230,10 +231,13 @@ bool BlockMoves<P>::search(const MovingParts& parts, double cutoff, double motio
                     [&](std::uint32_t one, std::uint32_t sixteen, simd::Bits bits, const simd::Float16&) {
                       for (; bits != 0 && wanted; bits &= bits - 1) {
                         const std::uint32_t other = sixteen + static_cast<std::uint32_t>(std::countr_zero(bits));
-                        const std::uint32_t i = blocks_.slot(one), j = blocks_.slot(other);
-                        wanted = visit(blocks_.primitive_of_slot(i), blocks_.primitive_of_slot(j));
-                        if (!wanted)
-                          recent_.add({i, j}, {moved_.place(i), moved_.place(j)}, blocks_.threshold_row(one, other));
+                        const std::uint32_t p = blocks_.slot(one), q = blocks_.slot(other);
+                        const PrimitiveId i = blocks_.primitive_of_slot(p), j = blocks_.primitive_of_slot(q);
+                        wanted = visit(i, j);
+                        if (wanted) continue;
+                        // Not the threshold of the classes of i and j, which may be larger.
+                        const double threshold = static_cast<double>(matrix.threshold(i, j)) * layout().scale;
+                        recent_.add({p, q}, {moved_.place(p), moved_.place(q)}, -float_above(-threshold));
                       }
                       return wanted;
                     });

@@ -108,10 +108,6 @@ class MoveBlocks {
     constexpr auto n = static_cast<std::uint32_t>(simd::width);
     return position(slot / n) + slot % n;
   }
-  /// Index in Thresholds16 of the threshold between two positions.
-  std::size_t threshold_row(std::uint32_t one, std::uint32_t other) const noexcept {
-    return class_[one] * simd::width + class_[other];
-  }
   /// The block's box, inflated by its reach.
   const FloatBox& box(std::uint32_t b) const noexcept { return box_[at_[b]]; }
 

@@ -11,7 +11,6 @@
 #include <span>
 #include <vector>
 
-#include "hinge/detail/engine/simd/narrow_phase.hpp"
 #include "hinge/detail/moves/move_blocks.hpp"
 #include "hinge/detail/moves/moving_parts.hpp"
 #include "hinge/detail/primitive/batch.hpp"
@@ -25,10 +24,10 @@ class RecentCollisions {
   using Pair = std::array<std::uint32_t, 2>;
 
   /// Returns a pair that surely collides after the move: it is below its threshold by more than the error of float
-  /// coordinates. motions: per part of the cut.
+  /// coordinates. motions: per part of the cut. margin: at least the error of a distance, scaled.
   template <TurnsOne P>
-  std::optional<Pair> find(const MoveBlocks<P>& blocks, std::span<const FloatMotion> motions,
-                           const Thresholds16& thresholds, const MovingParts& parts) {
+  std::optional<Pair> find(const MoveBlocks<P>& blocks, std::span<const FloatMotion> motions, float margin,
+                           const MovingParts& parts) {
     for (simd::Bits left = apart(parts); left != 0; left &= left - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(left));
       const auto turned = [&](std::size_t side) {
@@ -37,8 +36,8 @@ class RecentCollisions {
         return part == 0 ? one : one.turned(motions[part].rotation, motions[part].translation);
       };
       const auto p = turned(0), q = turned(1);
-      // The threshold minus two margins: one for the error of float coordinates, one for the rounding of this line.
-      const float near = thresholds.plain()[row_[k]] - 3.0F * thresholds.margin();
+      // One margin for the error of float coordinates, one for the rounding of this comparison.
+      const float near = threshold_[k] - 2.0F * margin;
       if (near > 0.0F && p.squared_distance(q) < near * near && std::max(p.extent(), q.extent()) <= blocks.extent()) {
         met_at_[k] = ++now_;
         return slot_[k];
@@ -47,14 +46,14 @@ class RecentCollisions {
     return {};
   }
 
-  /// place: places of the two groups in MovingParts. row: index of their threshold in Thresholds16.
-  void add(const Pair& slot, const Pair& place, std::size_t row) noexcept {
+  /// place: places of the two groups in MovingParts. threshold: scaled, rounded down.
+  void add(const Pair& slot, const Pair& place, float threshold) noexcept {
     const auto end = slot_.begin() + static_cast<std::ptrdiff_t>(size_);
     auto k = static_cast<std::size_t>(std::find(slot_.begin(), end, slot) - slot_.begin());
     if (k == size_)
       k = size_ < simd::width ? size_++ : static_cast<std::size_t>(std::ranges::min_element(met_at_) - met_at_.begin());
     slot_[k] = slot;
-    row_[k] = row;
+    threshold_[k] = threshold;
     for (std::size_t side = 0; side < 2; ++side) place_[side][k] = place[side];
     met_at_[k] = ++now_;
   }
@@ -77,7 +76,7 @@ class RecentCollisions {
 
   std::size_t size_ = 0;
   std::array<Pair, simd::width> slot_{};
-  std::array<std::size_t, simd::width> row_{};
+  std::array<float, simd::width> threshold_{};
   std::array<std::array<std::uint32_t, simd::width>, 2> place_{};  // the layout that Stretch::lanes needs
   std::array<std::uint64_t, simd::width> met_at_{};
   std::uint64_t now_ = 0;
