@@ -3,9 +3,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
-#include <cstdint>
-#include <span>
 #include <utility>
 
 #include "hinge/bounds/aabb.hpp"
@@ -19,10 +16,12 @@ namespace hinge::bench {
 /// A point with plain double decisions.
 struct PlainPoint {
   Point point;
-  static constexpr bool is_point_like = IsPointLike<Point>;  ///< engines may skip the same pairs
+  static constexpr bool fills_hull = true, is_point_like = true;  ///< as Point: the same kernels
 
   PlainPoint placed(const Pose& pose) const noexcept { return {point.placed(pose)}; }
   Aabb bounds() const noexcept { return point.bounds(); }
+  std::array<Vec3, 1> hull() const noexcept { return point.hull(); }
+  static constexpr double hull_radius() noexcept { return 0.0; }
   bool fixed_on_axis(const Vec3& axis_point, const Vec3& axis) const noexcept {
     return point.fixed_on_axis(axis_point, axis);
   }
@@ -38,37 +37,6 @@ struct PlainPoint {
   }
 };
 
+static_assert(HasClosestPoints<PlainPoint> && detail::TransformsBatch<PlainPoint>);
+
 }  // namespace hinge::bench
-
-namespace hinge {
-
-/// The batch of Point, the only member of PlainPoint.
-template <>
-struct detail::Batch<bench::PlainPoint> {
-  using Same = Batch<Point>;
-  using Grown = Same::Grown;
-  using One = Same::One;
-  static constexpr std::size_t floats = Same::floats;
-  static_assert(sizeof(bench::PlainPoint) == sizeof(Point));
-
-  static void set(float* at, std::size_t lane, const bench::PlainPoint& p, const Vec3& origin, double scale) noexcept {
-    Same::set(at, lane, p.point, origin, scale);
-  }
-  [[gnu::always_inline]] static FloatBox place(float* at, const bench::PlainPoint* local, const std::uint32_t* group,
-                                               std::span<const Frame> frames, const Vec3& origin,
-                                               double scale) noexcept {
-    return Same::place(at, reinterpret_cast<const Point*>(local), group, frames, origin, scale);
-  }
-  [[gnu::always_inline]] static FloatBox hull(const float* at) noexcept { return Same::hull(at); }
-  [[gnu::always_inline]] static simd::Bits inside(const float* at, const BoxLanes& box) noexcept {
-    return Same::inside(at, box);
-  }
-  [[gnu::always_inline]] static FloatBox turn(const float* local, const std::array<float, 9>& rotation,
-                                              const std::array<float, 3>& translation, float* to) noexcept {
-    return Same::turn(local, rotation, translation, to);
-  }
-};
-
-static_assert(HasClosestPoints<bench::PlainPoint> && detail::TransformsBatch<bench::PlainPoint>);
-
-}  // namespace hinge

@@ -12,7 +12,6 @@
 #include "hinge/bounds/aabb.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/core/vec3.hpp"
-#include "hinge/detail/primitive/pair_queue.hpp"
 #include "hinge/detail/primitive/triangle_corners.hpp"
 #include "hinge/detail/primitive/triangle_distance.hpp"
 #include "hinge/detail/primitive/triangle_leaf.hpp"
@@ -94,9 +93,12 @@ inline bool intersect(const detail::Corners& x, const detail::Corners& y) noexce
 /// A triangle with plain double decisions.
 struct PlainTriangle {
   Triangle triangle;
+  static constexpr bool fills_hull = true;  ///< as Triangle: the same kernels
 
   PlainTriangle placed(const Pose& pose) const noexcept { return {triangle.placed(pose)}; }
   Aabb bounds() const noexcept { return triangle.bounds(); }
+  std::array<Vec3, 3> hull() const noexcept { return triangle.hull(); }
+  static constexpr double hull_radius() noexcept { return 0.0; }
 
   friend double squared_distance(const PlainTriangle& p, const PlainTriangle& q) noexcept {
     const detail::Corners x = p.corners(), y = q.corners();
@@ -128,38 +130,6 @@ struct PlainTriangle {
   }
 };
 
+static_assert(HasClosestPoints<PlainTriangle> && detail::UsesStaticBvh<PlainTriangle>);
+
 }  // namespace hinge::bench
-
-namespace hinge {
-
-/// Delegates to the leaf of Triangle.
-template <>
-struct detail::Leaf<bench::PlainTriangle> {
-  using Same = Leaf<Triangle>;
-  using Turned = Same::Turned;
-  static constexpr bool uses_static_bvh = true;
-  static constexpr std::size_t floats = Same::floats;
-
-  static void set(float* at, std::size_t lane, const bench::PlainTriangle& t, const Vec3& origin,
-                  double scale) noexcept {
-    Same::set(at, lane, t.triangle, origin, scale);
-  }
-};
-
-/// Delegates to the pair queue of Triangle.
-template <>
-class detail::PairQueue<bench::PlainTriangle> {
- public:
-  void set(std::size_t place, const float* own, std::size_t i, const Leaf<Triangle>::Turned& turned, std::size_t k,
-           float error) noexcept {
-    queue_.set(place, own, i, turned, k, error);
-  }
-  void bound(Bounds16& bounds) const noexcept { queue_.bound(bounds); }
-
- private:
-  PairQueue<Triangle> queue_;
-};
-
-static_assert(HasClosestPoints<bench::PlainTriangle> && detail::UsesStaticBvh<bench::PlainTriangle>);
-
-}  // namespace hinge

@@ -9,7 +9,7 @@ struct Ball {  // a plain value in its link's frame, metres
   Ball placed(const hinge::Pose& x) const noexcept { return {x * center, radius}; }
   hinge::Aabb bounds() const noexcept { return hinge::Aabb(center).inflated(radius); }
   friend double squared_distance(const Ball& a, const Ball& b) noexcept {
-    const double d = (a.center - b.center).norm() - a.radius - b.radius;
+    const double d = (a.center - b.center).norm() - (a.radius + b.radius);
     return d > 0 ? d * d : 0.0;
   }
 };

@@ -9,18 +9,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <memory>
-#include <numbers>
 #include <utility>
 #include <vector>
 
+#include "engine/placed_blocks.hpp"
 #include "engine/random_mechanism.hpp"
 #include "hinge/detail/engine/simd/cross_model_transform.hpp"
-#include "hinge/detail/engine/simd/simd_side.hpp"
+#include "hinge/detail/primitive/batch.hpp"
 #include "hinge/hierarchy.hpp"
-#include "hinge/model/placement.hpp"
-#include "hinge/model/selected_model.hpp"
-#include "hinge/policy/pair_filter.hpp"
+#include "hinge/primitive/capsule.hpp"
+#include "hinge/primitive/sphere.hpp"
 
 namespace hinge {
 namespace float_filter_test {
@@ -29,32 +27,7 @@ using test::Random;
 constexpr std::size_t n = detail::simd::width;
 constexpr double u = 0x1p-24;
 
-/// One model with the data of engine/simd, all primitives placed.
-struct Placed {
-  Placed(const Model<Point>& model, bool inside_groups, double clearance = 0.0)
-      : selected(std::make_shared<const SelectedModel<Point>>(model, DofSelection::all(model.tree()))),
-        placement(selected),
-        side(std::make_shared<const detail::SimdParts<Point>>(
-                 inside_groups ? detail::BlockLayout::by_index(*selected) : detail::BlockLayout::by_groups(*selected),
-                 detail::ThresholdClasses(UniformClearance(clearance), model.size()), *selected),
-             *selected, AdmitAll{}, inside_groups) {}
-
-  void make() {
-    side.begin(placement, false, {});
-    for (std::size_t k = 0; k < side.layout().entries.size(); ++k) side.state().refresh(k, placement);
-    for (std::uint32_t b = 0; b < side.layout().block_count(); ++b) side.state().block(b, placement);
-  }
-  /// Coordinates of a slot in double, which decide pairs.
-  Vec3 at(std::size_t slot) {
-    return side.state().exact(static_cast<std::uint32_t>(slot / n), placement)[slot % n].position;
-  }
-  bool rigid(std::size_t slot) const { return side.layout().blocks[slot / n].rigid; }
-  std::size_t slots() const { return side.layout().primitive.size(); }
-
-  std::shared_ptr<const SelectedModel<Point>> selected;
-  Placement<Point> placement;
-  detail::SimdSide<Point> side;
-};
+using Placed = test::PlacedBlocks<Point>;
 
 /// Largest share of the band that an error used, by the kind of blocks of the two points.
 struct Worst {
@@ -76,12 +49,10 @@ void check_pairs(Placed& m, Random& random, std::size_t count, Worst& worst) {
     const std::size_t i = random.below(m.slots());
     const std::size_t b = random.below(m.slots()) / n;
     float squared[n];
-    detail::Batch<Point>::One(m.side.state().packed(static_cast<std::uint32_t>(i / n)) + i % n)
-        .squared_distances(m.side.state().packed(static_cast<std::uint32_t>(b)))
-        .store(squared);
-    const Vec3 x = m.at(i);
+    detail::Batch<Point>::One(m.floats(i)).squared_distances(m.floats(b * n)).store(squared);
+    const Vec3 x = m.primitive(i).position;
     for (std::size_t lane = 0; lane < n; ++lane) {
-      const double d = std::sqrt(squared_norm(Vec3(x - m.at(b * n + lane)))) * scale;
+      const double d = std::sqrt(squared_norm(Vec3(x - m.primitive(b * n + lane).position))) * scale;
       const double share = std::abs(static_cast<double>(std::sqrt(squared[lane])) - d) / m.side.state().band(d);
       worst.take(m.rigid(i) && m.rigid(b * n) ? worst.rigid : worst.mixed, share);
     }
@@ -96,7 +67,7 @@ void check_boxes(Placed& m, Worst& worst) {
     double out = 0.0;
     for (std::size_t lane = 0; lane < n; ++lane)
       for (int k = 0; k < 3; ++k) {
-        const double x = (m.at(block * n + lane)[k] - m.side.state().origin()[k]) * layout.scale;
+        const double x = (m.primitive(block * n + lane).position[k] - m.side.state().origin()[k]) * layout.scale;
         const auto axis = static_cast<std::size_t>(k);
         out = std::max({out, x - static_cast<double>(box.upper[axis]), static_cast<double>(box.lower[axis]) - x});
       }
@@ -121,36 +92,12 @@ void check_boxes(Placed& m, Worst& worst) {
 }
 
 Model<Point> model_of(std::size_t links, std::size_t per_link, double size, const Vec3& offset, Random& random) {
-  ModelBuilder<Point> builder;
-  for (std::size_t l = 0; l < links; ++l) {
-    std::vector<Point> points;
-    for (std::size_t k = 0; k < per_link; ++k) points.push_back({Vec3(random.vector(size) + offset)});
-    builder.add_link(world, Revolute{{0, 0, 1}, offset, {}, {}}, points);
-  }
-  return builder.finish();
+  return test::separate_links<Point>(links, per_link, offset, random,
+                                     [&](Random& r, const Vec3& at) { return Point{r.vector(size) + at}; });
 }
 
-/// A random rotation; in half of the cases nearly one with the largest sums of absolute entries.
-Mat3 rotation(Random& random) {
-  Mat3 r = random.pose(1.0).rotation;
-  if (random.one_in(2)) {
-    const Vec3 axis = Vec3(Vec3(1, 1, 1) + random.vector(1e-3)).normalized();
-    r = rotation_about(axis, std::numbers::pi);  // entries of magnitude 1/3 and 2/3
-  }
-  return r;
-}
-
-/// Random poses: each rigid group rotates about `offset` and moves by up to `travel`.
-std::vector<Pose> turned(std::size_t groups, const Vec3& offset, double travel, Random& random) {
-  std::vector<Pose> poses(groups);
-  for (std::size_t g = 1; g < poses.size(); ++g) {
-    poses[g].rotation = rotation(random);
-    poses[g].translation = Vec3(offset - poses[g].rotation * offset + random.vector(travel));
-  }
-  return poses;
-}
 void turn(Placed& m, const Vec3& offset, double travel, Random& random) {
-  m.placement.update_poses(turned(m.selected->groups()->size(), offset, travel, random));
+  m.placement.update_poses(test::turned(m.selected->groups()->size(), offset, travel, random));
   m.make();
 }
 
@@ -224,6 +171,75 @@ TEST(FloatFilter, BandCoversAlignedRoundings) {
   worst.print("aligned roundings");
 }
 
+/// For balls and capsules: the float bound of a distance may exceed the distance by at most the band.
+template <class P, class Make>
+void check_bounds(const char* what, const Make& make) {
+  Random random(7);
+  double worst = 0.0;
+  std::size_t pairs = 0, loose = 0;
+  for (const double far : {0.0, 1e3, 1e6, 1e9})
+    for (int repetition = 0; repetition < 60; ++repetition) {
+      const Vec3 offset = random.vector(far);
+      const std::size_t per_link = repetition % 3 == 0 ? 5 : repetition % 3 == 1 ? 16 : 100;
+      test::PlacedBlocks<P> m(test::separate_links<P>(6, per_link, offset, random, make), false);
+      m.placement.update_poses(test::turned(m.selected->groups()->size(), offset, 4.0, random));
+      m.make();
+      const double scale = m.side.layout().scale;
+      using Batch = detail::Batch<P>;
+      for (int k = 0; k < 200; ++k) {
+        const std::size_t i = random.below(m.slots()), first = random.below(m.slots()) / n * n;
+        const typename Batch::One one(m.floats(i));
+        alignas(64) float squared[n];
+        one.squared_distances(m.floats(first)).store(squared);
+        for (std::size_t lane = 0; lane < n; ++lane) {
+          if (i == first + lane) continue;
+          const double d = distance(m.primitive(i), m.primitive(first + lane)) * scale;
+          const auto limit = [&](double x) {
+            const float f = detail::float_above(x);
+            return detail::Limit16{f, f * f};
+          };
+          const double band = m.side.state().band(d);
+          // A pair at exactly its threshold is never ruled out.
+          EXPECT_NE(one.near(m.floats(first), limit(d + band)) >> lane & 1U, 0U) << what;
+          const double bound = std::sqrt(static_cast<double>(squared[lane])) -
+                               static_cast<double>(m.floats(i)[Batch::coordinates]) -
+                               static_cast<double>(m.floats(first + lane)[Batch::coordinates]);
+          if (!std::isnan(bound)) worst = std::max(worst, (bound - d) / band);
+          // Pairs that are well apart are ruled out: a filter that rules out nothing would be useless.
+          if (d < 1.0) continue;
+          ++pairs;
+          loose += (one.near(m.floats(first), limit(0.99 * d)) >> lane & 1U) != 0 ? 1 : 0;
+        }
+      }
+    }
+  std::printf("%s: %.3f of the band, %zu of %zu bounds more than 1 %% too small\n", what, worst, loose, pairs);
+  EXPECT_LT(worst, 1.0) << what;
+  EXPECT_LT(100 * loose, pairs) << what;
+}
+
+TEST(FloatFilter, BandCoversBalls) {
+  check_bounds<Sphere>("balls", [](Random& r, const Vec3& at) {
+    return Sphere{r.vector(4.0) + at, std::exp(r.uniform(-8, 1))};
+  });
+}
+
+TEST(FloatFilter, BandCoversCapsules) {
+  check_bounds<Capsule>("capsules", [](Random& r, const Vec3& at) {
+    const Vec3 a = r.vector(4.0) + at;
+    return Capsule{a, r.one_in(8) ? a : Vec3(a + r.vector(std::exp(r.uniform(-6, 2)))), std::exp(r.uniform(-8, 1))};
+  });
+}
+
+/// Segments that are nearly parallel, cross, or share a point have no certain direction to measure in.
+TEST(FloatFilter, BandCoversCapsulesInLine) {
+  check_bounds<Capsule>("capsules along one line", [](Random& r, const Vec3& at) {
+    const Vec3 along(1, 1, 0), off = r.one_in(2) ? Vec3(r.vector(1e-5)) : Vec3(0, 0, r.uniform(-1, 1));
+    const Vec3 a = along * r.uniform(-4, 4) + off + at;
+    return Capsule{a, a + along * r.uniform(-1, 1) + (r.one_in(2) ? Vec3(r.vector(1e-6)) : Vec3(0, 0, 0)),
+                   r.one_in(2) ? 0.0 : 1e-3};
+  });
+}
+
 /// Two models with different origins and scales; the band is computed as in Simd.
 TEST(FloatFilter, BandCoversTwoModels) {
   Random random(4);
@@ -240,11 +256,10 @@ TEST(FloatFilter, BandCoversTwoModels) {
       for (int k = 0; k < 500; ++k) {
         const std::size_t i = random.below(a.slots()), block = random.below(b.slots()) / n;
         float squared[n];
-        into(a.side.state().packed(static_cast<std::uint32_t>(i / n)) + i % n)
-            .squared_distances(b.side.state().packed(static_cast<std::uint32_t>(block)))
-            .store(squared);
+        into(a.floats(i)).squared_distances(b.floats(block * n)).store(squared);
         for (std::size_t lane = 0; lane < n; ++lane) {
-          const double d = std::sqrt(squared_norm(Vec3(a.at(i) - b.at(block * n + lane)))) * scale;
+          const double d =
+              std::sqrt(squared_norm(Vec3(a.primitive(i).position - b.primitive(block * n + lane).position))) * scale;
           double largest = d;
           for (const float s : into.shift) largest += 2 * std::abs(static_cast<double>(s));
           const double band = b.side.state().band(largest) + 2 * ratio * a.side.state().band(0.0);
@@ -304,7 +319,7 @@ TEST(FloatFilter, BandCoversMeasuredDistances) {
       const Vec3 offset = random.vector(far);
       const auto model = model_of(6, repetition % 2 == 0 ? 5 : 40, 4.0, offset, random);
       Hierarchy<Point, AdmitAll, UniformClearance> probe(model, AdmitAll{}, UniformClearance(0.0));
-      const std::vector<Pose> poses = turned(probe.model().groups()->size(), offset, 4.0, random);
+      const std::vector<Pose> poses = test::turned(probe.model().groups()->size(), offset, 4.0, random);
       probe.update_poses(poses);
       const std::vector<Point> at(probe.placed().begin(), probe.placed().end());
       // The threshold plus the margin equals the distance of one pair.

@@ -107,6 +107,28 @@ struct Liar {
   }
 };
 
+/// A ball of radius 1 whose hull is what its parameters say.
+template <int radius_percent, bool moves, bool fills>
+struct HullLiar {
+  static constexpr bool fills_hull = fills;
+  Vec3 center, first = center;
+  HullLiar placed(const Pose& pose) const noexcept { return {pose * center, moves ? Vec3(pose * center) : first}; }
+  Aabb bounds() const noexcept { return Aabb(center).inflated(1.0); }
+  std::array<Vec3, 1> hull() const noexcept { return {first}; }
+  double hull_radius() const noexcept { return radius_percent / 100.0; }
+  friend double squared_distance(const HullLiar& p, const HullLiar& q) noexcept {
+    const double d = std::max(0.0, std::sqrt(squared_norm(Vec3(p.center - q.center))) - 2.0);
+    return d * d;
+  }
+};
+
+template <class P>
+laws::Violations check_hull_of() {
+  const std::vector<P> samples{{Vec3(0, 0, 0)}, {Vec3(5, 5, 0)}};
+  const std::vector<Pose> poses{Pose{}, Pose{rotation_about(Vec3::UnitZ(), 0.7), Vec3(1, 2, 3)}};
+  return laws::check_primitive(std::span<const P>(samples), std::span<const Pose>(poses));
+}
+
 struct OneSided {
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept { return i < j; }
 };
@@ -152,6 +174,14 @@ TEST(Laws, CatchBoundsThatDoNotHoldThePrimitive) {
   const std::vector<Liar> samples{{Vec3(0, 0, 0)}, {Vec3(5, 0, 0)}};
   expect_told(laws::check_primitive(std::span<const Liar>(samples), std::span<const Pose>()),
               {"samples 0 and 1", "bounds"});
+}
+
+TEST(Laws, CatchHullsThatDoNotHoldThePrimitive) {
+  EXPECT_EQ((check_hull_of<HullLiar<100, true, true>>()), none);
+  EXPECT_EQ((check_hull_of<HullLiar<150, true, false>>()), none);
+  expect_told(check_hull_of<HullLiar<99, true, true>>(), {"samples 0 and 1", "closer than their hulls"});
+  expect_told(check_hull_of<HullLiar<101, true, true>>(), {"samples 0 and 1", "do not fill"});
+  expect_told(check_hull_of<HullLiar<100, false, true>>(), {"sample 0", "does not move"});
 }
 
 TEST(Laws, CatchAsymmetricFilters) {

@@ -148,6 +148,7 @@ void walk_random_models() {
 
 TEST(MoveChecker, AnswersForPointsAsFullQueries) { walk_random_models<Point, Simd>(); }
 TEST(MoveChecker, AnswersForSpheresAsFullQueries) { walk_random_models<Sphere, Simd>(); }
+TEST(MoveChecker, AnswersForCapsulesAsFullQueries) { walk_random_models<Capsule, Simd>(); }
 TEST(MoveChecker, AnswersForTrianglesAsFullQueries) { walk_random_models<Triangle, Simd>(); }
 TEST(MoveChecker, AnswersForCapsulesOfAnotherEngineAsFullQueries) { walk_random_models<Capsule, Lazy>(); }
 

@@ -10,9 +10,8 @@
 
 #include "engine/random_mechanism.hpp"
 #include "hinge/detail/engine/simd/tree/relative_transform.hpp"
-#include "hinge/detail/primitive/pair_queue.hpp"
 #include "hinge/detail/primitive/triangle_leaf.hpp"
-#include "hinge/primitive/sphere.hpp"
+#include "hinge/detail/primitive/triangle_pairs.hpp"
 #include "hinge/primitive/triangle.hpp"
 
 namespace hinge {
@@ -20,11 +19,10 @@ namespace leaf_test {
 
 using test::Random;
 
-/// Two frames with sixteen primitives each. Primitives of equal lane nearly touch.
-template <class P>
+/// Two frames with sixteen triangles each. Triangles of equal lane nearly touch.
 struct Scene {
   Pose a, b;
-  std::array<P, detail::simd::width> mine, theirs;
+  std::array<Triangle, detail::simd::width> mine, theirs;
 };
 
 Vec3 point_of(const Triangle& t, Random& random) {
@@ -37,8 +35,8 @@ double gap(Random& random, double size) {
   return random.one_in(4) ? 0.0 : random.uniform(-1.0, 1.0) * size * std::pow(10.0, random.uniform(-17.0, -1.0));
 }
 
-Scene<Triangle> touching_triangles(Random& random, double size) {
-  Scene<Triangle> scene{random.pose(size), random.pose(size), {}, {}};
+Scene touching_triangles(Random& random, double size) {
+  Scene scene{random.pose(size), random.pose(size), {}, {}};
   const Pose back = scene.b.inverse();
   for (std::size_t k = 0; k < detail::simd::width; ++k) {
     const double edge = size * std::pow(10.0, random.uniform(-3.0, 0.0));
@@ -59,36 +57,32 @@ Scene<Triangle> touching_triangles(Random& random, double size) {
   return scene;
 }
 
-template <class P>
 struct Packed {
-  Packed(const std::array<P, detail::simd::width>& primitives) {
+  Packed(const std::array<Triangle, detail::simd::width>& primitives) {
     for (std::size_t k = 0; k < detail::simd::width; ++k) {
-      detail::Leaf<P>::set(floats.data(), k, primitives[k], Vec3::Zero(), 1.0);
+      detail::TriangleLeaf::set(floats.data(), k, primitives[k], Vec3::Zero(), 1.0);
       const Aabb box = primitives[k].bounds();
       for (int axis = 0; axis < 3; ++axis)
         extent = std::max(
             {extent, detail::float_above(std::abs(box.lower[axis])), detail::float_above(std::abs(box.upper[axis]))});
     }
   }
-  alignas(64) std::array<float, detail::Leaf<P>::floats> floats{};
+  alignas(64) std::array<float, detail::TriangleLeaf::floats> floats{};
   float extent = 0.0F;
 };
 
-template <class P>
-detail::RelativeTransform relative(const Scene<P>& scene, const Packed<P>& mine, const Packed<P>& theirs) {
+detail::RelativeTransform relative(const Scene& scene, const Packed& mine, const Packed& theirs) {
   return {detail::TreeFrame(Frame(scene.a), Vec3::Zero()), 1.0, mine.extent,
           detail::TreeFrame(Frame(scene.b), Vec3::Zero()), 1.0, theirs.extent};
 }
 
-template <class P>
-typename detail::Leaf<P>::Turned turned(const Packed<P>& theirs, const detail::RelativeTransform& turn) {
+detail::TriangleLeaf::Turned turned(const Packed& theirs, const detail::RelativeTransform& turn) {
   return {theirs.floats.data(), {turn.b_to_a.rotation, turn.b_to_a.size, turn.b_to_a.translation}};
 }
 
 /// Expects that every pair within the margin is kept. Returns the share of the other pairs that is also kept.
-template <class P>
-double check(const Scene<P>& scene, double margin) {
-  const Packed<P> mine(scene.mine), theirs(scene.theirs);
+double check(const Scene& scene, double margin) {
+  const Packed mine(scene.mine), theirs(scene.theirs);
   const detail::RelativeTransform turn = relative(scene, mine, theirs);
   const auto there = turned(theirs, turn);
   const detail::Nearness near{detail::float_above(margin), turn.b_to_a.point_error, nullptr, nullptr};
@@ -120,28 +114,16 @@ TEST(TriangleLeaf, KeepsEveryPairWithinTheMargin) {
   EXPECT_LT(left, 0.1);
 }
 
-TEST(SphereLeaf, KeepsEveryPairWithinTheMargin) {
-  for (std::uint64_t seed = 0; seed < 500; ++seed) {
-    SCOPED_TRACE(seed);
-    Random random(seed);
-    Scene<Sphere> scene{random.pose(3.0), random.pose(3.0), {}, {}};
-    for (auto* spheres : {&scene.mine, &scene.theirs})
-      for (Sphere& s : *spheres) s = {random.vector(3.0), random.uniform(0.0, 0.7)};
-    check(scene, random.uniform(0.0, 1.0));
-    if (HasFailure()) return;
-  }
-}
-
 TEST(TriangleLeaf, BoundsDistancesFromBothSides) {
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
     const double size = std::pow(10.0, random.uniform(-2.0, 2.0));
-    const Scene<Triangle> scene = touching_triangles(random, size);
-    const Packed<Triangle> mine(scene.mine), theirs(scene.theirs);
+    const Scene scene = touching_triangles(random, size);
+    const Packed mine(scene.mine), theirs(scene.theirs);
     const detail::RelativeTransform turn = relative(scene, mine, theirs);
     const auto there = turned(theirs, turn);
-    detail::PairQueue<Triangle> queue;
+    detail::TrianglePairs queue;
     const std::size_t shift = random.below(detail::simd::width);
     const auto other = [&](std::size_t k) { return (k + shift) % detail::simd::width; };
     for (std::size_t k = 0; k < detail::simd::width; ++k)

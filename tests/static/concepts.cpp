@@ -83,6 +83,7 @@ struct Segment : Plain {
   friend double squared_distance(const Segment&, const Segment&) noexcept { return 0.0; }
 };
 static_assert(HasHull<Segment> && !HasClosestPoints<Segment> && !Certifiable<Segment>);
+static_assert(FillsHull<Capsule> && !FillsHull<Segment> && HasSharpHull<Triangle> && !HasSharpHull<Segment>);
 
 static_assert(PairFilter<AdmitAll> && PairFilter<DifferentLinks> && !ListsExclusions<DifferentLinks>);
 /// Declares `admits` again, which hides all overloads of the base class.
@@ -179,8 +180,10 @@ template void calibrate(On<Triangle, Simd>&, On<Triangle, Lazy>&, On<Triangle, B
 
 static_assert(TypedThresholdMatrix<TypedThresholds> && !TypedThresholdMatrix<UniformClearance>);
 static_assert(!AdditiveRadii<TypedThresholds> && !AdditiveRadii<UniformClearance>);
-static_assert(detail::TransformsBatch<Point> && !detail::TransformsBatch<Sphere>);
-static_assert(detail::TurnsOne<Point> && !detail::TurnsOne<Sphere>);
+static_assert(detail::TransformsBatch<Point> && detail::TransformsBatch<Capsule> && !detail::TransformsBatch<Triangle>);
+static_assert(detail::ComparesTwo<Sphere> && !detail::ComparesTwo<Capsule> && !detail::ComparesTwo<Triangle>);
+static_assert(detail::HasSmallHull<Capsule> && !detail::HasSmallHull<Triangle>);
+static_assert(detail::UsesStaticBvh<Triangle> && !detail::UsesStaticBvh<Capsule>);
 static_assert(detail::MeasuresDistances<Point> && !detail::MeasuresDistances<Sphere>);
 
 static_assert(Id<PrimitiveId> && !Id<int> && !std::is_convertible_v<LinkId, PrimitiveId>);

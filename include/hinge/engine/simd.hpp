@@ -248,8 +248,7 @@ class Simd {
     budget.counts.pairs_tested += broad_phase_.candidates.size();
     narrow_phase<P>(
         broad_phase_.candidates, one, sixteen, convert, thresholds_,
-        [&](std::uint32_t at_one, std::uint32_t at_sixteen, detail::simd::Bits bits,
-            const detail::simd::Float16& squared) __attribute__((always_inline)) {
+        [&](std::uint32_t at_one, std::uint32_t at_sixteen, detail::simd::Bits bits) __attribute__((always_inline)) {
           const std::uint32_t own = detail::slot<P>(at_one), first = detail::slot<P>(at_sixteen);
           const auto i = id<PrimitiveId>(one.layout().primitive[own]);
           const std::uint32_t* const others = sixteen.layout().primitive.data() + first;
@@ -259,6 +258,7 @@ class Simd {
           };
           if constexpr (may_measure)
             if (measure.holds()) {
+              const auto squared = convert(one.packed() + at_one).squared_distances(sixteen.packed() + at_sixteen);
               budget.counts.undecided += measure(i, others, bits, squared, test_pair);
               return go_on();
             }

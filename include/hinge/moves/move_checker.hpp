@@ -23,7 +23,7 @@
 #include "hinge/detail/moves/move_cut.hpp"
 #include "hinge/detail/moves/placing_bounds.hpp"
 #include "hinge/detail/primitive/batch.hpp"
-#include "hinge/detail/primitive/leaf.hpp"
+#include "hinge/detail/primitive/triangle_leaf.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/kinematics/frame.hpp"
 #include "hinge/moves/dof_change.hpp"
@@ -194,7 +194,7 @@ class MoveChecker {
       pending_ = Pending::blocks;
       if (recheck(all) && !all) return true;
       const double tolerance = rounding_.tolerance(), error = rounding_.motion_error();
-      if constexpr (detail::TurnsOne<P>) {
+      if constexpr (detail::ComparesTwo<P>) {
         const auto note = [&](PrimitiveId i, PrimitiveId j) { note_collision(i, j); };
         if (!all && blocks_->recall(parts(), tolerance, error, counts_, note)) return true;
       }

@@ -21,7 +21,7 @@
 #include "hinge/detail/path/path_segments.hpp"
 #include "hinge/detail/path/prove_apart.hpp"
 #include "hinge/detail/path/relative_motion.hpp"
-#include "hinge/detail/primitive/leaf.hpp"
+#include "hinge/detail/primitive/triangle_leaf.hpp"
 #include "hinge/detail/query/pair_rules.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/path/path_answer.hpp"
@@ -188,7 +188,7 @@ bool CertifiedPath<P, F, D, EngineOf>::judge(const detail::PathSegment& segment)
     const std::span<const detail::GroupRate> groups = rates_.groups();
     const detail::RelativeMotion& motion = motions_(groups, a, b, half);
     const P p = hierarchy_.placed(pair.first), q = hierarchy_.placed(pair.second);
-    if constexpr (has_one_point<P>)
+    if constexpr (hull_size<P> == 1)
       if (detail::farther_than(p, q, m, motion.approach, rates_.scale())) {
         ++answer_.counts.pairs_proved;
         continue;

@@ -51,6 +51,28 @@ inline std::string two(const char* what, std::size_t i, std::size_t j) {
   return std::string(what) + " " + std::to_string(i) + " and " + std::to_string(j);
 }
 
+/// The box around a primitive's hull, its radius included.
+template <HasHull P>
+Aabb box_of_hull(const P& p) {
+  Aabb box;
+  for (const Vec3& x : p.hull()) box.extend(Aabb(x));
+  return box.inflated(p.hull_radius());
+}
+
+/// p and q are d apart. Two points of their hulls may be closer only if the hulls are larger than the primitives.
+template <HasHull P>
+void check_hulls(const P& p, const P& q, double d, double tolerance, const auto& require) {
+  require(d >= separation(box_of_hull(p), box_of_hull(q)) - tolerance,
+          "they are closer than their hulls, which do not hold them");
+  const double radii = p.hull_radius() + q.hull_radius();
+  for (const Vec3& x : p.hull())
+    for (const Vec3& y : q.hull()) {
+      const double gap = std::max(0.0, norm(Vec3(x - y)) - radii);
+      require(hull_size<P> != 1 || d >= gap - tolerance, "they are closer than their hulls, which do not hold them");
+      require(!FillsHull<P> || d <= gap + tolerance, "they are farther apart than their hulls, which they do not fill");
+    }
+}
+
 template <PairFilter F>
 void check_pair(const F& filter, PrimitiveId i, PrimitiveId j, std::span<const LinkId> links, Violations& broken) {
   const bool admitted = filter.admits(i, j);
@@ -82,8 +104,9 @@ void check_pair(const F& filter, PrimitiveId i, PrimitiveId j, std::span<const L
 
 /// Checks the laws of Primitive. The distance of each pair of samples is symmetric, >= 0, 0 from a sample to itself, at
 /// least the gap of the bounds, and constant under a common pose. closer_than follows the distance and is monotone in
-/// its threshold. Closest points are at that distance. samples: a few dozen typical values, including special cases
-/// (zero size, flat, touching).
+/// its threshold. Closest points are at that distance. Hulls move with the primitives, hold them, and are filled by
+/// them if fills_hull says so. samples: a few dozen typical values, including special cases (zero size, flat,
+/// touching).
 template <Primitive P>
 Violations check_primitive(std::span<const P> samples, std::span<const Pose> poses) {
   Violations broken;
@@ -95,6 +118,14 @@ Violations check_primitive(std::span<const P> samples, std::span<const Pose> pos
     require(squared_distance(p, p) == 0.0, "its squared_distance to itself is not 0");
     const Aabb same = p.placed(Pose{}).bounds();
     require(same.contains(p.bounds()) && p.bounds().contains(same), "the identity pose changes its bounds");
+    if constexpr (HasHull<P>)
+      for (const Pose& pose : poses) {
+        const P moved = p.placed(pose);
+        const double tolerance = rounding * (detail::magnitude(p.bounds()) + detail::magnitude(moved.bounds()));
+        require(moved.hull_radius() == p.hull_radius(), "a pose changes its hull_radius");
+        for (std::size_t k = 0; k < hull_size<P>; ++k)
+          require(norm(Vec3(pose * p.hull()[k] - moved.hull()[k])) <= tolerance, "its hull does not move with it");
+      }
   }
   for (std::size_t i = 0; i < samples.size(); ++i)
     for (std::size_t j = 0; j < samples.size(); ++j) {
@@ -117,6 +148,7 @@ Violations check_primitive(std::span<const P> samples, std::span<const Pose> pos
         const P a = p.placed(pose), b = q.placed(pose);
         const double moved = rounding * (detail::magnitude(a.bounds()) + detail::magnitude(b.bounds())) + tolerance;
         require(near(std::sqrt(squared_distance(a, b)), d, moved), "their distance changes under a common pose");
+        if constexpr (HasHull<P>) detail::check_hulls(a, b, d, moved, require);
       }
       if constexpr (HasClosestPoints<P>) {
         const auto [x, y] = closest_points(p, q);

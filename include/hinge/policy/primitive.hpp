@@ -35,8 +35,10 @@ concept HasClosestPoints = Primitive<P> && requires(const P& p, const P& q) {
   noexcept->std::same_as<std::pair<Vec3, Vec3>>;
 };
 
-/// Optional refinement: the primitive lies within hull_radius() of the convex hull of a few points, hull(). Motion
-/// bounds of these points then hold for the whole primitive.
+/// Optional refinement: the primitive lies within hull_radius() of the convex hull of a few points, hull(), an array.
+/// The hull moves with the primitive, and the radius does not change. Motion bounds of these points then hold for the
+/// whole primitive. If there are one or two points, engine/simd filters pairs by the distance of their hulls, sixteen
+/// at a time; other primitives are filtered by their boxes.
 template <class P>
 concept HasHull = Primitive<P> && requires(const P& p) {
   { p.hull()[0] } -> std::convertible_to<Vec3>;
@@ -45,14 +47,28 @@ concept HasHull = Primitive<P> && requires(const P& p) {
   noexcept->std::same_as<double>;
 };
 
-/// True when the hull is a single point: an atom or a ball.
+/// The number of points of a hull.
 template <HasHull P>
-inline constexpr bool has_one_point = std::tuple_size_v<decltype(std::declval<P>().hull())> == 1;
+inline constexpr std::size_t hull_size = std::tuple_size_v<decltype(std::declval<const P&>().hull())>;
+
+/// Optional refinement: hull_radius() is a constant, 0.
+template <class P>
+concept HasSharpHull = HasHull<P> && requires {
+  requires P::hull_radius()
+  == 0.0;
+};
+
+/// Optional refinement: the primitive is all points within hull_radius() of the convex hull of hull(), and not only a
+/// part of them.
+template <class P>
+concept FillsHull = HasHull<P> && requires {
+  requires P::fills_hull;
+};
 
 /// A primitive with bounded motion, as CertifiedPath requires: its hull is a single point, or it has closest points,
 /// which give a direction to measure in.
 template <class P>
-concept Certifiable = HasHull<P> &&(HasClosestPoints<P> || has_one_point<P>);
+concept Certifiable = HasHull<P> &&(HasClosestPoints<P> || hull_size<P> == 1);
 
 /// Optional refinement: returns true when a rotation about the line (axis_point, unit axis) maps the primitive onto
 /// itself. Its distance to anything across that joint is then constant. Point and axis in the primitive's frame.

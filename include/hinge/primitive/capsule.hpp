@@ -23,9 +23,10 @@ namespace hinge {
 
 /// A capsule with axis from a to b. Coordinates in the frame of its link or in the world, model length unit.
 struct Capsule {
-  Vec3 a = Vec3::Zero();  ///< one end of the axis
-  Vec3 b = Vec3::Zero();  ///< other end of the axis
-  double radius = 0.0;    ///< >= 0, model length unit
+  static constexpr bool fills_hull = true;  ///< see FillsHull
+  Vec3 a = Vec3::Zero();                    ///< one end of the axis
+  Vec3 b = Vec3::Zero();                    ///< other end of the axis
+  double radius = 0.0;                      ///< >= 0, model length unit
 
   /// Returns the capsule transformed by the pose. The radius does not change.
   Capsule placed(const Pose& pose) const noexcept { return {pose * a, pose * b, radius}; }

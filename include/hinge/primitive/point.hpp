@@ -18,6 +18,7 @@ namespace hinge {
 
 /// One point. Coordinates in the frame of its link or in the world, model length unit.
 struct Point {
+  static constexpr bool fills_hull = true;     ///< see FillsHull
   static constexpr bool is_point_like = true;  ///< coincident points collide only when m > 0
   Vec3 position = Vec3::Zero();                ///< model length unit
 
@@ -28,7 +29,7 @@ struct Point {
   /// Returns the point itself.
   std::array<Vec3, 1> hull() const noexcept { return {position}; }
   /// Returns 0.
-  double hull_radius() const noexcept { return 0.0; }
+  static constexpr double hull_radius() noexcept { return 0.0; }
 
   /// Returns the squared distance, 0 exactly when the points coincide. The relative error of its root is at most 4 u (u
   /// = 2^-53). Distances above 2^512 give infinity, below 2^-537 the smallest positive double; below 2^-511 digits are

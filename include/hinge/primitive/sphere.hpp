@@ -21,8 +21,9 @@ namespace hinge {
 
 /// A ball. Coordinates in the frame of its link or in the world, model length unit.
 struct Sphere {
-  Vec3 center = Vec3::Zero();  ///< model length unit
-  double radius = 0.0;         ///< >= 0, model length unit
+  static constexpr bool fills_hull = true;  ///< see FillsHull
+  Vec3 center = Vec3::Zero();               ///< model length unit
+  double radius = 0.0;                      ///< >= 0, model length unit
 
   /// Returns the ball transformed by the pose. The radius does not change.
   Sphere placed(const Pose& pose) const noexcept { return {pose * center, radius}; }

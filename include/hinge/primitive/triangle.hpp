@@ -24,9 +24,10 @@ namespace hinge {
 
 /// A triangle with three corners, in the frame of its link or in the world, model length unit.
 struct Triangle {
-  Vec3 a = Vec3::Zero();  ///< first corner
-  Vec3 b = Vec3::Zero();  ///< second corner
-  Vec3 c = Vec3::Zero();  ///< third corner
+  static constexpr bool fills_hull = true;  ///< see FillsHull
+  Vec3 a = Vec3::Zero();                    ///< first corner
+  Vec3 b = Vec3::Zero();                    ///< second corner
+  Vec3 c = Vec3::Zero();                    ///< third corner
 
   /// Returns the triangle transformed by the pose.
   Triangle placed(const Pose& pose) const noexcept { return {pose * a, pose * b, pose * c}; }
@@ -35,7 +36,7 @@ struct Triangle {
   /// Returns the three corners.
   std::array<Vec3, 3> hull() const noexcept { return {a, b, c}; }
   /// Returns 0.
-  double hull_radius() const noexcept { return 0.0; }
+  static constexpr double hull_radius() noexcept { return 0.0; }
   /// Returns true when all corners are finite. The check is needed because bounds() hides a NaN in b or c.
   bool is_valid() const noexcept { return is_finite(a) && is_finite(b) && is_finite(c); }
 

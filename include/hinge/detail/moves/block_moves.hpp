@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -78,7 +77,7 @@ class BlockMoves {
   /// move surely collides again; passes that pair to visit(i, j).
   template <class Visit>
   bool recall(const MovingParts& parts, double cutoff, double motion_error, MoveCounts& counts,
-              const Visit& visit) requires TurnsOne<P> {
+              const Visit& visit) requires ComparesTwo<P> {
     set_thresholds(cutoff, motion_error);
     const auto slots = recent_.find(blocks_, motions_, thresholds_.margin(), parts);
     if (!slots) return false;
@@ -106,7 +105,7 @@ class BlockMoves {
              const MovingParts& parts)
       : table_(simd_parts->classes.table(simd_parts->layout.scale)),
         moved_(simd_parts->layout, model, parts),
-        blocks_(simd_parts, parts, moved_.order()),
+        blocks_(simd_parts, model, parts, moved_.order()),
         frames_(model.groups(), parts),
         near_(std::make_shared<const NearRows>(ExclusionMasks(simd_parts->layout, model, filter, false),
                                                blocks_.ranks())),
@@ -228,7 +227,7 @@ bool BlockMoves<P>::search(const MovingParts& parts, const D& matrix, double cut
   const auto run = [&] {
     counts.pairs_tested += candidates_.size() * simd::width;
     narrow_phase<P>(candidates_, blocks_, blocks_, Identity<P>{}, thresholds_,
-                    [&](std::uint32_t one, std::uint32_t sixteen, simd::Bits bits, const simd::Float16&) {
+                    [&](std::uint32_t one, std::uint32_t sixteen, simd::Bits bits) {
                       for (; bits != 0 && wanted; bits &= bits - 1) {
                         const std::uint32_t other = sixteen + static_cast<std::uint32_t>(std::countr_zero(bits));
                         const std::uint32_t p = blocks_.slot(one), q = blocks_.slot(other);
@@ -236,8 +235,8 @@ bool BlockMoves<P>::search(const MovingParts& parts, const D& matrix, double cut
                         wanted = visit(i, j);
                         if (wanted) continue;
                         // Not the threshold of the classes of i and j, which may be larger.
-                        const double threshold = static_cast<double>(matrix.threshold(i, j)) * layout().scale;
-                        recent_.add({p, q}, {moved_.place(p), moved_.place(q)}, -float_above(-threshold));
+                        const double below = -matrix.threshold(i, j) * layout().scale;
+                        recent_.add({p, q}, {moved_.place(p), moved_.place(q)}, -float_above(below));
                       }
                       return wanted;
                     });

@@ -55,8 +55,8 @@ class MoveBlocks {
   static constexpr unsigned most_turns = 16;
 
   /// order: see MovedBlocks::order().
-  MoveBlocks(std::shared_ptr<const SimdParts<P>> parts_of_model, const MovingParts& parts,
-             std::span<const std::uint32_t> order)
+  MoveBlocks(std::shared_ptr<const SimdParts<P>> parts_of_model, const SelectedModel<P>& model,
+             const MovingParts& parts, std::span<const std::uint32_t> order)
       : simd_parts_(std::move(parts_of_model)),
         floats_(2 * simd_parts_->layout.block_count() * Batch<P>::floats),
         class_(floats_.size()),
@@ -68,8 +68,13 @@ class MoveBlocks {
         standing_(simd_parts_->layout.block_count()),
         turned_boxes_(simd_parts_->layout.block_count()) {
     constexpr std::size_t n = Batch<P>::floats;
-    for (std::size_t place = 0; place < box_.size(); ++place)
+    for (std::size_t place = 0; place < box_.size(); ++place) {
       std::copy_n(simd_parts_->position_class.data() + place / 2 * n, n, class_.data() + place * n);
+      for (std::size_t k = 0; k < simd::width; ++k)
+        Batch<P>::set(floats_.data() + place * n, k,
+                      model.primitives()[layout().primitive[place / 2 * simd::width + k]], layout().origin,
+                      layout().scale);
+    }
     for (std::uint32_t b = 0; b < layout().block_count(); ++b) {
       at_.push_back(2 * b);
       group_place_.push_back(parts.place(layout().groups_of(layout().blocks[b]).front()));
@@ -212,8 +217,8 @@ class MoveBlocks {
   double band(double largest, double motion_error) const noexcept {
     constexpr double u = 0x1p-24, v = 0x1p-53, underflow = 0x1p-60;
     const auto extent = static_cast<double>(extent_), half = static_cast<double>(simd_parts_->rigid.largest_half);
-    const double placed =
-        6 * u * (2 * extent + 10 * half) + 8 * u * largest + 16 * v * (extent + rounding_size_) + underflow;
+    const double placed = 6 * u * (2 * extent + 10 * half) + Batch<P>::slack * u * extent + 8 * u * largest +
+                          16 * v * (extent + rounding_size_) + underflow;
     return placed + most_turns * (42 * u * extent + 2 * motion_error * layout().scale + underflow);
   }
 

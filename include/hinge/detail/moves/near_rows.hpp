@@ -32,12 +32,12 @@ class NearRows {
       for (const std::uint32_t a : masks.partners(b)) {
         if (a == b) continue;
         const auto mine = static_cast<std::uint32_t>(rows_.size()), its = mine + 1;
-        add(masks.find(b, a));
+        add(masks.find(b, a).rows);
         lists[b].push_back({rank[a], mine, its});
         lists[a].push_back({rank[b], its, mine});
       }
-      if (masks.self_lanes(b) == 0) continue;
-      add(masks.self_rows(b));
+      if (masks.self(b).lanes == 0) continue;
+      add(masks.self(b).rows);
       for (std::size_t k = 0; k < simd::width; ++k) self_[b][k] = rows_.end()[-2][k] | rows_.end()[-1][k];
       rows_.resize(rows_.size() - 2);
     }

@@ -25,7 +25,7 @@ class RecentCollisions {
 
   /// Returns a pair that surely collides after the move: it is below its threshold by more than the error of float
   /// coordinates. motions: per part of the cut. margin: at least the error of a distance, scaled.
-  template <TurnsOne P>
+  template <ComparesTwo P>
   std::optional<Pair> find(const MoveBlocks<P>& blocks, std::span<const FloatMotion> motions, float margin,
                            const MovingParts& parts) {
     for (simd::Bits left = apart(parts); left != 0; left &= left - 1) {
@@ -37,8 +37,7 @@ class RecentCollisions {
       };
       const auto p = turned(0), q = turned(1);
       // One margin for the error of float coordinates, one for the rounding of this comparison.
-      const float near = threshold_[k] - 2.0F * margin;
-      if (near > 0.0F && p.squared_distance(q) < near * near && std::max(p.extent(), q.extent()) <= blocks.extent()) {
+      if (p.closer_than(q, threshold_[k] - 2.0F * margin) && std::max(p.extent(), q.extent()) <= blocks.extent()) {
         met_at_[k] = ++now_;
         return slot_[k];
       }

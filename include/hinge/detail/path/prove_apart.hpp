@@ -51,8 +51,7 @@ struct CornersAlong {
 /// True if p and q (points with a radius) stay at least m apart when they approach by `closer` (scaled). False if
 /// rounding of this sum leaves it open.
 template <Certifiable P>
-requires has_one_point<P>
-bool farther_than(const P& p, const P& q, double m, double closer, double scale) noexcept {
+requires(hull_size<P> == 1) bool farther_than(const P& p, const P& q, double m, double closer, double scale) noexcept {
   const double least = ((p.hull_radius() + q.hull_radius() + m) * scale + closer) * (1.0 + 0x1p-40);
   return squared_norm(Vec3((q.hull()[0] - p.hull()[0]) * scale)) > least * least * (1.0 + 0x1p-40);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Leaf<Triangle>: sixteen triangles in float SIMD layout. Separating axes prove that pairs are apart.
+// TriangleLeaf: sixteen triangles of a static tree in float SIMD layout. Separating axes prove that pairs are apart.
 #pragma once
 
 #include <algorithm>
@@ -8,11 +8,32 @@
 #include <cstddef>
 
 #include "hinge/core/vec3.hpp"
-#include "hinge/detail/primitive/leaf.hpp"
 #include "hinge/detail/simd/lanes.hpp"
-#include "hinge/primitive/triangle.hpp"
+#include "hinge/policy/primitive.hpp"
 
 namespace hinge::detail {
+
+/// True when engine/simd keeps static trees of this primitive, one per rigid group in the group's frame, instead of
+/// blocks of world coordinates: for triangles, which are extended and come in large groups.
+template <class P>
+concept UsesStaticBvh = FillsHull<P> && HasSharpHull<P> && hull_size<P>
+== 3;
+
+/// A rigid transform from the frame of another tree to this tree's frame: x -> rotation x + translation.
+struct LeafTurn {
+  const std::array<float, 12>& rotation;  ///< column by column, each padded to four entries
+  const std::array<float, 12>& size;      ///< magnitudes of the rotation's entries, rounded up
+  const std::array<float, 4>& translation;
+};
+
+/// A pair is near when distance <= margin + the sum of both threshold radii. `error` bounds the error of a transformed
+/// coordinate, projected on an axis of length 1.
+struct Nearness {
+  float margin = 0.0F;
+  float error = 0.0F;
+  const float* reach = nullptr;        ///< threshold radii of this leaf's lanes; null: all 0
+  const float* other_reach = nullptr;  ///< threshold radii of the other leaf's lanes; null: all 0
+};
 
 template <class T>
 struct Axis {
@@ -36,25 +57,26 @@ template <class T>
 /// Only the rounding of the projections matters. The tests use the normal of the single triangle, the normals of the
 /// sixteen, and the cross products of edges, while undecided lanes remain. The functions are flattened, because
 /// compilers otherwise call small lambdas and pass lanes through memory.
-template <>
-struct Leaf<Triangle> {
+struct TriangleLeaf {
   using Float16 = simd::Float16;
   using Lanes3 = Axis<Float16>;
   using One3 = Axis<float>;
-  static constexpr bool uses_static_bvh = true;
   static constexpr std::size_t n = simd::width;
   static constexpr std::size_t floats = 9 * n;  ///< x, y, z of a, then of b, then of c
 
-  static void set(float* at, std::size_t lane, const Triangle& t, const Vec3& origin, double scale) noexcept {
+  /// Stores a triangle in a lane. A coordinate x is stored as (x - origin) * scale.
+  template <UsesStaticBvh P>
+  static void set(float* at, std::size_t lane, const P& p, const Vec3& origin, double scale) noexcept {
     std::size_t place = lane;
-    for (const Vec3* corner : {&t.a, &t.b, &t.c})
-      for (int k = 0; k < 3; ++k, place += n) at[place] = static_cast<float>(((*corner)[k] - origin[k]) * scale);
+    for (const Vec3& corner : p.hull())
+      for (int k = 0; k < 3; ++k, place += n) at[place] = static_cast<float>((corner[k] - origin[k]) * scale);
   }
 
   static Lanes3 corner(const float* at, std::size_t c) noexcept {
     return {Float16(at + 3 * c * n), Float16(at + (3 * c + 1) * n), Float16(at + (3 * c + 2) * n)};
   }
 
+  /// Sixteen triangles of another tree, transformed to this tree's frame.
   class Turned {
    public:
     [[gnu::flatten]] Turned(const float* other, const LeafTurn& turn) noexcept {
@@ -74,6 +96,7 @@ struct Leaf<Triangle> {
 
     const float* coordinates() const noexcept { return at_.data(); }
 
+    /// Returns the lanes that may be near a box.
     [[gnu::flatten]] simd::Bits near_box(const std::array<float, 3>& middle, const std::array<float, 3>& half,
                                          const Nearness& near) const noexcept {
       simd::Bits lanes = simd::all_bits;
@@ -90,6 +113,7 @@ struct Leaf<Triangle> {
       return lanes;
     }
 
+    /// Returns the lanes of `lanes` (of this tree's leaf at `own`) that may be near lane k of the transformed leaf.
     [[gnu::flatten]] simd::Bits near(std::size_t k, const float* own, simd::Bits lanes,
                                      const Nearness& near) const noexcept {
       if (near.reach == nullptr && near.other_reach == nullptr && near.margin <= 0.0F)

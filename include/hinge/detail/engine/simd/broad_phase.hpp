@@ -47,9 +47,9 @@ class BroadPhase {
               const Relieve& relieve) {
     const SweepEntry& entry = side.layout().entries[u];
     const std::uint32_t first = entry.first_block;
-    const simd::Bits lanes = side.near().self_lanes(first);
-    if (lanes != 0 && !side.kept_apart(u, u))
-      candidates.add_rows(lanes, position<P>(first), position<P>(first), side.near().self_rows(first));
+    const NearRows16 self = side.near().self(first);
+    if (self.lanes != 0 && !side.kept_apart(u, u))
+      candidates.add_rows(self.lanes, position<P>(first), position<P>(first), self.rows);
     const auto found = side.entries().sweep(side.entries().get(u).grown(margin()), entry.sweep_end, counts);
     if (found.empty()) return true;
     const float extra = side.extra(first);
@@ -151,8 +151,10 @@ class BroadPhase {
 
   /// Lists the candidates between block b and an earlier block a. The side with fewer primitives near the other's box
   /// is listed one by one.
-  [[gnu::always_inline]] void add_pair(SimdSide<P>& side, const Facing& facing, std::uint32_t a, const simd::Bits* rows,
+  [[gnu::always_inline]] void add_pair(SimdSide<P>& side, const Facing& facing, std::uint32_t a, const NearRows16& near,
                                        Placement<P>& placement) {
+    if (near.lanes == 0) [[unlikely]]
+      return;
     const float* at_a = side.state().block(a, placement);
     const std::uint32_t b = facing.block;
     const simd::Bits real_b = side.layout().blocks[b].real, real_a = side.layout().blocks[a].real;
@@ -160,8 +162,8 @@ class BroadPhase {
     // Inflating by zero is measurable here; skip it.
     const simd::Bits in_b =
         (side.has_extra() ? facing.lanes.meets(box_a.grown(side.extra(a))) : facing.lanes.meets(box_a)) & real_b;
-    if (rows != nullptr) [[unlikely]]
-      return candidates.add_rows(in_b, position<P>(b), position<P>(a), rows);
+    if (near.rows != nullptr) [[unlikely]]
+      return candidates.add_rows(in_b & near.lanes, position<P>(b), position<P>(a), near.rows);
     const simd::Bits in_a = (side.has_extra() ? Batch<P>::inside(at_a, facing.box.grown(side.extra(a)))
                                               : Batch<P>::inside(at_a, facing.box)) &
                             real_a;

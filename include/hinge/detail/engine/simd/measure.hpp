@@ -40,7 +40,7 @@ class Measure {
   /// True if distances can be measured.
   bool holds() const noexcept { return is_finite(error_); }
 
-  /// Tests primitive i against the lanes of the sixteen `others`, until the collector is done. squared: squared
+  /// Tests primitive i against the lanes of the sixteen `others`, until the collector is done. squared: their squared
   /// distances in scaled units. Returns the number of undecided pairs.
   template <class TestPair>
   [[gnu::always_inline]] std::uint64_t operator()(PrimitiveId i, const std::uint32_t* others, simd::Bits lanes,

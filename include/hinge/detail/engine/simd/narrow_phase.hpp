@@ -21,7 +21,7 @@ class Thresholds16 {
   /// Pairs with d <= M + margin are near.
   void set(const ThresholdTable& table, float margin) noexcept {
     margin_ = margin;
-    for (std::size_t c = 0; c < simd::width; ++c) {
+    for (std::size_t c = 0; c < table.rows; ++c) {
       const simd::Float16 near = simd::Float16(table.row.data() + c * simd::width) + simd::Float16(margin);
       near.store(plain_.data() + c * simd::width);
       (near * near).store(squares_.data() + c * simd::width);
@@ -43,8 +43,8 @@ class Thresholds16 {
   std::array<float, simd::width> largest_plain_{}, largest_squares_{};
 };
 
-/// Calls visit(position of the single primitive, position of the block, lanes, squared distances) for every candidate
-/// that floats cannot rule out. visit may lower the thresholds; it returns false to stop. The first loop tests all
+/// Calls visit(position of the single primitive, position of the block, lanes) for every candidate that floats cannot
+/// rule out. visit may lower the thresholds; it returns false to stop. The first loop tests all
 /// candidates against the largest threshold of the single primitive's class. The second loop tests the rest lane by
 /// lane. Side: SimdSide, or any type that holds floats of P under threshold classes.
 template <Primitive P, class Side, class Convert, class Visit>
@@ -54,8 +54,8 @@ void narrow_phase(CandidateList& candidates, const Side& one, const Side& sixtee
   const std::uint8_t *single_class = one.position_class(), *classes = sixteen.position_class();
   const std::uint32_t *ones = candidates.ones(), *sixteens = candidates.sixteens();
   const simd::Bits* masks = candidates.masks();
-  const auto squared_distances = [&](std::size_t t) __attribute__((always_inline)) {
-    return convert(single + ones[t]).squared_distances(packed + sixteens[t]);
+  const auto near = [&](std::size_t t, const Limit16& limit) __attribute__((always_inline)) {
+    return convert(single + ones[t]).near(packed + sixteens[t], limit);
   };
   const auto extra = [&](std::size_t t) __attribute__((always_inline)) {
     return one.extra_at(ones[t]) * convert.scale + sixteen.extra_at(sixteens[t]);
@@ -63,11 +63,8 @@ void narrow_phase(CandidateList& candidates, const Side& one, const Side& sixtee
   const bool has_extra = one.has_extra() || sixteen.has_extra();
   CandidateList::Left* left = candidates.left();
   std::size_t left_count = 0;
-  const auto rule_out = [&](const auto& near) __attribute__((always_inline)) {
-    const auto lanes = [&](std::size_t t) __attribute__((always_inline)) {
-      // Negated on purpose: overflow and NaN must remain.
-      return ~less(simd::Float16(near(t)), squared_distances(t)) & masks[t];
-    };
+  const auto rule_out = [&](const auto& limit) __attribute__((always_inline)) {
+    const auto lanes = [&](std::size_t t) __attribute__((always_inline)) { return near(t, limit(t)) & masks[t]; };
     // A branch is cheaper if it is almost never taken. It costs twice as much as no branch if it is unpredictable.
     if (candidates.many_left()) {
       for (std::size_t t = 0; t < candidates.size(); ++t) {
@@ -83,24 +80,25 @@ void narrow_phase(CandidateList& candidates, const Side& one, const Side& sixtee
   };
   if (has_extra) {
     rule_out([&](std::size_t t) {
-      const float near = thresholds.largest_plain()[single_class[ones[t]]] + extra(t);
-      return near * near;
+      const float distance = thresholds.largest_plain()[single_class[ones[t]]] + extra(t);
+      return Limit16{distance, distance * distance};
     });
   } else {
-    rule_out([ near = thresholds.largest_squares(), ones, single_class ](std::size_t t)
-                 __attribute__((always_inline)) { return near[single_class[ones[t]]]; });
+    rule_out([ plain = thresholds.largest_plain(), squares = thresholds.largest_squares(), ones,
+               single_class ](std::size_t t) __attribute__((always_inline)) {
+      return Limit16{plain[single_class[ones[t]]], squares[single_class[ones[t]]]};
+    });
   }
   for (std::size_t k = 0; k < left_count; ++k) {
     const std::size_t t = left[k].candidate, row = single_class[ones[t]] * simd::width;
     const simd::Index16 index(classes + sixteens[t]);
-    simd::Float16 near = look_up(thresholds.squares() + row, index);
+    Limit16 limit{look_up(thresholds.plain() + row, index), look_up(thresholds.squares() + row, index)};
     if (has_extra) {
-      near = look_up(thresholds.plain() + row, index) + simd::Float16(extra(t));
-      near = near * near;
+      limit.distance = limit.distance + simd::Float16(extra(t));
+      limit.squared = limit.distance * limit.distance;
     }
-    const simd::Float16 squared = squared_distances(t);
-    const simd::Bits bits = left[k].lanes & ~less(near, squared);
-    if (bits != 0 && !visit(ones[t], sixteens[t], bits, squared)) return;
+    const simd::Bits bits = left[k].lanes & near(t, limit);
+    if (bits != 0 && !visit(ones[t], sixteens[t], bits)) return;
   }
 }
 

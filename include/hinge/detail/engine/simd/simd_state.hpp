@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -17,38 +16,12 @@
 #include "hinge/detail/engine/simd/entry_boxes.hpp"
 #include "hinge/detail/engine/simd/float_transform.hpp"
 #include "hinge/detail/engine/simd/rigid_blocks.hpp"
+#include "hinge/detail/engine/simd/simd_parts.hpp"
 #include "hinge/detail/primitive/batch.hpp"
 #include "hinge/kinematics/frame.hpp"
 #include "hinge/model/placement.hpp"
 
 namespace hinge::detail {
-
-/// The constant data of one layout, shared by copies of an engine.
-template <Primitive P>
-struct SimdParts {
-  SimdParts(BlockLayout blocks, ThresholdClasses threshold_classes, const SelectedModel<P>& model)
-      : layout(std::move(blocks)),
-        classes(std::move(threshold_classes)),
-        rigid(layout, model, classes),
-        position_class(layout.block_count() * Batch<P>::floats) {
-    for (std::size_t slot = 0; slot < layout.primitive.size(); ++slot) {
-      const std::uint32_t i = layout.primitive[slot];
-      position_class[slot / simd::width * Batch<P>::floats + slot % simd::width] = classes.class_of(i);
-      if (slot % simd::width == 0) mixed_slot.push_back(static_cast<std::uint32_t>(mixed_group.size()));
-      if (layout.blocks[slot / simd::width].rigid) continue;
-      mixed.push_back(model.primitives()[i]);
-      mixed_group.push_back(static_cast<std::uint32_t>(index(model.group_of(id<PrimitiveId>(i)))));
-    }
-  }
-
-  BlockLayout layout;
-  ThresholdClasses classes;
-  RigidBlocks<P> rigid;
-  std::vector<std::uint8_t> position_class;  ///< threshold class at the position of each primitive's floats
-  std::vector<std::uint32_t> mixed_slot;     ///< per block: start of its slots in the next two vectors, if it is mixed
-  std::vector<P> mixed;                      ///< primitives of mixed blocks, in their groups' frames
-  std::vector<std::uint32_t> mixed_group;    ///< their groups
-};
 
 /// Coordinates are (world - origin) * scale in float. They are computed from the placement on first use after an
 /// update, and kept while their groups do not move.
@@ -67,7 +40,11 @@ class SimdState {
         tree_rows_(parts_->rigid.rows.size()),
         row_at_(parts_->rigid.rows.size(), 0),
         origin_(parts_->layout.origin) {
-    for (const std::uint32_t i : parts_->layout.primitive) exact_.push_back(model.primitives()[i]);
+    for (std::size_t slot = 0; slot < parts_->layout.primitive.size(); ++slot) {
+      exact_.push_back(model.primitives()[parts_->layout.primitive[slot]]);
+      Batch<P>::set(packed_.data() + slot / simd::width * Batch<P>::floats, slot % simd::width, exact_.back(), origin_,
+                    parts_->layout.scale);
+    }
   }
 
   const SimdParts<P>& parts() const noexcept { return *parts_; }
@@ -157,7 +134,8 @@ class SimdState {
     const auto extent = static_cast<double>(extent_), half = static_cast<double>(parts_->rigid.largest_half);
     const double size = extent + parts_->layout.scale * (4 * parts_->rigid.largest_local + 2 * std::abs(origin_[0]) +
                                                          2 * std::abs(origin_[1]) + 2 * std::abs(origin_[2]));
-    return 6 * u * (2 * extent + 10 * half) + 8 * u * largest + 16 * v * size + underflow;
+    return 6 * u * (2 * extent + 10 * half) + Batch<P>::slack * u * extent + 8 * u * largest + 16 * v * size +
+           underflow;
   }
 
  private:
@@ -233,7 +211,7 @@ class SimdState {
       box = Batch<P>::place(at, parts_->mixed.data() + first, parts_->mixed_group.data() + first,
                             placement.frames_through(layout.groups_of(layout.blocks[b]).back()), origin_, layout.scale);
     }
-    block_box_[b] = sane(box, {at, Batch<P>::floats}).grown(parts_->rigid.reach[b]);
+    block_box_[b] = sane(box, {at, Batch<P>::coordinates}).grown(parts_->rigid.reach[b]);
     block_at_[b] = update_;
   }
 
@@ -253,7 +231,7 @@ class SimdState {
                       origin_, layout.scale);
       box = Batch<P>::hull(at);
     }
-    block_box_[b] = sane(box, {at, Batch<P>::floats}).grown(parts_->rigid.reach[b]);
+    block_box_[b] = sane(box, {at, Batch<P>::coordinates}).grown(parts_->rigid.reach[b]);
   }
 
   [[gnu::noinline]] void place_exact(std::uint32_t b, Placement<P>& placement) noexcept {

@@ -17,12 +17,14 @@ namespace hinge::detail {
 
 /// Thresholds between classes, scaled, rounded up to float. A row fits one sixteen-lane look-up.
 struct ThresholdTable {
-  std::array<float, simd::width * simd::width> row{};  // row: class of the single primitive; column: class of the lane
+  std::array<float, simd::width * simd::width> row{};  ///< row: class of the single primitive; column: of the lane
+  std::size_t rows = 0;                                ///< number of classes of single primitives
   float largest = 0.0F;
 
   void set(std::size_t c, std::size_t d, double threshold) noexcept {
     const float t = float_above(threshold);
     row[c * simd::width + d] = t;
+    rows = std::max(rows, c + 1);
     largest = std::max(largest, t);
   }
 };

@@ -14,7 +14,7 @@
 #include "hinge/detail/engine/simd/tree/leaf_pair.hpp"
 #include "hinge/detail/engine/simd/tree/relative_transform.hpp"
 #include "hinge/detail/engine/simd/tree/tree_parts.hpp"
-#include "hinge/detail/primitive/pair_queue.hpp"
+#include "hinge/detail/primitive/triangle_pairs.hpp"
 #include "hinge/query/query_options.hpp"
 
 namespace hinge::detail {
@@ -157,7 +157,7 @@ class ClosestFinder {
   }
 
   std::vector<Entry> stack_;
-  PairQueue<P> queue_;
+  TrianglePairs queue_;
   std::array<std::uint32_t, simd::width> slot_a_{}, slot_b_{};
   std::size_t queued_ = 0;
 };

@@ -8,7 +8,7 @@
 
 #include "hinge/detail/engine/simd/tree/relative_transform.hpp"
 #include "hinge/detail/engine/simd/tree/tree_parts.hpp"
-#include "hinge/detail/primitive/leaf.hpp"
+#include "hinge/detail/primitive/triangle_leaf.hpp"
 
 namespace hinge::detail {
 
@@ -39,7 +39,7 @@ class TransformedLeaf {
   const float* reach() const noexcept { return reach_; }
   float error() const noexcept { return error_; }
   std::uint32_t slot(std::size_t k) const noexcept { return static_cast<std::uint32_t>(leaf_ * simd::width + k); }
-  const typename Leaf<P>::Turned& turned() const noexcept { return turned_; }
+  const TriangleLeaf::Turned& turned() const noexcept { return turned_; }
 
  private:
   std::uint32_t leaf_;
@@ -47,7 +47,7 @@ class TransformedLeaf {
   float error_;
   const float* reach_;
   alignas(64) std::array<float, simd::width> scaled_;  // used if reaches are above 0 and the units differ
-  typename Leaf<P>::Turned turned_;
+  TriangleLeaf::Turned turned_;
 };
 
 template <Primitive P>
@@ -67,7 +67,7 @@ class LeafPair {
   simd::Bits ones() const noexcept { return ones_; }
   std::uint32_t leaf() const noexcept { return leaf_; }
   std::uint32_t other_slot(std::size_t k) const noexcept { return other_.slot(k); }
-  const typename Leaf<P>::Turned& turned() const noexcept { return other_.turned(); }
+  const TriangleLeaf::Turned& turned() const noexcept { return other_.turned(); }
   const float* own() const noexcept { return own_.leaf(leaf_); }
   simd::Bits real() const noexcept { return own_.store.real[leaf_]; }
   const Nearness& nearness() const noexcept { return near_; }

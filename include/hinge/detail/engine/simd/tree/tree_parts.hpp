@@ -22,7 +22,6 @@
 #include "hinge/detail/engine/simd/tree/part_set.hpp"
 #include "hinge/detail/engine/simd/tree/static_tree.hpp"
 #include "hinge/detail/kinematics/pose_source.hpp"
-#include "hinge/detail/primitive/leaf.hpp"
 #include "hinge/detail/primitive/triangle_leaf.hpp"
 #include "hinge/model/selected_model.hpp"
 #include "hinge/policy/distance_matrix.hpp"
@@ -41,7 +40,7 @@ struct TreeParts {
   /// The tree parts for queries that need not distinguish links.
   const PartSet& merged() const noexcept { return alike.parts.empty() ? links : alike; }
 
-  const float* leaf(std::uint32_t l) const noexcept { return leaves.data() + std::size_t{l} * Leaf<P>::floats; }
+  const float* leaf(std::uint32_t l) const noexcept { return leaves.data() + std::size_t{l} * TriangleLeaf::floats; }
   /// Null if all reaches are 0.
   const float* leaf_reach(std::uint32_t l) const noexcept {
     return reaches.empty() ? nullptr : reaches.data() + std::size_t{l} * simd::width;
@@ -203,11 +202,11 @@ void TreeParts<P>::build(const SelectedModel<P>& model, const D& matrix, const s
       part.box.half[axis] =
           above(std::max(box.upper[k] - box.middle(k), box.middle(k) - box.lower[k]) * scale * (1 + 0x1p-50));
     }
-    leaves.resize(store.real.size() * Leaf<P>::floats);
+    leaves.resize(store.real.size() * TriangleLeaf::floats);
     for (std::size_t slot = leaf * simd::width; slot < store.slots.size(); ++slot) {
       const std::uint32_t i = store.slots[slot];
-      Leaf<P>::set(leaves.data() + slot / simd::width * Leaf<P>::floats, slot % simd::width, model.primitives()[i], o,
-                   scale);
+      TriangleLeaf::set(leaves.data() + slot / simd::width * TriangleLeaf::floats, slot % simd::width,
+                        model.primitives()[i], o, scale);
       reach.push_back(above(scaled_reach(id<PrimitiveId>(i))));
     }
     add_link(part, box, items, o);

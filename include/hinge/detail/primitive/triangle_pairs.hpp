@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PairQueue<P>: sixteen pairs of primitives of two trees, with lower and upper float bounds of their distances.
+// TrianglePairs: sixteen pairs of triangles of two trees, with lower and upper float bounds of their distances.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <limits>
 
-#include "hinge/detail/primitive/leaf.hpp"
 #include "hinge/detail/primitive/triangle_leaf.hpp"
 #include "hinge/detail/simd/lanes.hpp"
-#include "hinge/policy/primitive.hpp"
 
 namespace hinge::detail {
 
@@ -18,25 +16,13 @@ struct Bounds16 {
   alignas(64) std::array<float, simd::width> lower, upper;
 };
 
-/// For a generic primitive: no bounds are known. Specialisations have the same members.
-template <Primitive P>
-class PairQueue {
- public:
-  /// Stores lane i of the leaf at `own` and lane k of another leaf, transformed to its frame. error: see Nearness.
-  void set(std::size_t, const float*, std::size_t, const typename Leaf<P>::Turned&, std::size_t, float) noexcept {}
-  void bound(Bounds16& bounds) const noexcept {
-    bounds.lower.fill(0.0F);
-    bounds.upper.fill(std::numeric_limits<float>::infinity());
-  }
-};
-
 /// An upper bound is the distance of two points on the triangles: the best of nine edge pairs and six pairs of corner
 /// and face. A lower bound is the gap along the line through these points, so rounding in the search cannot invalidate
 /// a bound.
-template <>
-class PairQueue<Triangle> {
+class TrianglePairs {
  public:
-  void set(std::size_t place, const float* own, std::size_t i, const Leaf<Triangle>::Turned& turned, std::size_t k,
+  /// Stores lane i of the leaf at `own` and lane k of another leaf, transformed to its frame. error: see Nearness.
+  void set(std::size_t place, const float* own, std::size_t i, const TriangleLeaf::Turned& turned, std::size_t k,
            float error) noexcept {
     for (std::size_t c = 0; c < 9; ++c) {
       at_[c * n + place] = own[c * n + i];
@@ -72,12 +58,12 @@ class PairQueue<Triangle> {
 
  private:
   using Float16 = simd::Float16;
-  using Lanes3 = Leaf<Triangle>::Lanes3;
+  using Lanes3 = TriangleLeaf::Lanes3;
   using Corners3 = std::array<Lanes3, 3>;
   static constexpr std::size_t n = simd::width;
 
   Corners3 corners(std::size_t first) const noexcept {
-    const auto corner = [&](std::size_t c) { return Leaf<Triangle>::corner(at_.data(), c); };
+    const auto corner = [&](std::size_t c) { return TriangleLeaf::corner(at_.data(), c); };
     return {corner(first), corner(first + 1), corner(first + 2)};
   }
 
