@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <span>
@@ -20,6 +21,7 @@
 #include "hinge/engine/simd.hpp"
 #include "hinge/kinematics/frame.hpp"
 #include "hinge/model/model.hpp"
+#include "hinge/model/placement.hpp"
 #include "hinge/model/selected_model.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/policy/distance_matrix.hpp"
@@ -27,6 +29,7 @@
 #include "hinge/policy/pair_filter.hpp"
 #include "hinge/policy/primitive.hpp"
 #include "hinge/query/collectors.hpp"
+#include "hinge/query/pair_rules.hpp"
 #include "hinge/query/query_options.hpp"
 
 namespace hinge {
@@ -49,57 +52,55 @@ class Hierarchy {
   Hierarchy(Model<P> model, DofSelection selection, F filter, D matrix)
       : filter_(std::move(filter)),
         matrix_(std::move(matrix)),
-        engine_(
-            std::make_shared<const SelectedModel<P>>(checked(std::move(model), filter_, matrix_), std::move(selection)),
-            filter_, matrix_),
-        largest_threshold_(matrix_, engine_.placement().model().size()) {}
+        placement_(std::make_shared<const SelectedModel<P>>(checked(std::move(model), filter_, matrix_),
+                                                            std::move(selection))),
+        engine_(placement_.model(), filter_, matrix_),
+        largest_threshold_(matrix_, placement_.model().size()) {}
 
   // --- State. Invalid input throws ConfigurationError, names the faulty element and keeps the previous state. ---
 
   /// q: one value per selected DOF, in the selection's order; rad or model length unit. The initial state is all 0.
-  void update(std::span<const double> q) { placement().update(q); }
+  void update(std::span<const double> q) { placement_.update(q); }
+  /// The same for values written out: update({0.0, 3.0}).
+  void update(std::initializer_list<double> q) { placement_.update(std::span(q.begin(), q.size())); }
   /// poses: one world pose per rigid group, computed by the caller. Group 0 is the world and must be the identity.
-  void update_poses(std::span<const Pose> poses) { placement().update_poses(poses); }
+  void update_poses(std::span<const Pose> poses) { placement_.update_poses(poses); }
   /// placed: world coordinates of every primitive, computed by the caller. Queries then test every admitted pair,
   /// including pairs of constant distance.
-  void update_placed(std::span<const P> placed) { placement().update_placed(placed); }
+  void update_placed(std::span<const P> placed) { placement_.update_placed(placed); }
 
   /// Learns from the current state: engines that can order their work then start yes/no queries with the pairs that
   /// collide most often. Call it at some hundred typical states. Answers do not change. Costs about one query over all
   /// pairs of links.
   void calibrate_pair_order() {
-    if constexpr (requires { engine_.calibrate_pair_order(); }) engine_.calibrate_pair_order();
+    const QueryOptions options;
+    const SelfRules<P, F, D> rules = self_rules(options);
+    if constexpr (requires { engine_.calibrate_pair_order(rules); }) engine_.calibrate_pair_order(rules);
   }
   /// The same for yes/no queries against other models: it orders the links of this model. `other` at its current state
   /// is a typical opponent. ModelError: the two distance matrices are incompatible.
   template <PairFilter G = AdmitAll>
-  void calibrate_pair_order(Hierarchy& other, const G& across = {}) {
-    static_assert(CrossEngine<E, P, F, D, G>, "this engine or distance matrix cannot answer between two models");
-    if (!matrix_.compatible(other.matrix_)) throw ModelError("the two models use different distance matrices");
-    if constexpr (requires { engine_.calibrate_pair_order(other.engine_, across); }) {
-      if (this == &other) {
-        Hierarchy twin(other);  // engines use scratch memory on both sides
-        engine_.calibrate_pair_order(twin.engine_, across);
-      } else {
-        engine_.calibrate_pair_order(other.engine_, across);
-      }
-    }
+  void calibrate_pair_order(const Hierarchy& other, const G& across = {}) {
+    with_other(other, across, {}, [&](E& engine, const CrossRules<P, G, D>& rules) {
+      if constexpr (requires { engine_.calibrate_pair_order(engine, rules); })
+        engine_.calibrate_pair_order(engine, rules);
+    });
   }
 
   // --- Queries at the current state. Invalid options throw ConfigurationError, see self_query. ---
 
   /// Returns true when at least one pair collides.
-  bool self_collides(const QueryOptions& options = {}) { return self(AnyHit{}, options).done(); }
+  bool self_collides(const QueryOptions& options = {}) const { return self(AnyHit{}, options).done(); }
   /// Returns all colliding pairs, sorted by (first, second).
-  std::vector<Hit> self_collisions(const QueryOptions& options = {}) { return self_within(0.0, options); }
+  std::vector<Hit> self_collisions(const QueryOptions& options = {}) const { return self_within(0.0, options); }
   /// Returns all pairs with d - M < margin, sorted by (first, second). ConfigurationError: margin is not finite or
   /// negative.
-  std::vector<Hit> self_within(double margin, const QueryOptions& options = {}) {
+  std::vector<Hit> self_within(double margin, const QueryOptions& options = {}) const {
     return self(HitsWithin{checked(margin)}, options).take();
   }
   /// Returns the pair with the smallest d - M (the deepest collision, if any). Returns nullopt when no pair is
   /// admitted.
-  std::optional<Hit> self_closest(const QueryOptions& options = {}) {
+  std::optional<Hit> self_closest(const QueryOptions& options = {}) const {
     const double most = largest(options.clearance);
     return self(Closest{-(largest_threshold_.within() + (most + most))}, options).hit();
   }
@@ -107,13 +108,13 @@ class Hierarchy {
   /// Passes the pairs to a custom collector, in the order of the engine. ConfigurationError: clearances that are not
   /// finite lengths >= 0, not one per rigid group, or an other_clearance (valid only between two models).
   template <Collector C>
-  void self_query(C& collector, const QueryOptions& options = {}) {
+  void self_query(C& collector, const QueryOptions& options = {}) const {
     if (!options.other_clearance.empty())
       throw ConfigurationError(
           "other_clearance: expected none in a query of one model, where clearance counts for both "
           "primitives of a pair");
     check_clearance(options.clearance, model().groups()->size());
-    engine_.self_query(collector, options);
+    engine_.self_query(self_rules(options), collector);
   }
 
   // --- The same queries against another model. `across` admits pairs (primitive of this, primitive of other). ---
@@ -121,23 +122,24 @@ class Hierarchy {
 
   /// Returns true when at least one pair of primitives of the two models collides.
   template <PairFilter G = AdmitAll>
-  bool collides(Hierarchy& other, const G& across = {}, const QueryOptions& options = {}) {
+  bool collides(const Hierarchy& other, const G& across = {}, const QueryOptions& options = {}) const {
     return mutual(AnyHit{}, other, across, options).done();
   }
   /// Returns all colliding pairs, sorted by (first, second).
   template <PairFilter G = AdmitAll>
-  std::vector<Hit> collisions(Hierarchy& other, const G& across = {}, const QueryOptions& options = {}) {
+  std::vector<Hit> collisions(const Hierarchy& other, const G& across = {}, const QueryOptions& options = {}) const {
     return within(other, 0.0, across, options);
   }
   /// Returns all pairs with d - M < margin, sorted by (first, second). ConfigurationError: margin not finite or
   /// negative.
   template <PairFilter G = AdmitAll>
-  std::vector<Hit> within(Hierarchy& other, double margin, const G& across = {}, const QueryOptions& options = {}) {
+  std::vector<Hit> within(const Hierarchy& other, double margin, const G& across = {},
+                          const QueryOptions& options = {}) const {
     return mutual(HitsWithin{checked(margin)}, other, across, options).take();
   }
   /// Returns the pair with the smallest d - M, or nullopt when no pair is admitted.
   template <PairFilter G = AdmitAll>
-  std::optional<Hit> closest(Hierarchy& other, const G& across = {}, const QueryOptions& options = {}) {
+  std::optional<Hit> closest(const Hierarchy& other, const G& across = {}, const QueryOptions& options = {}) const {
     const double most = largest(options.clearance) + largest(options.other_clearance);
     return mutual(Closest{-(largest_threshold_.between(other.largest_threshold_) + most)}, other, across, options)
         .hit();
@@ -145,50 +147,42 @@ class Hierarchy {
 
   /// Passes the pairs to a custom collector, in the order of the engine.
   template <Collector C, PairFilter G = AdmitAll>
-  void query(Hierarchy& other, C& collector, const G& across = {}, const QueryOptions& options = {}) {
-    static_assert(CrossEngine<E, P, F, D, G>, "this engine or distance matrix cannot answer between two models");
-    if (!matrix_.compatible(other.matrix_)) throw ModelError("the two models use different distance matrices");
+  void query(const Hierarchy& other, C& collector, const G& across = {}, const QueryOptions& options = {}) const {
     check_clearance(options.clearance, model().groups()->size());
     check_clearance(options.other_clearance, other.model().groups()->size());
     check_laws(across, model().model().links(), other.model().model().links());
-    if (this == &other) {
-      Hierarchy twin(other);  // engines use scratch memory on both sides
-      return engine_.query(twin.engine_, across, collector, options);
-    }
-    engine_.query(other.engine_, across, collector, options);
+    with_other(other, across, options,
+               [&](E& engine, const CrossRules<P, G, D>& rules) { engine_.query(engine, rules, collector); });
   }
 
   // --- Constant data, and coordinates at the current state ---
 
   /// The model under its DOF selection. The reference is valid while a copy of this object lives.
-  const SelectedModel<P>& model() const noexcept { return engine_.placement().model(); }
+  const SelectedModel<P>& model() const noexcept { return placement_.model(); }
   /// Returns the number of selected DOF: the length of q in update().
   std::size_t dof_count() const noexcept { return model().selection().size(); }
   /// Returns the world coordinates of all primitives; queries use the same numbers. The next update changes the span's
   /// contents.
-  std::span<const P> placed() {
-    for (std::size_t g = 0; g < model().groups()->size(); ++g) placement().place(id<GroupId>(g));
-    return placement().placed();
-  }
+  std::span<const P> placed() const { return placement_.place_all(); }
   /// Returns the world coordinates of primitive i, without placing the others.
-  P placed(PrimitiveId i) noexcept {
-    return placement().groups_may_deform() ? placement().placed()[index(i)] : placement().alone(i);
+  P placed(PrimitiveId i) const noexcept {
+    return placement_.groups_may_deform() ? placement_.placed()[index(i)] : placement_.alone(i);
   }
   /// Returns the world frame of each rigid group at the last configuration or poses, valid until the next update.
-  std::span<const Frame> frames() noexcept {
-    return placement().frames_through(id<GroupId>(model().groups()->size() - 1));
+  std::span<const Frame> frames() const noexcept {
+    return placement_.frames_through(id<GroupId>(model().groups()->size() - 1));
   }
   /// The pair filter.
   const F& filter() const noexcept { return filter_; }
   /// The distance matrix.
   const D& matrix() const noexcept { return matrix_; }
   /// Returns the world pose of a link at the last configuration or poses. ModelError: no such link.
-  Pose link_pose(LinkId link) {
+  Pose link_pose(LinkId link) const {
     if (index(link) >= model().model().tree().link_count())
       throw ModelError("link " + std::to_string(index(link)) + ": the model has " +
                        std::to_string(model().model().tree().link_count()));
     const RigidGroups& groups = *model().groups();
-    return placement().pose(groups.group_of(link)) * groups.link_in_group(link);
+    return placement_.pose(groups.group_of(link)) * groups.link_in_group(link);
   }
   /// Returns the pairs that collide at the reference and whose distance cannot change, sorted. Queries at a
   /// configuration do not report them. Costs one query over all pairs of the model.
@@ -255,23 +249,35 @@ class Hierarchy {
     return most;
   }
 
-  Placement<P>& placement() noexcept { return engine_.placement(); }
+  SelfRules<P, F, D> self_rules(const QueryOptions& options) const noexcept {
+    return {placement_, filter_, matrix_, options};
+  }
+  /// Calls visit(engine of the other model, rules).
+  template <class G, class Visit>
+  void with_other(const Hierarchy& other, const G& across, const QueryOptions& options, const Visit& visit) const {
+    static_assert(CrossEngine<E, P, F, D, G>, "this engine or distance matrix cannot answer between two models");
+    if (!matrix_.compatible(other.matrix_)) throw ModelError("the two models use different distance matrices");
+    if (this == &other)
+      return with_other(Hierarchy(other), across, options, visit);  // engines use memory on both sides
+    visit(other.engine_, CrossRules<P, G, D>{placement_, other.placement_, across, matrix_, other.matrix_, options});
+  }
 
   template <Collector C>
-  C self(C collector, const QueryOptions& options) {
+  C self(C collector, const QueryOptions& options) const {
     self_query(collector, options);
     return collector;
   }
   template <Collector C, PairFilter G>
-  C mutual(C collector, Hierarchy& other, const G& across, const QueryOptions& options) {
+  C mutual(C collector, const Hierarchy& other, const G& across, const QueryOptions& options) const {
     query(other, collector, across, options);
     return collector;
   }
 
   F filter_;
   D matrix_;
-  E engine_;
-  detail::LargestThreshold<D> largest_threshold_;  // after engine_: its initialiser validates the matrix
+  mutable Placement<P> placement_;  // queries compute what they need of the state
+  mutable E engine_;                // scratch
+  detail::LargestThreshold<D> largest_threshold_;
 };
 
 template <Primitive P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>

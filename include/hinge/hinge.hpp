@@ -50,5 +50,6 @@
 #include "hinge/query/collectors.hpp"
 #include "hinge/query/link_pair_hits.hpp"
 #include "hinge/query/mode.hpp"
+#include "hinge/query/pair_rules.hpp"
 #include "hinge/query/query_options.hpp"
 #include "hinge/version.hpp"

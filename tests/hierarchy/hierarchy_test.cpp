@@ -178,6 +178,22 @@ TYPED_TEST(EveryHierarchy, RefusesPoliciesMadeForAnotherModel) {
   EXPECT_THROW(a.collides(b), ModelError);
 }
 
+TYPED_TEST(EveryHierarchy, AnswersWhenConst) {
+  using Points = typename TypeParam::Points;
+  const auto model = two_groups({Vec3::Zero()}, {Vec3::UnitX()});
+  Points moving(model, AdmitAll{}, UniformClearance{1.5});
+  moving.update({0.0});
+  const Points& points = moving;
+  const Points copy = points;
+  EXPECT_TRUE(points.self_collides());
+  EXPECT_EQ(points.self_collisions(), copy.self_collisions());
+  EXPECT_EQ(points.self_closest()->distance, 1.0);
+  EXPECT_EQ(points.collisions(copy).size(), 4U);
+  EXPECT_EQ(points.collisions(points), points.collisions(copy));
+  EXPECT_EQ(points.placed()[1].position, Vec3(Vec3::UnitX()));
+  EXPECT_THROW(moving.update({0.0, 1.0}), ConfigurationError);
+}
+
 TEST(ModelBuilder, RefusesPrimitivesWithoutFiniteBounds) {
   ModelBuilder<Sphere> build;
   EXPECT_THROW(build.add_primitive(world, Sphere{Vec3(nan, 0, 0), 1.0}), ModelError);

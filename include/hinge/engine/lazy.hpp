@@ -15,10 +15,10 @@
 #include "hinge/detail/engine/lazy/lazy_layout.hpp"
 #include "hinge/detail/engine/lazy_tree.hpp"
 #include "hinge/detail/engine/traversal.hpp"
-#include "hinge/detail/query/pair_rules.hpp"
 #include "hinge/detail/query/test_pair.hpp"
 #include "hinge/engine/engine.hpp"
 #include "hinge/model/placement.hpp"
+#include "hinge/query/pair_rules.hpp"
 #include "hinge/query/query_options.hpp"
 
 namespace hinge {
@@ -29,47 +29,41 @@ namespace hinge {
 template <Primitive P, PairFilter F, DistanceMatrix D>
 class Lazy {
  public:
-  /// `filter` and `matrix` are made for the primitives of `model`; both are copied.
-  Lazy(std::shared_ptr<const SelectedModel<P>> model, F filter, D matrix)
-      : layout_(std::make_shared<const detail::LazyLayout>(*model, filter)),
-        placement_(std::move(model)),
-        filter_(std::move(filter)),
+  /// `filter` and `matrix` are made for the primitives of `model`.
+  Lazy(const SelectedModel<P>& model, const F& filter, D matrix)
+      : layout_(std::make_shared<const detail::LazyLayout>(model, filter)),
         matrix_(std::move(matrix)),
         trees_(layout_->body_count()),
         built_(layout_->body_count(), 0) {
     if constexpr (IsPointLike<P>) {
-      const std::vector<std::uint8_t> never_collides = zero_thresholds(matrix_, placement_.model().size());
+      const std::vector<std::uint8_t> never_collides = zero_thresholds(matrix_, model.size());
       for (std::uint32_t l = 0; l < layout_->leaf_count(); ++l)
         never_collides_.push_back(
             std::ranges::all_of(layout_->primitives(l), [&](PrimitiveId i) { return never_collides[index(i)] != 0; }));
     }
   }
 
-  /// The world coordinates that queries use. Valid for the life of the engine.
-  Placement<P>& placement() noexcept { return placement_; }
-  const Placement<P>& placement() const noexcept { return placement_; }
-
   /// Hands the admitted pairs i < j within the cutoff to `collector` (see Collector), until it is done.
   template <Collector C>
-  void self_query(C& collector, const QueryOptions& options) {
+  void self_query(const SelfRules<P, F, D>& rules, C& collector) {
     if (trees_.empty()) return;
     QueryCounts counts;
-    refresh();
-    run_self(collector, detail::SelfRules<P, F, D>{placement_, filter_, matrix_, options}, counts);
-    add(options.counts, counts);
+    refresh(rules.placement);
+    run_self(collector, rules, counts);
+    add(rules.options.counts, counts);
   }
 
-  /// The same for pairs between this model and `other`. `across` admits (primitive of this, primitive of other).
+  /// The same for pairs between this model and the model of `other`.
   template <Collector C, PairFilter G>
   requires CrossMatrix<D>
-  void query(Lazy& other, const G& across, C& collector, const QueryOptions& options) {
+  void query(Lazy& other, const CrossRules<P, G, D>& rules, C& collector) {
     if (trees_.empty() || other.trees_.empty()) return;
+    const QueryOptions& options = rules.options;
     QueryCounts counts;
-    refresh();
-    other.refresh();
+    refresh(rules.first);
+    other.refresh(rules.second);
     make_upper(options.clearance);
     other.make_upper(options.other_clearance);
-    const detail::CrossRules<P, G, D> rules{placement_, other.placement_, across, matrix_, other.matrix_, options};
     const auto cutoff = [&] { return collector.cutoff(); };
     // Compatible typed matrices have the same table, so a zero row holds for both models. Of any other matrix only one
     // fact is known: all thresholds within a model are 0. It must hold for both models.
@@ -89,9 +83,8 @@ class Lazy {
                 counts.pairs_tested += p.size() * q.size();
                 for (const PrimitiveId i : p)
                   for (const PrimitiveId j : q) {
-                    detail::test_pair(collector, i, j, placement_.placed()[index(i)],
-                                      other.placement_.placed()[index(j)], rules.threshold(i, j),
-                                      [&] { return rules.admits(i, j); });
+                    detail::test_pair(collector, i, j, rules.first.placed()[index(i)], rules.second.placed()[index(j)],
+                                      rules.threshold(i, j), [&] { return rules.admits(i, j); });
                     if (collector.done()) return false;
                   }
                 return true;
@@ -102,16 +95,8 @@ class Lazy {
     add(options.counts, counts);
   }
 
-  /// For tests: returns true when every tree built so far agrees with its boxes.
-  bool check_well_formed() {
-    refresh();
-    for (std::size_t b = 0; b < trees_.size(); ++b)
-      if (!detail::check_well_formed(trees_[b], boxes_of(b))) return false;
-    return true;
-  }
-
  private:
-  using Rules = detail::SelfRules<P, F, D>;
+  using Rules = SelfRules<P, F, D>;
 
   static void add(QueryCounts* total, const QueryCounts& counts) noexcept {
     if (total == nullptr) return;
@@ -121,24 +106,24 @@ class Lazy {
   }
 
   /// Renews the leaf boxes and the root of every body that moved since its tree was built.
-  void refresh() {
+  void refresh(Placement<P>& placement) {
     for (std::size_t b = 0; b < trees_.size(); ++b) {
       std::uint64_t version = 0;  // Versions only grow, so the sum changes when any of them does.
-      for (const GroupId g : layout_->groups(b)) version += placement_.version(g);
+      for (const GroupId g : layout_->groups(b)) version += placement.version(g);
       if (version == built_[b]) continue;
       built_[b] = version;
-      for (const GroupId g : layout_->groups(b)) placement_.place(g);
-      trees_[b].reset(boxes_of(b), idle_of(b));
+      for (const GroupId g : layout_->groups(b)) placement.place(g);
+      trees_[b].reset(boxes_of(b, placement), idle_of(b));
     }
   }
 
   /// BioCD eq. (2)-(4): the box of a leaf holds the bounds of its primitives, each inflated by its reach.
-  std::span<const Aabb> boxes_of(std::size_t body) {
+  std::span<const Aabb> boxes_of(std::size_t body, const Placement<P>& placement) {
     boxes_.clear();
     for (std::uint32_t l = layout_->first_leaf(body); l < layout_->first_leaf(body + 1); ++l) {
       Aabb box;
       for (const PrimitiveId i : layout_->primitives(l))
-        box.extend(placement_.placed()[index(i)].bounds().inflated(matrix_.reach(i)));
+        box.extend(placement.placed()[index(i)].bounds().inflated(matrix_.reach(i)));
       boxes_.push_back(box);
     }
     return boxes_;
@@ -179,7 +164,7 @@ class Lazy {
     const QueryOptions& options = rules.options;
     const bool skip_never_colliding = without_margin(collector, options);
     for (std::uint32_t b = 0; b < trees_.size(); ++b) {
-      const bool deforms = placement_.groups_may_deform();
+      const bool deforms = rules.placement.groups_may_deform();
       if (layout_->groups(b).size() > 1 || deforms)
         for (std::uint32_t l = layout_->first_leaf(b); l < layout_->first_leaf(b + 1); ++l)
           if (!(skip_never_colliding && never_collides_[l] != 0) && !test_leaves(l, l, collector, rules, counts))
@@ -190,15 +175,16 @@ class Lazy {
     traverse(
         upper_, upper_, stack_, counts, [&] { return collector.cutoff(); },
         [&](std::uint32_t a, std::uint32_t b) {
-          return (options.moved_only && !moved_apart(a, b)) || test_bodies(a, b, collector, rules, counts);
+          return (options.moved_only && !moved_apart(a, b, rules.placement)) ||
+                 test_bodies(a, b, collector, rules, counts);
         },
         skip_never_colliding);
   }
 
-  bool moved_apart(std::uint32_t a, std::uint32_t b) noexcept {
+  bool moved_apart(std::uint32_t a, std::uint32_t b, Placement<P>& placement) const noexcept {
     for (const GroupId g : layout_->groups(a))
       for (const GroupId h : layout_->groups(b))
-        if (placement_.moved_apart(g, h)) return true;
+        if (placement.moved_apart(g, h)) return true;
     return false;
   }
 
@@ -218,7 +204,7 @@ class Lazy {
   /// done.
   template <Collector C>
   bool test_leaves(std::uint32_t a, std::uint32_t b, C& collector, const Rules& rules, QueryCounts& counts) {
-    const std::span<const P> placed = placement_.placed();
+    const std::span<const P> placed = rules.placement.placed();
     const auto test = [&](PrimitiveId i, PrimitiveId j) {
       detail::test_pair(collector, i, j, placed[index(i)], placed[index(j)], rules.threshold(i, j),
                         [&] { return rules.admits(i, j); });
@@ -240,8 +226,6 @@ class Lazy {
   }
 
   std::shared_ptr<const detail::LazyLayout> layout_;  // shared by copies
-  Placement<P> placement_;
-  F filter_;
   D matrix_;
   std::vector<detail::LazyTree> trees_;        // per body; its items are the leaves of the body
   std::vector<std::uint64_t> built_;           // per body: sum of the versions that its tree was built from

@@ -23,10 +23,10 @@
 #include "hinge/detail/engine/simd/tree/tree_pair_test.hpp"
 #include "hinge/detail/engine/simd/tree/tree_side.hpp"
 #include "hinge/detail/engine/simd/work_budget.hpp"
-#include "hinge/detail/query/pair_rules.hpp"
 #include "hinge/detail/query/test_pair.hpp"
 #include "hinge/engine/engine.hpp"
 #include "hinge/model/placement.hpp"
+#include "hinge/query/pair_rules.hpp"
 #include "hinge/query/query_options.hpp"
 
 namespace hinge {
@@ -40,50 +40,47 @@ class Simd {
 
  public:
   /// `filter` and `matrix` are made for the primitives of `model`; both are copied.
-  Simd(std::shared_ptr<const SelectedModel<P>> model, F filter, D matrix)
-      : placement_(model), filter_(std::move(filter)), matrix_(std::move(matrix)), sides_(*model, matrix_) {
+  Simd(const SelectedModel<P>& model, F filter, D matrix)
+      : filter_(std::move(filter)), matrix_(std::move(matrix)), sides_(model, matrix_) {
     if constexpr (detail::UsesStaticBvh<P>)
-      trees_.emplace(std::make_shared<const detail::TreeParts<P>>(*model, filter_, matrix_));
+      trees_.emplace(std::make_shared<const detail::TreeParts<P>>(model, filter_, matrix_));
     else
-      present_side(true);
+      sides_.make(model, filter_, matrix_, false, true);
   }
-
-  /// The world coordinates that queries use. Valid for the life of the engine.
-  Placement<P>& placement() noexcept { return placement_; }
-  const Placement<P>& placement() const noexcept { return placement_; }
 
   /// Hands the admitted pairs i < j within the cutoff to `collector` (see Collector), until it is done.
   template <Collector C>
-  void self_query(C& collector, const QueryOptions& options) {
+  void self_query(const SelfRules<P, F, D>& rules, C& collector) {
     detail::WorkBudget budget;
-    const detail::SelfRules<P, F, D> rules{placement_, filter_, matrix_, options};
+    Placement<P>& placement = rules.placement;
+    const QueryOptions& options = rules.options;
     if constexpr (detail::UsesStaticBvh<P>)
-      if (by_trees()) {
-        trees_->self_query(placement_, tree_pair_test(collector, rules), collector, options, budget.counts);
+      if (by_trees(placement)) {
+        trees_->self_query(placement, detail::tree_pair_test(collector, rules), collector, options, budget.counts);
         return budget.report(options.counts);
       }
-    Side& side = present_side(without_margin(collector, options));
-    side.begin(placement_, options.moved_only, options.clearance);
+    Side& side = present_side(placement, without_margin(collector, options));
+    side.begin(placement, options.moved_only, options.clearance);
     const detail::SelfPairTest test_pair{
         collector, rules, [&](PrimitiveId first, PrimitiveId second) { return rules.admits(first, second); }};
     if constexpr (C::ranks) {
       // The previous closest pair gives a first upper bound. test_pair decides whether it belongs to the answer.
       if (witness_)
-        test_pair(witness_->first, witness_->second, side.exact(witness_->first, placement_),
-                  side.exact(witness_->second, placement_));
+        test_pair(witness_->first, witness_->second, side.exact(witness_->first, placement),
+                  side.exact(witness_->second, placement));
     }
     const detail::BlockLayout& layout = side.layout();
     budget.blocks_in = layout.block_count();
     begin();
     const auto listed_margin = [&] { return thresholds_.margin(); };
     const detail::Identity<P> as_is;
-    const auto run_listed = [&] { run(side, side, placement_, side.table(), as_is, test_pair, budget); };
+    const auto run_listed = [&] { run(side, placement, side, placement, side.table(), as_is, test_pair, budget); };
     std::size_t patience = 1;
     float extent = -1.0F;
     double cutoff = 0.0;
     std::size_t u = side.state().first_entry();
     for (; u < layout.entries.size() && !collector.done() && !budget.is_too_much(); ++u) {
-      side.refresh(u, placement_);
+      side.refresh(u, placement);
       if (u < layout.static_entries) continue;
       // The margin depends on the cutoff and on the extent of the placed coordinates (a power of two).
       if (side.state().extent() != extent || collector.cutoff() != cutoff) {
@@ -91,8 +88,7 @@ class Simd {
         cutoff = collector.cutoff();
         set_thresholds(side, side, side.table(), as_is, cutoff);
       }
-      if (!broad_phase_.within(side, u, placement_, listed_margin, budget.counts,
-                               relief(run_listed, collector, budget)))
+      if (!broad_phase_.within(side, u, placement, listed_margin, budget.counts, relief(run_listed, collector, budget)))
         break;
       broad_phase_.resume_point.reach(u + 1);
       // The first runs are short: a hit near the root saves placing the rest. Longer runs cost less per candidate.
@@ -102,8 +98,8 @@ class Simd {
     }
     if (!collector.done()) run_listed();
     if (u < layout.entries.size() && !collector.done()) {
-      search_.place(layout, placement_, matrix_, options.clearance);
-      const auto placed = placement_.placed();
+      search_.place(layout, placement, matrix_, options.clearance);
+      const auto placed = placement.placed();
       const detail::SelfPairTest rest{collector, rules, [&](PrimitiveId first, PrimitiveId second) {
                                         return !broad_phase_.resume_point.passed(layout, first, second) &&
                                                rules.admits(first, second);
@@ -122,38 +118,35 @@ class Simd {
 
   /// Records which pairs of links collide in the present state, to improve the order in which yes/no queries try pairs.
   /// Answers do not change. It has an effect only for primitives that are kept in static trees, such as triangles.
-  void calibrate_pair_order() {
+  void calibrate_pair_order(const SelfRules<P, F, D>& rules) {
     if constexpr (detail::UsesStaticBvh<P>) {
-      if (!by_trees()) return;
+      if (!by_trees(rules.placement)) return;
       AnyHit any;
-      const QueryOptions options;
-      const detail::SelfRules<P, F, D> rules{placement_, filter_, matrix_, options};
-      trees_->learn(placement_, tree_pair_test(any, rules), any);
+      trees_->learn(rules.placement, detail::tree_pair_test(any, rules), any);
     }
   }
   /// The same for yes/no queries against other models, represented by `other`: the order of this model's links.
   template <PairFilter G>
   requires CrossMatrix<D>
-  void calibrate_pair_order(Simd& other, const G& across) {
+  void calibrate_pair_order(Simd& other, const CrossRules<P, G, D>& rules) {
     if constexpr (detail::UsesStaticBvh<P>) {
-      if (!by_trees_with(other)) return;
+      if (!by_trees(other, rules)) return;
       AnyHit any;
-      const QueryOptions options;
-      const detail::CrossRules<P, G, D> rules{placement_, other.placement_, across, matrix_, other.matrix_, options};
-      trees_->learn(placement_, *other.trees_, other.placement_, tree_pair_test(any, rules), any);
+      trees_->learn(rules.first, *other.trees_, rules.second, detail::tree_pair_test(any, rules), any);
     }
   }
 
-  /// As self_query, for pairs between this model and `other`. `across` admits (primitive of this, primitive of other).
+  /// As self_query, for pairs between this model and the model of `other`.
   template <Collector C, PairFilter G>
   requires CrossMatrix<D>
-  void query(Simd& other, const G& across, C& collector, const QueryOptions& options) {
+  void query(Simd& other, const CrossRules<P, G, D>& rules, C& collector) {
     detail::WorkBudget budget;
-    const detail::CrossRules<P, G, D> rules{placement_, other.placement_, across, matrix_, other.matrix_, options};
+    Placement<P>&placement = rules.first, &other_placement = rules.second;
+    const QueryOptions& options = rules.options;
     if constexpr (detail::UsesStaticBvh<P>)
-      if (by_trees_with(other)) {
-        trees_->query(placement_, *other.trees_, other.placement_, tree_pair_test(collector, rules), collector, options,
-                      budget.counts);
+      if (by_trees(other, rules)) {
+        trees_->query(placement, *other.trees_, other_placement, detail::tree_pair_test(collector, rules), collector,
+                      options, budget.counts);
         return budget.report(options.counts);
       }
     const detail::CrossPairTest test_pair{collector, rules};
@@ -161,23 +154,24 @@ class Simd {
     const bool skip_never_colliding =
         without_margin(collector, options) &&
         (TypedThresholdMatrix<D> || (sides_.all_never_collide() && other.sides_.all_never_collide()));
-    Side &mine = present_side(skip_never_colliding), &theirs = other.present_side(skip_never_colliding);
-    mine.begin(placement_, false, options.clearance);
-    theirs.begin(other.placement_, false, options.other_clearance);
-    for (std::size_t u = mine.state().first_entry(); u < mine.layout().entries.size(); ++u) mine.refresh(u, placement_);
+    Side &mine = present_side(placement, skip_never_colliding),
+         &theirs = other.present_side(other_placement, skip_never_colliding);
+    mine.begin(placement, false, options.clearance);
+    theirs.begin(other_placement, false, options.other_clearance);
+    for (std::size_t u = mine.state().first_entry(); u < mine.layout().entries.size(); ++u) mine.refresh(u, placement);
     for (std::size_t u = theirs.state().first_entry(); u < theirs.layout().entries.size(); ++u)
-      theirs.refresh(u, other.placement_);
+      theirs.refresh(u, other_placement);
     const detail::CrossModelTransform<P> into(mine, theirs);
     begin();
     const detail::ThresholdTable table = mine.parts().classes.table(theirs.parts().classes, theirs.layout().scale);
     set_thresholds(mine, theirs, table, into, collector.cutoff());
     const std::size_t entries = mine.layout().entries.size();
     budget.blocks_in = mine.layout().block_count() + theirs.layout().block_count();
-    const auto run_listed = [&] { run(mine, theirs, other.placement_, table, into, test_pair, budget); };
+    const auto run_listed = [&] { run(mine, placement, theirs, other_placement, table, into, test_pair, budget); };
     std::size_t u = 0;
     for (; into.holds() && u < entries && !collector.done() && !budget.is_too_much(); ++u) {
       if (!broad_phase_.across(
-              mine, u, placement_, theirs, other.placement_, into, [&] { return thresholds_.margin(); },
+              mine, u, placement, theirs, other_placement, into, [&] { return thresholds_.margin(); },
               options.moved_only, budget.counts, relief(run_listed, collector, budget)))
         break;
       broad_phase_.resume_point.reach(u + 1);
@@ -185,13 +179,13 @@ class Simd {
     }
     if (!collector.done()) run_listed();
     if (u < entries && !collector.done()) {
-      search_.place(mine.layout(), placement_, matrix_, options.clearance);
-      other.search_.place(theirs.layout(), other.placement_, other.matrix_, options.other_clearance);
+      search_.place(mine.layout(), placement, matrix_, options.clearance);
+      other.search_.place(theirs.layout(), other_placement, other.matrix_, options.other_clearance);
       search_.across(
           other.search_, [&] { return collector.cutoff(); },
           [&](PrimitiveId i, PrimitiveId j) {
             if (!broad_phase_.resume_point.passed(mine.layout(), i, theirs.layout(), j))
-              test_pair(i, j, placement_.placed()[index(i)], other.placement_.placed()[index(j)]);
+              test_pair(i, j, placement.placed()[index(i)], other_placement.placed()[index(j)]);
             return !collector.done();
           },
           budget.searched);
@@ -221,12 +215,17 @@ class Simd {
   }
 
   /// Returns true when the trees can answer. They cannot hold groups that deform.
-  bool by_trees() const noexcept { return trees_.has_value() && !placement_.groups_may_deform(); }
-  bool by_trees_with(const Simd& other) const noexcept {
-    return by_trees() && other.by_trees() && trees_->fits(*other.trees_);
+  bool by_trees(const Placement<P>& placement) const noexcept {
+    return trees_.has_value() && !placement.groups_may_deform();
+  }
+  template <class Rules>
+  bool by_trees(const Simd& other, const Rules& rules) const noexcept {
+    return by_trees(rules.first) && other.by_trees(rules.second) && trees_->fits(*other.trees_);
   }
 
-  Side& present_side(bool without_margin) { return sides_.present(placement_, filter_, matrix_, without_margin); }
+  Side& present_side(const Placement<P>& placement, bool without_margin) {
+    return sides_.make(placement.model(), filter_, matrix_, placement.groups_may_deform(), without_margin);
+  }
 
   /// The margin covers the cutoff and the float error: no pair with d - M <= cutoff is lost. Clearances are added per
   /// pair.
@@ -238,8 +237,9 @@ class Simd {
   }
   /// Tests lanes of `one` against blocks of `sixteen`. Pairs that floats cannot rule out go to `test_pair`.
   template <class Convert, class TestPair>
-  void run(Side& one, Side& sixteen, Placement<P>& placement_of_sixteen, const detail::ThresholdTable& table,
-           const Convert& convert, const TestPair& test_pair, detail::WorkBudget& budget) {
+  void run(Side& one, Placement<P>& placement_of_one, Side& sixteen, Placement<P>& placement_of_sixteen,
+           const detail::ThresholdTable& table, const Convert& convert, const TestPair& test_pair,
+           detail::WorkBudget& budget) {
     auto& collector = test_pair.collector;
     constexpr bool may_measure = detail::MeasuresDistances<P> && !std::remove_reference_t<decltype(collector)>::ranks;
     detail::Measure measure;
@@ -268,7 +268,8 @@ class Simd {
           constexpr auto n = static_cast<std::uint32_t>(detail::simd::width);
           const std::uint32_t b = own / n, a = first / n;
           const detail::simd::Bits alone = detail::simd::Bits{1} << own % n;
-          const P& p = (few ? one.state().exact(b, alone, placement_) : one.state().exact(b, placement_))[own % n];
+          const P& p =
+              (few ? one.state().exact(b, alone, placement_of_one) : one.state().exact(b, placement_of_one))[own % n];
           const P* const q = few ? sixteen.state().exact(a, bits, placement_of_sixteen)
                                  : sixteen.state().exact(a, placement_of_sixteen);
           for (; bits != 0 && !collector.done(); bits &= bits - 1) {
@@ -285,7 +286,6 @@ class Simd {
   /// Longest candidate list while a large entry is swept: it fits in the second-level cache.
   static constexpr std::size_t longest_list = 16 * longest_run;
 
-  Placement<P> placement_;
   F filter_;
   D matrix_;
   detail::OptionalTreeSide<P> trees_;

@@ -57,6 +57,11 @@ class Placement {
   /// update.
   std::span<const P> placed() const noexcept { return placed_; }
 
+  /// Updates the world coordinates of all primitives and returns them.
+  std::span<const P> place_all() noexcept {
+    for (std::size_t g = 0; g < model_->groups()->size(); ++g) place(id<GroupId>(g));
+    return placed_;
+  }
   /// Updates the world coordinates of a group's primitives in placed().
   void place(GroupId group) noexcept {
     const std::uint64_t now = version(group);

@@ -22,7 +22,7 @@
 #include "hinge/detail/path/prove_apart.hpp"
 #include "hinge/detail/path/relative_motion.hpp"
 #include "hinge/detail/primitive/triangle_leaf.hpp"
-#include "hinge/detail/query/pair_rules.hpp"
+#include "hinge/detail/query/pair_threshold.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/path/path_answer.hpp"
 #include "hinge/path/straight_path.hpp"

@@ -17,7 +17,7 @@
 #include "hinge/core/id.hpp"
 #include "hinge/core/number_text.hpp"
 #include "hinge/core/radius_sum.hpp"
-#include "hinge/detail/query/pair_rules.hpp"
+#include "hinge/detail/query/pair_threshold.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/query/link_pair_hits.hpp"
 #include "hinge/query/query_options.hpp"

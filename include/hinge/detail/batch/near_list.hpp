@@ -17,7 +17,7 @@
 #include "hinge/detail/batch/displacement_bounds.hpp"
 #include "hinge/detail/batch/frame_lanes.hpp"
 #include "hinge/detail/bounds/float_box.hpp"
-#include "hinge/detail/query/pair_rules.hpp"
+#include "hinge/detail/query/pair_threshold.hpp"
 #include "hinge/detail/simd/lanes.hpp"
 #include "hinge/model/selected_model.hpp"
 #include "hinge/policy/primitive.hpp"

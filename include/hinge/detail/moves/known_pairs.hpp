@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "hinge/core/id.hpp"
-#include "hinge/detail/query/pair_rules.hpp"
+#include "hinge/detail/query/pair_threshold.hpp"
 #include "hinge/detail/query/sort_hits.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/policy/distance_matrix.hpp"

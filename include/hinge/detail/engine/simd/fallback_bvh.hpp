@@ -16,7 +16,7 @@
 #include "hinge/detail/engine/lazy_tree.hpp"
 #include "hinge/detail/engine/simd/block_layout.hpp"
 #include "hinge/detail/engine/traversal.hpp"
-#include "hinge/detail/query/pair_rules.hpp"
+#include "hinge/detail/query/pair_threshold.hpp"
 #include "hinge/detail/simd/lanes.hpp"
 #include "hinge/model/placement.hpp"
 #include "hinge/policy/distance_matrix.hpp"

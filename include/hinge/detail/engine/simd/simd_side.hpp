@@ -15,7 +15,7 @@
 #include "hinge/detail/engine/simd/block_layout.hpp"
 #include "hinge/detail/engine/simd/exclusion_masks.hpp"
 #include "hinge/detail/engine/simd/simd_state.hpp"
-#include "hinge/detail/query/pair_rules.hpp"
+#include "hinge/detail/query/pair_threshold.hpp"
 #include "hinge/detail/simd/gather_bits.hpp"
 #include "hinge/model/placement.hpp"
 #include "hinge/query/query_options.hpp"

@@ -14,7 +14,6 @@
 #include "hinge/detail/engine/simd/simd_side.hpp"
 #include "hinge/detail/engine/simd/simd_state.hpp"
 #include "hinge/detail/engine/simd/threshold_classes.hpp"
-#include "hinge/model/placement.hpp"
 #include "hinge/model/selected_model.hpp"
 #include "hinge/policy/distance_matrix.hpp"
 #include "hinge/policy/pair_filter.hpp"
@@ -24,7 +23,7 @@ namespace hinge::detail {
 
 /// One side has blocks by rigid group; another has blocks by index, for coordinates given from outside. If some
 /// primitives never collide (point-like, all thresholds 0), each of the two has a variant without them, for queries
-/// without a margin. A side is made at its first use.
+/// without a margin.
 template <Primitive P>
 class SimdSides {
  public:
@@ -42,13 +41,13 @@ class SimdSides {
   /// True if every primitive is point-like and all thresholds are 0.
   bool all_never_collide() const noexcept { return all_never_collide_; }
 
-  /// Returns the side for the present source of coordinates. without_margin: skip primitives that never collide.
+  /// Returns a side, made at its first use. deform: rigid groups may deform. without_margin: skip primitives that never
+  /// collide.
   template <PairFilter F, DistanceMatrix D>
-  SimdSide<P>& present(const Placement<P>& placement, const F& filter, const D& matrix, bool without_margin) {
-    const bool deform = placement.groups_may_deform(), fewer = without_margin && !never_collides_.empty();
+  SimdSide<P>& make(const SelectedModel<P>& model, const F& filter, const D& matrix, bool deform, bool without_margin) {
+    const bool fewer = without_margin && !never_collides_.empty();
     std::optional<SimdSide<P>>& side = sides_[2 * std::size_t{deform} + std::size_t{fewer}];
     if (!side) {
-      const SelectedModel<P>& model = placement.model();
       const std::span<const std::uint8_t> left_out =
           fewer ? std::span(never_collides_) : std::span<const std::uint8_t>();
       side.emplace(std::make_shared<const SimdParts<P>>(

@@ -13,7 +13,7 @@
 #include "hinge/detail/engine/simd/tree/relative_transform.hpp"
 #include "hinge/detail/engine/simd/tree/tree_parts.hpp"
 #include "hinge/detail/engine/simd/tree/tree_state.hpp"
-#include "hinge/detail/query/pair_rules.hpp"
+#include "hinge/detail/query/pair_threshold.hpp"
 #include "hinge/model/placement.hpp"
 
 namespace hinge::detail {

@@ -4,7 +4,7 @@
 
 #include "hinge/core/id.hpp"
 #include "hinge/detail/engine/simd/pair_test.hpp"
-#include "hinge/detail/query/pair_rules.hpp"
+#include "hinge/query/pair_rules.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/policy/distance_matrix.hpp"
 #include "hinge/policy/pair_filter.hpp"

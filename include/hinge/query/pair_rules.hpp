@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SelfRules and CrossRules: one query of an engine: the state, the thresholds and the admission of its pairs.
+#pragma once
+
+#include "hinge/core/id.hpp"
+#include "hinge/detail/query/pair_threshold.hpp"
+#include "hinge/detail/query/test_pair.hpp"
+#include "hinge/model/placement.hpp"
+#include "hinge/policy/collector.hpp"
+#include "hinge/policy/distance_matrix.hpp"
+#include "hinge/policy/pair_filter.hpp"
+#include "hinge/policy/primitive.hpp"
+#include "hinge/query/query_options.hpp"
+
+namespace hinge {
+/// A query of pairs inside one model. A view that is valid during the query.
+template <Primitive P, PairFilter F, DistanceMatrix D>
+struct SelfRules {
+  Placement<P>& placement;      ///< world coordinates of the model
+  const F& filter;              ///< of the model
+  const D& matrix;              ///< of the model
+  const QueryOptions& options;  ///< valid for the model
+
+  /// Returns the extra clearance of a primitive's group. It is added to the thresholds of its pairs.
+  double clearance(PrimitiveId i) const noexcept {
+    return detail::clearance_of(options.clearance, placement.model().group_of(i));
+  }
+  /// Returns the threshold of a pair, extra clearances included: a double or a RadiusSum.
+  auto threshold(PrimitiveId i, PrimitiveId j) const noexcept {
+    const auto m = detail::threshold_of(matrix, i, j);
+    return options.clearance.empty() ? m : m + (clearance(i) + clearance(j));
+  }
+  /// Returns true when the filter admits the pair, its distance is not constant and, in moved-only queries, the two
+  /// groups moved relative to each other.
+  bool admits(PrimitiveId i, PrimitiveId j) const noexcept {
+    const auto& model = placement.model();
+    return filter.admits(i, j) && !placement.constant(i, j) &&
+           (!options.moved_only || placement.moved_apart(model.group_of(i), model.group_of(j)));
+  }
+  /// Passes the pair i < j of primitives p and q, in world coordinates, to the collector if it counts and lies within
+  /// the cutoff. Every engine decides pairs here.
+  template <Collector C>
+  void test(C& collector, PrimitiveId i, PrimitiveId j, const P& p, const P& q) const {
+    if (options.counts != nullptr) ++options.counts->pairs_tested;
+    detail::test_pair(collector, i, j, p, q, threshold(i, j), [&] { return admits(i, j); });
+  }
+};
+
+/// A query of pairs of two models: i of the first, j of the second. A view that is valid during the query.
+template <Primitive P, PairFilter F, CrossMatrix D>
+struct CrossRules {
+  Placement<P>& first;          ///< world coordinates of the first model
+  Placement<P>& second;         ///< world coordinates of the second model
+  const F& filter;              ///< admits (primitive of the first, primitive of the second)
+  const D& first_matrix;        ///< of the first model
+  const D& second_matrix;       ///< of the second model; the two are compatible
+  const QueryOptions& options;  ///< valid for both models
+
+  /// Returns the threshold of a pair, extra clearances included: a double or a RadiusSum.
+  auto threshold(PrimitiveId i, PrimitiveId j) const noexcept {
+    return detail::threshold_of(first_matrix, i, second_matrix, j) +
+           (detail::clearance_of(options.clearance, first.model().group_of(i)) +
+            detail::clearance_of(options.other_clearance, second.model().group_of(j)));
+  }
+  /// Returns true when the filter admits the pair and, in moved-only queries, either group moved.
+  bool admits(PrimitiveId i, PrimitiveId j) const noexcept {
+    return filter.admits(i, j) &&
+           (!options.moved_only || first.moved(first.model().group_of(i)) || second.moved(second.model().group_of(j)));
+  }
+  /// The same as SelfRules::test.
+  template <Collector C>
+  void test(C& collector, PrimitiveId i, PrimitiveId j, const P& p, const P& q) const {
+    if (options.counts != nullptr) ++options.counts->pairs_tested;
+    detail::test_pair(collector, i, j, p, q, threshold(i, j), [&] { return admits(i, j); });
+  }
+};
+
+}  // namespace hinge
