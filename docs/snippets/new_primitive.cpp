@@ -23,6 +23,6 @@ int main() {
   const auto model = build.finish();
   hinge::Hierarchy arm(model, hinge::DifferentLinks({model.links().begin(), model.links().end()}),
                        hinge::UniformClearance{0.05});
-  arm.update({{0.0, 3.0}});  // rad
+  arm.update({0.0, 3.0});  // rad
   return arm.self_collides() && arm.self_closest()->first == hinge::PrimitiveId{0} ? 0 : 1;
 }
