@@ -16,6 +16,7 @@
 #include "answer.hpp"
 #include "configurations.hpp"
 #include "hinge/batch/ensemble.hpp"
+#include "hinge/core/error.hpp"
 #include "hinge_tools/complete_file.hpp"
 #include "hinge_tools/csv_field.hpp"
 #include "hinge_tools/json_text.hpp"
@@ -44,6 +45,7 @@ struct Summary {
   }
 };
 
+constexpr std::size_t block_size = 64;   // configurations that one call of check_batch() tests
 constexpr std::size_t shown_pairs = 10;  // of a summary; longer lists are not read
 
 void print_json_start(const Options& options, const Job& job, const Mode& mode) {
@@ -134,8 +136,34 @@ Exit run_check(const Options& options) {
     file.check();
     bar.show(k + 1);
   };
+  // Yes or no about the robot alone is answered for many configurations at once.
+  const bool in_blocks = mode.kind == Mode::Kind::any && !worker.environment && !options.contained;
+  const auto judge_block = [&](Worker& own, std::size_t b) {
+    std::vector<double> block;
+    for (std::size_t k = b * block_size; k < std::min((b + 1) * block_size, configurations.count); ++k) {
+      const std::vector<double> q = configurations.at(k);
+      block.insert(block.end(), q.begin(), q.end());
+    }
+    try {
+      return own.checker.check_batch(block);
+    } catch (const hinge::ConfigurationError&) {  // names the configuration by its place in the block
+      for (std::size_t k = b * block_size; k < std::min((b + 1) * block_size, configurations.count); ++k) judge(own, k);
+      throw;
+    }
+  };
+  const auto report_block = [&](std::size_t b, const std::vector<std::uint8_t>& verdicts) {
+    Answer answer;
+    for (std::size_t k = 0; k < verdicts.size(); ++k) {
+      answer.collides = answer.self.collides = verdicts[k] != 0;
+      report(b * block_size + k, answer);
+    }
+  };
   try {
-    hinge::Ensemble(worker, options.threads).run(configurations.count, judge, report);
+    hinge::Ensemble ensemble(worker, options.threads);
+    if (in_blocks && !job.robot->independent_joints().empty())
+      ensemble.run((configurations.count + block_size - 1) / block_size, judge_block, report_block, 16);
+    else
+      ensemble.run(configurations.count, judge, report);
     file.finish();
   } catch (const std::exception& error) {  // such as a full disk
     if (options.output == Output::json) print_json_end(summary, error.what());

@@ -5,8 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +22,7 @@
 #include "hinge/hierarchy.hpp"
 #include "hinge/robotics/read_srdf.hpp"
 #include "hinge/robotics/read_urdf.hpp"
+#include "hinge/robotics/robot_checker.hpp"
 #include "hinge/robotics/tested_pairs.hpp"
 
 namespace hinge::robotics {
@@ -97,6 +102,75 @@ TEST(SphereModel, BatchesOfPandaAgreeWithSingleQueries) {
     hits += static_cast<std::size_t>(std::popcount(expected));
   }
   EXPECT_GT(hits, 200U);
+}
+
+/// A chain of links with spheres of many sizes, some of which touch exactly at q = 0; one joint follows another one.
+RobotDescription chain_of_spheres(bool with_box) {
+  RobotDescription robot{"chain", {}, {}};
+  for (int l = 0; l < 7; ++l) {
+    LinkDescription link{"link" + std::to_string(l)};
+    for (int k = 0; k < 3; ++k)
+      link.geometry.push_back(
+          {SphereShape{0.0625 + 0.03125 * ((l + k) % 2)}, Pose{Mat3::Identity(), Vec3(0.125 * k, 0, 0)}});
+    if (with_box && l == 3) link.geometry.push_back({BoxShape{{0.01, 0.01, 0.01}}});
+    robot.links.push_back(std::move(link));
+    if (l == 0) continue;
+    JointDescription joint{"joint" + std::to_string(l), l % 3 == 0 ? JointType::prismatic : JointType::revolute,
+                           "link" + std::to_string(l - 1), "link" + std::to_string(l)};
+    joint.origin.translation = Vec3(0.3125, 0, 0);
+    joint.axis = l % 2 == 0 ? Vec3::UnitZ() : Vec3::UnitY();
+    joint.lower = -2.5;
+    joint.upper = 2.5;
+    if (l == 5) joint.mimic = Mimic{"joint4", -1.0, 0.25};
+    robot.joints.push_back(std::move(joint));
+  }
+  return robot;
+}
+
+TEST(CheckBatch, GivesTheVerdictsOfSingleChecks) {
+  struct Case {
+    const char* name;
+    bool with_box;
+    double clearance;
+    const char* engine;
+    bool moved_base;
+  };
+  for (const Case& c : {Case{"spheres", false, 0.0, "simd", false}, Case{"a box, too", true, 0.0, "simd", false},
+                        Case{"a clearance", false, 0.01, "simd", false}, Case{"engine lazy", false, 0.0, "lazy", false},
+                        Case{"a base", false, 0.0, "simd", true}}) {
+    SCOPED_TRACE(c.name);
+    const auto robot = std::make_shared<const Robot>(chain_of_spheres(c.with_box));
+    RobotChecker batch(robot, tested_pairs(*robot), LinkMargins(*robot, c.clearance), CheckOptions{c.engine});
+    if (c.moved_base) batch.set_base(Pose{rotation_about(Vec3::UnitX(), 0.3), Vec3(1, 2, 3)});
+    RobotChecker single = batch;
+    const std::size_t n = robot->independent_joints().size();
+    SampleStream stream(11, 2);
+    std::vector<double> all;
+    for (std::size_t k = 0; k < 1003 * n; ++k)
+      // Multiples of 2^-4 give exact contacts between slides.
+      all.push_back(k % 5 == 0 ? std::ldexp(std::floor(stream.uniform() * 80 - 40), -4) : 5 * stream.uniform() - 2.5);
+    const std::vector<std::uint8_t> verdicts = batch.check_batch(all);
+    ASSERT_EQ(verdicts.size(), 1003U);
+    std::size_t hits = 0;
+    for (std::size_t k = 0; k < verdicts.size(); ++k) {
+      single.update(std::span(all).subspan(k * n, n));
+      ASSERT_EQ(verdicts[k] != 0, single.collides()) << "configuration " << k;
+      hits += verdicts[k];
+    }
+    EXPECT_GT(hits, 50U);
+    EXPECT_LT(hits, 950U);
+    EXPECT_EQ(batch.link_pose(id<LinkId>(5)), single.link_pose(id<LinkId>(5)));
+    EXPECT_EQ(batch.check_batch(std::span(all).first(n)), std::vector<std::uint8_t>{verdicts[0]});
+    EXPECT_TRUE(batch.check_batch({}).empty());
+    all[20 * n + 1] = std::numeric_limits<double>::quiet_NaN();
+    try {
+      batch.check_batch(all);
+      FAIL() << "NaN was accepted";
+    } catch (const ConfigurationError& error) {
+      EXPECT_EQ(std::string(error.what()).rfind("configuration 20: ", 0), 0U) << error.what();
+    }
+    EXPECT_THROW(batch.check_batch(std::span(all).first(n + 1)), ConfigurationError);
+  }
 }
 
 }  // namespace sphere_model_test

@@ -13,6 +13,13 @@
 
 namespace hinge::robotics {
 
+bool has_only_spheres(const Robot& robot) {
+  for (const LinkDescription& link : robot.description().links)
+    for (const PlacedShape& placed : link.geometry)
+      if (!std::holds_alternative<SphereShape>(placed.shape)) return false;
+  return true;
+}
+
 Model<Sphere> spheres_of(const Robot& robot) {
   std::map<std::string_view, const LinkDescription*> descriptions;
   for (const LinkDescription& link : robot.description().links) descriptions[link.name] = &link;

@@ -63,14 +63,17 @@ void RobotChecker::find_solid_pairs() {
       *hierarchy_);
 }
 
+void RobotChecker::expand(std::span<const double> independent, std::span<double> full) const {
+  robot_->expand(independent, full);
+  for (std::size_t d = 0; d < full.size(); ++d)
+    if (!(std::abs(full[d]) <= largest_value))
+      throw ConfigurationError("joint '" + robot_->description().joints[robot_->joint_of(id<DofId>(d))].name +
+                               "' comes to be " + number_text(full[d]) + ", expected a finite number of at most 1e300");
+}
+
 void RobotChecker::update(std::span<const double> independent) {
   next_.resize(full_.size());
-  robot_->expand(independent, next_);
-  for (std::size_t d = 0; d < next_.size(); ++d)
-    if (!(std::abs(next_[d]) <= largest_value))
-      throw ConfigurationError("joint '" + robot_->description().joints[robot_->joint_of(id<DofId>(d))].name +
-                               "' comes to be " + number_text(next_[d]) +
-                               ", expected a finite number of at most 1e300");
+  expand(independent, next_);
   if (kinematics_) {
     kinematics_->set_configuration(next_);
     try {

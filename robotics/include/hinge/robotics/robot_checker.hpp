@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "hinge/batch/sphere_batch.hpp"
 #include "hinge/bounds/aabb.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/core/pose.hpp"
@@ -131,6 +132,12 @@ class RobotChecker {
 
   /// Calls update() and the queries of `mode`.
   Verdict check(std::span<const double> independent, const Mode& mode);
+  /// Returns one verdict per configuration: 1 if it collides, otherwise 0, as collides() after update().
+  /// configurations: one after the other, one value per independent joint; the last one becomes the state. A robot made
+  /// of spheres, without clearance and with a fixed base, is tested sixteen configurations at a time by the SIMD engine
+  /// (see SphereBatch). Throws ConfigurationError if the number of values is wrong, or as update(), naming the
+  /// configuration.
+  std::vector<std::uint8_t> check_batch(std::span<const double> configurations);
 
   // --- Against an environment. Bodies attached to this robot follow it and are tested against its links and the other
   // bodies. Between links and bodies the clearance is the larger of the environment's and margins().clearance();
@@ -183,6 +190,10 @@ class RobotChecker {
   };
   void place(AnyHierarchy& hierarchy, const Pose& base, detail::PoseSource& kinematics);
   void find_solid_pairs();
+  // Expands the values of the independent joints into `full`. Throws as update().
+  void expand(std::span<const double> independent, std::span<double> full) const;
+  // True if spheres_ can answer.
+  bool answers_by_spheres() const;
   std::optional<ClosestLinks> closest_surfaces(AnyHierarchy& hierarchy);
   // True if the coordinates of the result are so large that its distance has lost digits.
   bool is_far(const ClosestLinks& found) const;
@@ -229,6 +240,7 @@ class RobotChecker {
   std::vector<Aabb> link_boxes_;                          // by link, world frame
   bool link_boxes_stand_ = false;                         // link_boxes_ belong to the current state
   std::shared_ptr<const Topology> topology_;
+  std::optional<SphereBatch> spheres_;  // made by the first check_batch() that can use it
 };
 
 }  // namespace hinge::robotics

@@ -8,6 +8,9 @@
 
 namespace hinge::robotics {
 
+/// Returns true if all collision shapes of the robot are spheres.
+bool has_only_spheres(const Robot& robot);
+
 /// Returns a model of spheres with the links and DOF of robot.model(), in m, spheres in the order of their links. If
 /// the robot was made with Tessellation::Manner::rounded, it has one triangle per sphere in the same order, so that one
 /// LinkPairFilter fits both models. robot.expand() gives a full configuration. Throws ModelError, naming the link, if a
