@@ -2,7 +2,9 @@
 // biocd sample: draws random conformations, checks them in parallel, and reports them in index order.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <optional>
@@ -66,6 +68,33 @@ Sample draw(Worker& worker, const Job& job, const Sampling& sampling, std::uint6
     sample.torsions = torsion_values(job, closed.q);
   }
   return sample;
+}
+
+/// Conformations that one call of check_batch() tests.
+constexpr std::size_t block_size = 16;
+
+/// Draws conformations first .. last - 1 and tests them together. takes(collides): positions are wanted.
+template <class Takes>
+std::vector<Sample> draw_block(Worker& worker, const Job& job, const Sampling& sampling, std::uint64_t first,
+                               std::uint64_t last, const Takes& takes) {
+  std::vector<Sample> samples;
+  std::vector<double> all;
+  for (std::uint64_t k = first; k < last; ++k) {
+    const std::vector<double> q = sample_configuration(sampling, k, *job.molecule, job.checker.selection(), job.ranges);
+    all.insert(all.end(), q.begin(), q.end());
+    samples.push_back({});
+    samples.back().placements = placements_of(job, q);
+    samples.back().torsions = torsion_values(job, q);
+  }
+  const std::vector<std::uint8_t> verdicts = worker.checker.check_batch(all);
+  for (std::size_t k = 0; k < verdicts.size(); ++k) {
+    samples[k].verdict.collides = verdicts[k] != 0;
+    if (!takes(verdicts[k] != 0)) continue;
+    const std::size_t dof = all.size() / verdicts.size();
+    worker.checker.check(std::span(all).subspan(k * dof, dof), Mode::parse("any"));
+    samples[k].positions = worker.checker.positions();
+  }
+  return samples;
 }
 
 /// Output file of --torsions-out: an array of samples x DOF. Does nothing if the path is empty.
@@ -188,9 +217,25 @@ Exit run_sample(const Options& options) {
     torsions.add(sample.torsions);
     file.add(sample.positions, static_cast<int>(k) + 1, sample.verdict.collides);
   };
+  // Yes or no is all that blocks tell.
+  const bool in_blocks =
+      mode.kind == Mode::Kind::any && !closed && closure_names(job).empty() && job.checker.dof_count() > 0;
+  const auto count = static_cast<std::size_t>(end - begin);
   try {
-    hinge::Ensemble(worker, options.threads)
-        .run(static_cast<std::size_t>(end - begin), judge, report, results_at_once(s.atoms.size()));
+    hinge::Ensemble ensemble(worker, options.threads);
+    if (in_blocks)
+      ensemble.run((count + block_size - 1) / block_size,
+                   [&, begin = begin, end = end](Worker& mine, std::size_t b) {
+                     const std::uint64_t first = begin + b * block_size;
+                     return draw_block(mine, job, sampling, first, std::min<std::uint64_t>(first + block_size, end),
+                                       [&](bool collides) { return file.takes(collides); });
+                   },
+                   [&](std::size_t b, const std::vector<Sample>& samples) {
+                     for (std::size_t k = 0; k < samples.size(); ++k) report(b * block_size + k, samples[k]);
+                   },
+                   std::max<std::size_t>(1, results_at_once(s.atoms.size()) / block_size));
+    else
+      ensemble.run(count, judge, report, results_at_once(s.atoms.size()));
     file.finish();
     torsions.finish();
   } catch (const hinge::Error& error) {  // for example a full disk

@@ -13,7 +13,9 @@
 #include <filesystem>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <ostream>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -62,6 +64,41 @@ void expect_equal_engines(const std::shared_ptr<const Molecule>& molecule, const
     }
   std::printf("seed %d: %zu of %d random and %zu of %d near-native conformations collide\n", static_cast<int>(seed),
               colliding[0], count, colliding[1], count);
+}
+
+/// Conformations around the reference; sigma 0: at random over the full range.
+std::vector<double> many_conformations(Checker& checker, double sigma, std::size_t count) {
+  std::vector<double> all;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Sampling sampling{seed, sigma > 0.0 ? std::optional(sigma) : std::nullopt};
+    const auto q = sample_configuration(sampling, k, checker.dof_count());
+    all.insert(all.end(), q.begin(), q.end());
+  }
+  return all;
+}
+
+TEST(CheckBatch, GivesTheVerdictsOfSingleChecks) {
+  const auto molecule = std::make_shared<const Molecule>(read_structure(test::ubiquitin()));
+  CheckOptions rules;
+  rules.exempt_reference = true;
+  for (const char* spec : {"all", "count:1", "count:5"})
+    for (const char* engine : {"simd", "lazy"}) {
+      rules.engine = engine;
+      Checker checker(molecule, molecule->select(select_torsions(*molecule, spec, true)), rules), single = checker;
+      for (const double degrees : {0.0, 0.02, 0.2, 2.0, 20.0}) {
+        SCOPED_TRACE(std::string(spec) + ' ' + engine + ' ' + std::to_string(degrees));
+        const std::size_t n = checker.dof_count();
+        const std::vector<double> all = many_conformations(checker, degrees * std::numbers::pi / 180, 203);
+        const std::vector<std::uint8_t> verdicts = checker.check_batch(all);
+        ASSERT_EQ(verdicts.size(), 203U);
+        for (std::size_t k = 0; k < verdicts.size(); ++k)
+          ASSERT_EQ(verdicts[k] != 0, single.check(std::span(all).subspan(k * n, n), Mode::parse("any")).collides) << k;
+        EXPECT_EQ(checker.positions(), single.positions());
+      }
+      EXPECT_TRUE(checker.check_batch({}).empty());
+      const std::vector<double> one_too_many(2 * checker.dof_count() + 1);
+      EXPECT_THROW(checker.check_batch(one_too_many), ConfigurationError);
+    }
 }
 
 TEST(Engines, EqualBruteForceOnUbiquitin) {

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "hinge/batch/state_batch.hpp"
 #include "hinge/engine/brute.hpp"
 #include "hinge/engine/lazy.hpp"
 #include "hinge/engine/simd.hpp"
@@ -96,6 +97,11 @@ class Checker {
   /// Tests the conformation at q. q: dof_count() values, angles in rad and slides in angstrom, relative to the
   /// reference. Throws ConfigurationError if their number is wrong or a value is not finite.
   Verdict check(std::span<const double> q, const Mode& mode);
+  /// Returns one verdict per conformation: 1 if it collides, otherwise 0, as check() in mode any. conformations: one
+  /// after the other, dof_count() values each; the last one becomes the state. The SIMD engine tests sixteen at a time
+  /// (see StateBatch), which is faster if they are near each other, as samples around one conformation are. Throws
+  /// ConfigurationError if the number of values is wrong or a value is not finite.
+  std::vector<std::uint8_t> check_batch(std::span<const double> conformations);
   /// Tests given coordinates. positions: angstrom, one per atom. Every admitted pair is tested, independent of the
   /// selection. Distances of atoms whose coordinates have at most three decimals, as in files, are compared in exact
   /// decimals.
@@ -114,6 +120,7 @@ class Checker {
   std::shared_ptr<const std::vector<Hit>> constant_;
   MinBonds min_bonds_{4};
   std::optional<AnyHierarchy> hierarchy_;
+  std::optional<StateBatch<Point, BondExclusions, TypedThresholds>> batch_;  // made by the first check_batch()
 };
 
 }  // namespace hinge::molecular
