@@ -72,12 +72,12 @@ inline std::size_t print_batch(Scene& scene, const std::string& name) {
     }
     const BatchCounts& c = batch.counts();
     const double states = 16.0 * count, asked = states * rounds;
-    std::printf("batch any %s%s single %.2f   # %.2f and %.2f us, %.0f %% collide, %.2f lists a block of %.0f pairs, ",
-                name.c_str(), along_paths ? "" : "-samples", single_sum / batch_sum, single_sum / states,
-                batch_sum / states, 100.0 * static_cast<double>(colliding) / asked,
-                static_cast<double>(c.lists) * 16.0 / asked,
-                static_cast<double>(c.listed) / std::max(1.0, static_cast<double>(c.lists)));
-    std::printf("%.1f %% alone\n", 100.0 * static_cast<double>(c.alone) / asked);
+    std::printf(
+        "batch any %s%s single %.2f   # %.2f and %.2f us, %.0f %% collide, %.2f lists per block of %.0f pairs, ",
+        name.c_str(), along_paths ? "" : "-samples", single_sum / batch_sum, single_sum / states, batch_sum / states,
+        100.0 * static_cast<double>(colliding) / asked, static_cast<double>(c.lists) * 16.0 / asked,
+        static_cast<double>(c.listed) / std::max(1.0, static_cast<double>(c.lists)));
+    std::printf("%.1f %% answered one at a time\n", 100.0 * static_cast<double>(c.alone) / asked);
   }
   return wrong;
 }

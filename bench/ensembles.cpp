@@ -102,9 +102,9 @@ struct Measured {
 template <class Work>
 Measured measure(const Work& work) {
   int ends[2] = {};
-  if (pipe(ends) != 0) throw std::runtime_error("no pipe");
+  if (pipe(ends) != 0) throw std::runtime_error("cannot create a pipe");
   const pid_t child = fork();
-  if (child < 0) throw std::runtime_error("no process");
+  if (child < 0) throw std::runtime_error("cannot create a process");
   if (child == 0) {
     int status = 1;
     try {
@@ -193,8 +193,9 @@ void run(const Files& files, std::size_t count, std::size_t residues) {
     return Told{0.0, molecule->structure().atoms.size()};
   });
   std::printf(
-      "%zu conformations of %zu residues, %llu atoms, seed %llu; made in %.1f s\n"
-      "the molecule alone: peak %.0f MB\n\n| file | MB | what | seconds | frames/s | peak MB | / reading | free |\n"
+      "%zu conformations of %zu residues, %llu atoms, seed %llu; generated in %.1f s\n"
+      "without frames, only the molecule: peak %.0f MB\n\n| file | MB | task | seconds | frames/s | peak MB | / "
+      "reading | free |\n"
       "|---|---|---|---|---|---|---|---|\n",
       count, residues, static_cast<unsigned long long>(alone.told.free), static_cast<unsigned long long>(seed),
       made.told.seconds, alone.peak_megabytes);

@@ -109,8 +109,9 @@ void print(const Row& row, std::uint64_t starts) {
 int main(int argc, char** argv) {
   const std::uint64_t starts = argc > 1 ? static_cast<std::uint64_t>(std::atoll(argv[1])) : 500;
   const Structure s = read_structure(std::string(HINGE_SOURCE_DIR) + "/molecular/data/1ubq.pdb");
-  std::printf("flags: %s; %llu uniform starts a loop, seed 1; closed, time of a start, closed loops a second\n",
-              HINGE_BENCH_FLAGS, static_cast<unsigned long long>(starts));
+  std::printf(
+      "flags: %s; %llu uniform starts per loop, seed 1; columns: closed, time per start, closed loops per second\n",
+      HINGE_BENCH_FLAGS, static_cast<unsigned long long>(starts));
   std::printf(
       "residues DOF |     solver to 1e-9 A           |     descent to 0.08 A          |     descent to 1e-6 A\n");
   for (const char* word : {"A:60-62", "A:8-11", "A:7-11", "A:44-50", "A:44-53", "A:40-54", "A:44-63"}) {
@@ -152,7 +153,7 @@ int main(int argc, char** argv) {
     times.push_back(thread_microseconds() - start);
   }
   std::sort(times.begin(), times.end());
-  std::printf("all closures of three pivots: %.2f on average, %.1f us (median), %.1f us (nine of ten)\n",
+  std::printf("all closures of three pivots: %.2f on average, %.1f us (median), %.1f us (90th percentile)\n",
               static_cast<double>(solutions) / static_cast<double>(starts), times[times.size() / 2],
               times[times.size() * 9 / 10]);
   return 0;

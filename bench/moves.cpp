@@ -24,7 +24,7 @@ std::vector<Subject> subjects() {
     if (const std::string file = shared_molecule(std::string("paper/").append(name).append(".pdb")); !file.empty())
       found.push_back({name, file});
   if (found.empty()) {
-    std::printf("the proteins are not beside the repository: 1UBQ takes their place\n");
+    std::printf("the shared proteins are missing: 1UBQ is used instead\n");
     found.push_back({"1ubq", ubiquitin()});
   }
   return found;
@@ -39,12 +39,12 @@ int main(int argc, char** argv) {
   std::size_t differences = 0;
   for (const Subject& subject : subjects()) {
     Scene scene(read_protein(subject.file, false), "all");
-    std::printf("%s, %zu atoms, %zu dof; us per step, all included (the chains have their frames for free)\n",
+    std::printf("%s, %zu atoms, %zu dof; us per step, everything included (except the frames of the chains)\n",
                 subject.name.c_str(), scene.size(), scene.dof_count());
     std::printf("   D  accepted  recalled  full queries  blocks |");
     for (const char* name : mover_names) std::printf(" %12s", name);
     std::printf(
-        " | over moves: full  chain-skip  chain16-skip | accepted: moves  full | rejected: moves  full | wrong\n");
+        " | ratio to moves: full  chain-skip  chain16-skip | accepted: moves  full | rejected: moves  full | wrong\n");
     for (const std::size_t dofs : {1U, 3U, 10U, 100U}) {
       const Walk w = walk(scene, dofs, steps);
       differences += w.differences;
@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
       std::printf("%4zu  %6.1f %%  %6.1f %%      %6.1f %%  %6.1f |", dofs, percent(w.accepted), percent(w.recalled),
                   percent(w.full_queries), w.blocks);
       for (const double us : w.us) std::printf(" %12.2f", us);
-      std::printf(" | %16.1f %11.1f %13.1f | %15.2f %5.1f | %15.2f %5.1f | %zu\n", w.ratio(mover_full),
+      std::printf(" | %20.1f %11.1f %13.1f | %15.2f %5.1f | %15.2f %5.1f | %zu\n", w.ratio(mover_full),
                   w.ratio(mover_chain_skip), w.ratio(mover_chain16_skip), w.accepted_us[mover_moves],
                   w.accepted_us[mover_full], w.rejected_us[mover_moves], w.rejected_us[mover_full], w.differences);
       std::fflush(stdout);

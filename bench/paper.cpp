@@ -68,7 +68,7 @@ void run_selection_change(Results& results, const Setup& setup, const Scene& sce
     simd = std::min(simd, microseconds([&] { scene.make<Simd>(); }));
     lazy = std::min(lazy, microseconds([&] { scene.make<Lazy>(); }));
   }
-  std::printf("%-7s %4d %5zu %6zu changing the selection: simd %.0f, lazy %.0f\n", setup.name.c_str(), setup.residues,
+  std::printf("%-7s %4d %5zu %6zu change of the selection: simd %.0f, lazy %.0f\n", setup.name.c_str(), setup.residues,
               scene.dof_count(), scene.size(), simd, lazy);
   Json row = {{"kind", "selection"}};
   row.update(describe(setup, scene));
@@ -143,7 +143,7 @@ double throughput(Scene& scene, Sampling sampling, int threads) {
 void run_threads(Results& results, const Setup& setup, Scene& scene) {
   for (const Sampling sampling : {Sampling::random, Sampling::near_free}) {
     const double one = throughput(scene, sampling, 1), two = throughput(scene, sampling, 2);
-    std::printf("%-7s %4d %-9s yes/no from the torsions, conformations per second: one thread %.0f, two %.0f\n",
+    std::printf("%-7s %4d %-9s yes/no from the torsions, conformations per second: one thread %.0f, two threads %.0f\n",
                 setup.name.c_str(), setup.residues, name(sampling), one, two);
     Json row = {{"kind", "threads"}};
     row.update(describe(setup, scene));
@@ -161,7 +161,7 @@ int main(int argc, char** argv) {
   Ratios ratios;
   int differences = 0;
   print_header(
-      "microseconds per conformation; forward kinematics and coordinates excluded, each one's own update included");
+      "microseconds per conformation; without forward kinematics and coordinates, with each method's own update");
   Protein protein = read_protein(setups.front().file, setups.front().hydrogens);
   for (std::size_t k = 0; k < setups.size(); ++k) {
     if (k > 0 && setups[k].name != setups[k - 1].name) protein = read_protein(setups[k].file, setups[k].hydrogens);
@@ -185,7 +185,7 @@ int main(int argc, char** argv) {
   std::printf("\nmicroseconds\n");
   for (const Setup& setup : setups)
     run_selection_change(results, setup, Scene(read_protein(setup.file, setup.hydrogens), setup.residues));
-  std::printf("\nnear-free, microseconds: each alone (warm), and after 64 MB were written (cold)\n");
+  std::printf("\nnear-free, microseconds: one method at a time (warm), and after writing 64 MB (cold)\n");
   for (const Setup& setup : setups) {
     const bool all_free = &setup == &setups.back() || (&setup + 1)->name != setup.name;
     if (!all_free || (setup.name != "1mbn" && setup.name != "2d0f" && setup.name != "1ubq")) continue;

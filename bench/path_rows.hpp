@@ -139,7 +139,7 @@ struct ProteinPaths {
 inline std::pair<Protein, std::vector<ProteinPaths>> protein_paths() {
   std::string file = shared_molecule("paper/1mbn.pdb"), tail = "A:142-153";
   if (file.empty()) {
-    std::printf("paper/1mbn.pdb is not beside the repository: 1UBQ takes its place\n");
+    std::printf("the shared paper/1mbn.pdb is missing: 1UBQ is used instead\n");
     file = ubiquitin();
     tail = "A:65-76";
   }

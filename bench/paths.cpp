@@ -132,7 +132,7 @@ int main(int argc, char** argv) {
   const Arguments arguments = Arguments::parse(argc, argv, 60, "PATHS of each set");
   Results results("paths");
   std::printf(
-      "microseconds of a free path; states at both ends are sampled, too; wrong: answers that the query contradicts\n"
+      "microseconds per free path; sampling includes both end states; wrong: answers that contradict the query\n"
       "%-14s %4s %5s %5s %5s %5s | %9s %9s %9s %9s | %7s %7s | %9s | missed at 5, 1, 0.1 degrees\n",
       "set", "dof", "free", "coll.", "open", "wrong", "certified", "0.1 deg", "1 deg", "5 deg", "segm.", "pairs",
       "colliding");

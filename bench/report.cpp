@@ -40,11 +40,12 @@ std::string ratios(const Found& found) {
     out += line(cells);
   }
   for (const Json& row : found.rows("summary mean"))
-    out += "\nEverything included, yes/no near-free at " + std::to_string(row.at("floor_dof").get<int>()) +
-           " DOF takes " + number(Found::value(row, "floor")) +
-           " times forward kinematics and coordinates alone. Straight from random torsions, forward kinematics on both "
-           "sides, FCL takes " +
-           number(Found::value(row, "torsions_fcl")) + " times as long.\n";
+    out +=
+        "\nWith everything included, yes/no near-free at " + std::to_string(row.at("floor_dof").get<int>()) +
+        " DOF takes " + number(Found::value(row, "floor")) +
+        " times as long as forward kinematics and coordinates. From random torsions, with forward kinematics on both "
+        "sides, FCL takes " +
+        number(Found::value(row, "torsions_fcl")) + " times as long.\n";
   for (const Json& row : found.rows("summary checked"))
     out += "Answers compared with brute force before timing: " + std::to_string(row.at("conformations").get<int>()) +
            " conformations in four modes, " +
@@ -89,7 +90,7 @@ std::string times(const Found& found, bool loops) {
 
 std::string trade(const Found& found) {
   std::string out = "\n";
-  out += header({"decided", "conformations", "yes/no µs", "all µs", "within 1 Å µs", "false accepts", "false rejects",
+  out += header({"precision", "sampling", "yes/no µs", "all µs", "within 1 Å µs", "false accepts", "false rejects",
                  "pairs", "missed", "added", "undecided", "largest error Å"});
   for (const Json& row : found.rows("trade precision")) {
     Strings cells = {Found::text(row, "precision"), Found::text(row, "sampling")};
@@ -165,7 +166,7 @@ void replace(std::string& page, const std::string& name, const std::string& by) 
 
 int main(int argc, char** argv) {
   if (argc < 2) {
-    std::printf("bench_report FILE.json...: nothing to report (files come from the other benchmarks' --json)\n");
+    std::printf("bench_report FILE.json...: nothing to report (the other benchmarks write such files with --json)\n");
     return 0;
   }
   try {
@@ -193,7 +194,7 @@ int main(int argc, char** argv) {
         {"caches",
          {"paper caches",
           [&] {
-            return plain(found.rows("paper caches"), with({"query", "who", "warm µs", "cold µs"}),
+            return plain(found.rows("paper caches"), with({"query", "method", "warm µs", "cold µs"}),
                          {"query", "peer", "warm_us", "cold_us"});
           }}},
         {"threads",
@@ -205,7 +206,7 @@ int main(int argc, char** argv) {
         {"tail",
          {"paper tail",
           [&] {
-            return plain(found.rows("paper tail"), {"atoms", "sampling", "who", "µs"},
+            return plain(found.rows("paper tail"), {"atoms", "sampling", "method", "µs"},
                          {"atoms", "sampling", "peer", "us"});
           }}},
         {"growth",

@@ -35,7 +35,7 @@ void put_between_markers(const std::string& file, const std::string& text) {
   std::string page{std::istreambuf_iterator<char>(in), {}};
   const auto from = page.find(begin), to = page.find(end);
   if (from == std::string::npos || to == std::string::npos)
-    throw std::runtime_error(file + ": cannot be read, or has no markers " + begin + " ... " + end);
+    throw std::runtime_error(file + ": cannot be read, or does not have the markers " + begin + " ... " + end);
   std::ofstream out(file);
   out << page.replace(from + begin.size(), to - from - begin.size(), text);
   if (!out.flush()) throw std::runtime_error(file + ": cannot be written");
@@ -49,7 +49,7 @@ int run(std::size_t cases, const std::string& file, const std::string& json) {
     rows.insert(rows.end(), more.begin(), more.end());
   const std::string head =
       "Machine: " + processor() + ", " + std::to_string(std::thread::hardware_concurrency()) +
-      " shared cores, compiler " + compiler + " `" HINGE_BENCH_FLAGS "`; FCL compiled for x86-64 without more. Seed " +
+      " shared cores, compiler " + compiler + " `" HINGE_BENCH_FLAGS "`; FCL compiled for plain x86-64. Seed " +
       std::to_string(robustness_seed) + " for families, " + std::to_string(seed) + " for molecules and robots; " +
       number_of + " pairs of each family. Command:\n\n    ./run bench robustness -- " + number_of +
       " --page docs/explanation/robustness.md\n";

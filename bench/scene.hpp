@@ -141,7 +141,7 @@ inline std::vector<Setup> paper_setups() {
   for (const Source& source : sources) {
     const std::string file = shared_molecule(source.file);
     if (file.empty()) {
-      std::printf("%s is not beside the repository: 1UBQ takes the place of all proteins\n", source.file);
+      std::printf("the shared %s is missing: 1UBQ is used instead of all proteins\n", source.file);
       setups.clear();
       for (const int k : {1, 5, 10, 35, 76}) setups.push_back({"1ubq", ubiquitin(), false, k});
       return setups;

@@ -104,7 +104,7 @@ template <detail::simd::InstructionSet Level>
 bool run(const Input& in, const Answers& expected) {
   const std::string level(detail::simd::name(Level));
   if (detail::simd::of_this_cpu() < Level) {
-    std::printf("%-9s left out: this CPU does not run it\n", level.c_str());
+    std::printf("%-9s left out: this CPU does not support it\n", level.c_str());
     return true;
   }
   const Kernels libraries[2] = {hinge_kernels<Level>(), highway_kernels<Level>()};
@@ -133,9 +133,10 @@ int main() {
   expected.boxes(hinge_kernels<detail::simd::InstructionSet::baseline>(), in);
   std::size_t near = 0;
   for (const std::uint32_t bits : expected.bits) near += static_cast<std::size_t>(std::popcount(bits));
-  std::printf("seed %d; %.1f of 16 points near, %.1f of 16 boxes touch; ns a call, least of %d repetitions in turns\n",
-              static_cast<int>(seed), static_cast<double>(near) / task_count,
-              static_cast<double>(expected.hit_count) / (box_count * row_count), repetitions);
+  std::printf(
+      "seed %d; %.1f of 16 points near, %.1f of 16 boxes touch; ns per call, minimum of %d alternating repetitions\n",
+      static_cast<int>(seed), static_cast<double>(near) / task_count,
+      static_cast<double>(expected.hit_count) / (box_count * row_count), repetitions);
   std::printf("level     loop                      hinge  highway    ratio   Highway's static target\n");
   bool right = run<detail::simd::InstructionSet::baseline>(in, expected);
   right = run<detail::simd::InstructionSet::avx2>(in, expected) && right;

@@ -163,7 +163,7 @@ int compare(const char* name, const Subject& robot, SphereBatch& batch, const Co
 int main() {
   const Subject robot = subject();
   SphereBatch batch(spheres_of(robot.robot), robot.filter);
-  std::printf("%s: %zu spheres, %zu DOF, %zu pairs of links, %zu of spheres; %s; ns per configuration\n",
+  std::printf("%s: %zu spheres, %zu DOF, %zu pairs of links, %zu pairs of spheres; %s; ns per configuration\n",
               robot.robot.name().c_str(), spheres_of(robot.robot).size(), batch.dof_count(),
               robot.filter.tested().size(), batch.pair_count(),
               std::string(detail::simd::name(detail::simd::compiled_for())).c_str());

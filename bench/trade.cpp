@@ -175,8 +175,10 @@ DofSelection select(const Protein& protein, const char* words) {
 
 /// Times of certified and sampled paths, and the share of colliding paths that sampling calls free.
 void trade_paths(Results& results, int count) {
-  std::printf("\nwhat sampling misses of straight paths, %d of each set-up\n%-12s %-16s %10s %10s %10s %9s %8s\n",
-              count, "", "", "free us", "colliding", "us each", "missed", "of them");
+  std::printf(
+      "\nstraight paths: collisions that sampling misses, %d paths of each set-up\n%-12s %-16s %10s %10s %10s %9s "
+      "%8s\n",
+      count, "", "", "free us", "colliding", "us each", "missed", "missed %");
   const auto [protein, sets] = protein_paths();
   for (const ProteinPaths& set : sets) {
     const Scene scene(protein, set.free);
@@ -200,7 +202,7 @@ int main(int argc, char** argv) {
   const int n = static_cast<int>(arguments.number);
   Results results("trade");
   std::string heavy = shared_molecule("paper/1mbn.pdb"), hydrogens = shared_molecule("paper/2axd.pdb.gz");
-  if (heavy.empty()) std::printf("the shared data is not beside the repository: 1UBQ takes the place of 1MBN\n");
+  if (heavy.empty()) std::printf("the shared data is missing: 1UBQ is used instead of 1MBN\n");
   if (heavy.empty()) heavy = ubiquitin();
 
   const Protein protein = read_protein(heavy, false);
@@ -215,7 +217,7 @@ int main(int argc, char** argv) {
        asked_exactly("helices and strands rigid", protein, select(protein, "loops"))},
       n);
   if (hydrogens.empty()) {
-    std::printf("explicit hydrogens are left out: no file with hydrogens is there\n");
+    std::printf("explicit hydrogens are left out: the shared file with hydrogens is missing\n");
     hydrogens = heavy;
   }
   const bool explicit_hydrogens = hydrogens != heavy;

@@ -144,7 +144,7 @@ inline void trade_precision(Scene& scene, Sampling sampling, std::size_t count, 
 /// All torsions of a protein, with all samplings.
 inline void trade_precision(const Protein& protein, const DofSelection& selection, std::size_t count,
                             Results& results) {
-  std::printf("\n%zu conformations decided in float; microseconds from the torsions\n", count);
+  std::printf("\n%zu conformations decided in float; microseconds per conformation, with forward kinematics\n", count);
   std::printf("%-10s %-22s %9s %9s %9s %8s %8s %10s %8s %8s %8s %10s\n", "", "", "any", "all", "within", "accepts",
               "rejects", "pairs", "missed", "added", "undec.", "largest A");
   Scene scene(protein, selection);

@@ -79,7 +79,7 @@ class Referee {
     std::set_symmetric_difference(mine.pairs.begin(), mine.pairs.end(), theirs.pairs.begin(), theirs.pairs.end(),
                                   std::back_inserter(differing));
     // The other side is another build or another query, so this comparison cannot show the cause.
-    if (differing.empty()) report(query, posture, who, "no pair of links that differs", mine.pairs.size() > 0, 0);
+    if (differing.empty()) report(query, posture, who, "no pair of links differs", mine.pairs.size() > 0, 0);
     const auto placed = hinge_.robot().placed();
     for (const auto& [i, j] : differing) {
       const bool hit = std::binary_search(mine.pairs.begin(), mine.pairs.end(), std::pair(i, j));
@@ -105,7 +105,7 @@ class Referee {
             hit ? fcl_.robot->distance(*fcl_.scene, l)
                 : nearest(of_link(hinge_.robot().placed(), l), hinge_.scene().placed()));
     }
-    if (!any) report(RobotQuery::environment, posture, who, "no link that differs", !mine.empty(), 0);
+    if (!any) report(RobotQuery::environment, posture, who, "no link differs", !mine.empty(), 0);
   }
 
   const std::string& link(std::size_t l) const { return subject_.robot().link_name(id<LinkId>(l)); }

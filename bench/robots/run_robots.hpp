@@ -76,7 +76,7 @@ class SceneSet {
     debian = std::make_shared<oracle::FclScene<oracle::FclBuild::debian>>(scenery_.objects);
     const double debian_built = thread_seconds();
     if (with_native) native = std::make_shared<oracle::FclScene<oracle::FclBuild::native>>(scenery_.objects);
-    std::printf("scene: %zu triangles, built in %.2f s; FCL's, as one mesh and as %zu objects, in %.1f s\n",
+    std::printf("scene: %zu triangles, built in %.2f s; FCL scene, one mesh and %zu objects, built in %.1f s\n",
                 scenery_.body.model().size(), built - start, scenery_.objects.size(), debian_built - built);
   }
   void place(const Pose& at) {

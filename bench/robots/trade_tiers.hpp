@@ -49,7 +49,7 @@ inline std::vector<TierCase> tier_cases() {
     cases.push_back({shared.name, loaded.robot.description(), loaded.disabled});
   }
   if (!cases.empty()) return cases;
-  std::printf("the shared data is not beside the repository: robots made in code take its place\n");
+  std::printf("the shared data is missing: robots made in code are used instead\n");
   for (const SubjectKind& kind : subject_kinds) {
     const Robot robot = generated_robot(kind);
     cases.push_back({robot.name(), robot.description(), LinkPairs(robot.link_count())});
@@ -193,7 +193,7 @@ inline void trade_tiers(const TierCase& scene, std::size_t count, Results& resul
 inline void trade_tiers(std::size_t count, Results& results) {
   std::printf(
       "\nrobots, tiers against exact meshes; configurations uniform in the joint limits, seed %llu\n"
-      "accept: called free though the meshes meet; reject: called colliding though they do not\n",
+      "accept: reported free, but the meshes collide; reject: reported colliding, but the meshes are free\n",
       static_cast<unsigned long long>(robot_seed));
   for (const TierCase& scene : tier_cases()) trade_tiers(scene, count, results);
 }

@@ -47,8 +47,8 @@ class RobustnessPage {
   }
 
   std::string verdicts() const {
-    std::string out = header({"family", "touching", "Hinge: wrong yes / no", "its hierarchy", "plain double",
-                              "FCL's kernel", "widest gap it calls a hit", "FCL's meshes"});
+    std::string out = header({"family", "touching", "Hinge: wrong yes / no", "Hinge's hierarchy", "plain double",
+                              "FCL's kernel", "widest gap reported as a hit", "FCL's meshes"});
     for (const auto& [family, by] : families()) {
       const auto both = [&, &by = by](const char* who) {
         return share(by.at(who), "wrong_yes") + " / " + share(by.at(who), "wrong_no");
@@ -60,9 +60,9 @@ class RobustnessPage {
   }
 
   std::string distances() const {
-    std::string out = header({"family", "who", "0 though apart", "widest", "> 0 though touching", "largest",
-                              "largest error, ulps of the size", "relative, where apart", "contradictions",
-                              "d < m beside a tie: wrong"});
+    std::string out = header({"family", "method", "0, but apart", "widest", "> 0, but touching", "largest",
+                              "largest error, ulps of the size", "relative error, if apart", "contradictions",
+                              "d < m near a tie: wrong"});
     for (const auto& [family, by] : families())
       for (const auto& [who, shown] :
            {std::pair("hinge", "Hinge"), std::pair("plain", "plain"), std::pair("fcl", "FCL")}) {
@@ -102,14 +102,14 @@ class RobustnessPage {
       if (count == 0) continue;
       char text[256];
       std::snprintf(text, sizeof text,
-                    "* %s: %+.1f %% (geometric mean of %d rows below, the dearest %+.1f %%); of %lld answers %lld "
+                    "* %s: %+.1f %% (geometric mean of the %d rows below, largest %+.1f %%); of %lld answers, %lld "
                     "verdicts and %lld distances differ.\n",
                     kind, 100.0 * (std::exp(sum / count) - 1.0), count, 100.0 * (worst - 1.0), asked, different,
                     distances);
       out += text;
     }
     out += "\n" + header({"scene", "primitives", "states", "query", "exact, µs", "exact / plain", "quartiles",
-                          "verdicts that differ", "distances"});
+                          "different verdicts", "different distances"});
     for (const Json& row : of("price"))
       out += line({Found::text(row, "scene"), std::to_string(row.at("primitives").get<long long>()),
                    Found::text(row, "states"), Found::text(row, "query"), number(Found::value(row, "us")),
