@@ -111,7 +111,7 @@ class Hierarchy {
   void self_query(C& collector, const QueryOptions& options = {}) const {
     if (!options.other_clearance.empty())
       throw ConfigurationError(
-          "other_clearance: expected none in a query of one model, where clearance counts for both "
+          "other_clearance: expected none in a query of one model, because clearance applies to both "
           "primitives of a pair");
     check_clearance(options.clearance, model().groups()->size());
     engine_.self_query(self_rules(options), collector);
@@ -180,7 +180,7 @@ class Hierarchy {
   Pose link_pose(LinkId link) const {
     if (index(link) >= model().model().tree().link_count())
       throw ModelError("link " + std::to_string(index(link)) + ": the model has " +
-                       std::to_string(model().model().tree().link_count()));
+                       std::to_string(model().model().tree().link_count()) + " links");
     const RigidGroups& groups = *model().groups();
     return placement_.pose(groups.group_of(link)) * groups.link_in_group(link);
   }
@@ -202,7 +202,7 @@ class Hierarchy {
     check(matrix, "distance matrix");
     if constexpr (KnowsLinks<F>)
       if (const std::span<const LinkId> links = filter.links(); !std::ranges::equal(links, model.links()))
-        throw ModelError("pair filter made for primitives that hang on other links than the model's");
+        throw ModelError("pair filter made for primitives on different links, expected the links of the model");
     if constexpr (ListsExclusions<F>)
       for (std::size_t i = 0; i < model.size(); ++i) check_exclusions(i, filter.excluded(id<PrimitiveId>(i)), model);
     check_laws(filter, model.links());

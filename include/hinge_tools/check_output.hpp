@@ -30,11 +30,11 @@ inline void check_output(const std::string& option, const std::filesystem::path&
   if (!S_ISREG(output.st_mode)) return;
   for (const std::filesystem::path& input : inputs)
     if (::stat(input.c_str(), &other) == 0 && is_same_file(output, other))
-      refuse("is the input " + input.string() + ", expected another file to write");
+      refuse("is the input " + input.string() + ", expected a different file to write");
   for (const int descriptor : {STDOUT_FILENO, STDERR_FILENO})
     if (::fstat(descriptor, &other) == 0 && is_same_file(output, other))
-      refuse(std::string("is where standard ") + (descriptor == STDOUT_FILENO ? "output" : "error") +
-             " goes, expected another file to write");
+      refuse(std::string("is the file of standard ") + (descriptor == STDOUT_FILENO ? "output" : "error") +
+             ", expected a different file to write");
 }
 
 }  // namespace hinge::tool

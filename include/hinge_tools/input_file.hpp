@@ -59,7 +59,7 @@ class InputFile {
     }
     position_ += done;
     if (is_pipe_ && position_ > most_piped)
-      throw LoadError(name_ + ": is a pipe that gives more than 1 GiB, expected a file for so much");
+      throw LoadError(name_ + ": is a pipe with more than 1 GiB, expected a regular file for so much data");
     return done;
   }
 

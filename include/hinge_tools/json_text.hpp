@@ -15,8 +15,7 @@ std::string json_text(const Json& json, int indent = -1) {
     return json.dump(indent);
   } catch (const typename Json::type_error&) {
     static const bool noted =
-        std::fputs("note: a name or path is not UTF-8: JSON has U+FFFD for each of its bytes that are not\n", stderr) >=
-        0;
+        std::fputs("note: a name or path is not UTF-8: JSON has U+FFFD in place of each invalid byte\n", stderr) >= 0;
     static_cast<void>(noted);
     return json.dump(indent, ' ', false, Json::error_handler_t::replace);
   }

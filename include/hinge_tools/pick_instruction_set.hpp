@@ -35,8 +35,8 @@ inline detail::simd::InstructionSet wanted_instruction_set() {
     throw ModelError("HINGE_ISA is '" + std::string(chosen) + "': expected baseline, avx2 or avx512");
   const auto set = static_cast<InstructionSet>(found - names.begin());
   if (set > best)
-    throw ModelError("HINGE_ISA is '" + std::string(chosen) + "', but this CPU has " +
-                     std::string(detail::simd::name(best)) + " at most");
+    throw ModelError("HINGE_ISA is '" + std::string(chosen) + "', expected at most " +
+                     std::string(detail::simd::name(best)) + ", the best instruction set of this CPU");
   return set;
 }
 
@@ -73,7 +73,7 @@ inline void pick_instruction_set(char** argv, std::string_view build_id) {
     if (file < 0 && errno == ENOENT) continue;
     if (file < 0 || !file_holds(file, build_id))
       throw LoadError(other + ": not of the same build as " + own.string() +
-                      "; expected a program built from the same sources (build or install both anew, remove it, or set "
+                      "; expected a program of the same build (rebuild or reinstall both, remove this program, or set "
                       "HINGE_ISA=baseline)");
     ::fexecve(file, argv, environ);  // exactly the file that was checked
     const std::string reason = std::strerror(errno);

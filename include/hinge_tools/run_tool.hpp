@@ -51,7 +51,7 @@ int run_tool(const char* name, const Run& run) {
   };
   const auto refuse_output = [&](int error) {
     return refuse(std::string("standard output: cannot be written: ") + std::strerror(error != 0 ? error : EIO) +
-                      "; what was written is cut short",
+                      "; the output is cut short",
                   Exit::bad_input);
   };
   try {

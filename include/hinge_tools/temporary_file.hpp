@@ -60,7 +60,7 @@ class TemporaryFile {
   explicit TemporaryFile(std::filesystem::path target) : target_(std::move(target)) {
     for (temporary::TemporaryPath& entry : temporary::temporary_paths)
       if (bool taken = false; entry_ == nullptr && entry.taken.compare_exchange_strong(taken, true)) entry_ = &entry;
-    if (entry_ == nullptr) throw LoadError(target_.string() + ": cannot be written: too many files at once");
+    if (entry_ == nullptr) throw LoadError(target_.string() + ": cannot be written: too many open temporary files");
     temporary::remove_temporary_files_on_signals();
     try {
       create();

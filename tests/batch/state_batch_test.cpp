@@ -227,10 +227,10 @@ TEST(StateBatch, RefusesWhatASingleQueryRefusesAndGoesOn) {
   bad = good;
   bad[5] = 1e302;
   EXPECT_NE(refusal(bad).find("configuration 1 of the block, value 1 is"), std::string::npos);
-  EXPECT_NE(refusal(bad).find("expected a slide of at most 2^1000"), std::string::npos);
-  EXPECT_EQ(refusal({}), "a block of 0 values, expected 1 to 16 configurations of 4");
-  EXPECT_EQ(refusal(std::vector<double>(7)), "a block of 7 values, expected 1 to 16 configurations of 4");
-  EXPECT_EQ(refusal(std::vector<double>(68)), "a block of 68 values, expected 1 to 16 configurations of 4");
+  EXPECT_NE(refusal(bad).find("expected a displacement of at most 2^1000"), std::string::npos);
+  EXPECT_EQ(refusal({}), "a block of 0 values, expected 1 to 16 configurations of 4 values");
+  EXPECT_EQ(refusal(std::vector<double>(7)), "a block of 7 values, expected 1 to 16 configurations of 4 values");
+  EXPECT_EQ(refusal(std::vector<double>(68)), "a block of 68 values, expected 1 to 16 configurations of 4 values");
   EXPECT_EQ(batch.collides(good), before);
 }
 

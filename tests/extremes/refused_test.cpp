@@ -227,7 +227,8 @@ TEST(Refused, APlacementThatIsScaledShearedMirroredOrZero) {
       expect_names(refusal<ConfigurationError>([&] { engine.update_poses(poses); }), "rigid group 1");
     }
     poses = {good, Pose{}, Pose{}};
-    expect_names(refusal<ConfigurationError>([&] { engine.update_poses(poses); }), "the world's must be the identity");
+    expect_names(refusal<ConfigurationError>([&] { engine.update_poses(poses); }),
+                 "expected the identity, because this group is the world");
     EXPECT_EQ(engine.within(0.5, {}), before);
   }
 }

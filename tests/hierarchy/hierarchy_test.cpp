@@ -146,7 +146,9 @@ TYPED_TEST(EveryHierarchy, RefusesBadInputNamingItAndKeepsItsState) {
               points.update_placed(std::vector<Point>{{Vec3::Zero()}, {Vec3(0, nan, 0)}});
             }).find("primitive 1"),
             std::string::npos);
-  EXPECT_NE(message([&] { points.update_poses(std::vector<Pose>(3)); }).find("3 poses, expected 2"), std::string::npos);
+  EXPECT_NE(
+      message([&] { points.update_poses(std::vector<Pose>(3)); }).find("3 poses, expected 2, one per rigid group"),
+      std::string::npos);
   EXPECT_NE(message([&] { points.self_within(-1.0); }).find("margin"), std::string::npos);
   EXPECT_NE(message([&] { points.self_within(nan); }).find("margin"), std::string::npos);
   const double clearance[] = {0.0, -1.0};

@@ -79,8 +79,7 @@ TEST_F(BiocdFiles, ResultsAndConformationsDoNotMix) {
   // Standard output is closed: the results are lost, and this is reported.
   const test::Said said = run_biocd(sample + " --json --out" + file("x.pdb") + " 2>&1 >&-");
   EXPECT_EQ(said.status, 3);
-  EXPECT_EQ(said.out,
-            "biocd: standard output: cannot be written: Bad file descriptor; what was written is cut short\n");
+  EXPECT_EQ(said.out, "biocd: standard output: cannot be written: Bad file descriptor; the output is cut short\n");
   EXPECT_FALSE(fs::exists(folder / "x.pdb"));
   EXPECT_EQ(run_biocd(sample + " --out" + file("x.pdb") + " >/dev/null 2>&- <&-").status, 1);
   EXPECT_NE(content(folder / "x.pdb").find("\nMODEL"), std::string::npos);
@@ -127,7 +126,7 @@ TEST_F(BiocdFiles, AFullDiskEndsTheRun) {
   const test::Said full = run_biocd(results + "--csv 2>&1 >/dev/full");
   EXPECT_EQ(full.status, 3);
   EXPECT_TRUE(full.out.ends_with(
-      "biocd: standard output: cannot be written: No space left on device; what was written is cut short\n"))
+      "biocd: standard output: cannot be written: No space left on device; the output is cut short\n"))
       << full.out;
   // The JSON is complete and contains the error.
   fs::create_symlink("/dev/full", folder / "x.pdb");

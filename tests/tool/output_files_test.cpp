@@ -136,7 +136,7 @@ TEST_F(OutputFiles, AreNoInputsFoldersOrStandardStreams) {
   fs::create_symlink(out, folder / "link");
   fs::create_hard_link(out, folder / "hard");
   const std::vector<fs::path> inputs{folder / "absent", "", out};
-  const std::string no_input = ": is the input " + out.string() + ", expected another file to write";
+  const std::string no_input = ": is the input " + out.string() + ", expected a different file to write";
   for (const char* name : {"x.pdb", "link", "hard", "./x.pdb"}) {
     const std::string path = (folder / name).string();
     EXPECT_EQ(refusal(path, inputs), "--out " + path + no_input);

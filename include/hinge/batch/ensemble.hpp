@@ -83,7 +83,7 @@ class Ensemble {
 
  private:
   static int checked(unsigned threads) {
-    if (threads == 0) throw ModelError("0 threads: expected at least one");
+    if (threads == 0) throw ModelError("0 threads, expected at least one");
     return static_cast<int>(threads);
   }
 

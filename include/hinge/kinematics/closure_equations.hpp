@@ -142,7 +142,8 @@ inline ClosureEquations::ClosureEquations(const KinematicTree& tree, const DofSe
   std::size_t row = 0;
   for (const std::size_t c : closures) {
     if (c >= tree.closures().size())
-      throw ModelError("closure " + std::to_string(c) + ": the tree has " + std::to_string(tree.closures().size()));
+      throw ModelError("closure " + std::to_string(c) + ": expected below " + std::to_string(tree.closures().size()) +
+                       ", the number of closures");
     const Closure& closure = tree.closures()[c];
     Cycle cycle{closure, index(groups_.group_of(closure.first)), index(groups_.group_of(closure.second)), row};
     row += closure.lengths ? 3 : 6;

@@ -31,9 +31,9 @@ class DofSelection {
     for (std::size_t k = 0; k < free_.size(); ++k) {
       if (index(free_[k]) >= tree.dof_count())
         throw ModelError("selected DOF " + std::to_string(index(free_[k])) + ": the tree has " +
-                         std::to_string(tree.dof_count()));
+                         std::to_string(tree.dof_count()) + " DOF");
       if (k > 0 && free_[k] == free_[k - 1])
-        throw ModelError("selected DOF " + std::to_string(index(free_[k])) + " is named twice");
+        throw ModelError("selected DOF " + std::to_string(index(free_[k])) + " is selected twice");
     }
   }
 

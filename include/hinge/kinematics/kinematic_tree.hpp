@@ -98,7 +98,8 @@ inline double closure_residual(const Closure& closure, const Pose& first, const 
 inline Joint KinematicTree::checked(LinkId parent, Joint joint) const {
   const std::string who = "link " + std::to_string(link_count()) + (joint.name.empty() ? "" : " (" + joint.name + ")");
   if (index(parent) >= link_count())
-    throw ModelError(who + ": parent " + std::to_string(index(parent)) + " does not exist yet");
+    throw ModelError(who + ": parent " + std::to_string(index(parent)) +
+                     " does not exist yet, expected a link added before");
   if (!is_rigid(joint.origin))
     throw ModelError(who + ": its origin is not a rigid placement (finite, R R^T = 1 within 1e-9, det 1)");
   if (!is_finite(joint.axis)) throw ModelError(who + ": the axis is not finite");
@@ -107,7 +108,7 @@ inline Joint KinematicTree::checked(LinkId parent, Joint joint) const {
   // Scale by a power of two first, which is exact: squares of a tiny or huge axis would underflow or overflow.
   double largest = 0.0;
   for (const double x : joint.axis) largest = std::max(largest, std::abs(x));
-  if (largest == 0.0) throw ModelError(who + ": the axis has length 0, expected any other");
+  if (largest == 0.0) throw ModelError(who + ": the axis has length 0, expected a length above 0");
   int exponent = 0;
   std::frexp(largest, &exponent);
   for (double& x : joint.axis) x = std::ldexp(x, -exponent);
@@ -129,8 +130,9 @@ inline void KinematicTree::add_closure(Closure closure) {
   const std::string who =
       "closure " + std::to_string(closures_.size()) + (closure.name.empty() ? "" : " (" + closure.name + ")");
   if (index(closure.first) >= link_count() || index(closure.second) >= link_count())
-    throw ModelError(who + ": joins a link that does not exist");
-  if (closure.first == closure.second) throw ModelError(who + ": joins a link with itself");
+    throw ModelError(who + ": joins a link that does not exist, expected below " + std::to_string(link_count()));
+  if (closure.first == closure.second)
+    throw ModelError(who + ": joins a link with itself, expected two different links");
   for (std::size_t k = 0; k < 2; ++k)
     if (!is_length(closure.in_first[k]) || !is_length(closure.in_second[k]))
       throw ModelError(who + ": a point is not finite, or beyond 2^1000");

@@ -36,8 +36,8 @@ class RigidGroups {
   /// ModelError: the selection has a DOF that the tree does not have (it belongs to another tree).
   RigidGroups(const KinematicTree& tree, const DofSelection& selection) {
     if (selection.size() > 0 && index(selection.dofs().back()) >= tree.dof_count())
-      throw ModelError("selected DOF " + std::to_string(index(selection.dofs().back())) + ": the model's tree has " +
-                       std::to_string(tree.dof_count()));
+      throw ModelError("selected DOF " + std::to_string(index(selection.dofs().back())) +
+                       ": the tree of the model has " + std::to_string(tree.dof_count()) + " DOF");
     std::vector<bool> selected(tree.dof_count(), false);
     std::vector<std::size_t> position(tree.dof_count(), 0);
     for (std::size_t k = 0; k < selection.size(); ++k) {

@@ -63,13 +63,15 @@ Aabb box_of_hull(const P& p) {
 template <HasHull P>
 void check_hulls(const P& p, const P& q, double d, double tolerance, const auto& require) {
   require(d >= separation(box_of_hull(p), box_of_hull(q)) - tolerance,
-          "they are closer than their hulls, which do not hold them");
+          "they are closer than their hulls, so the hulls do not contain them");
   const double radii = p.hull_radius() + q.hull_radius();
   for (const Vec3& x : p.hull())
     for (const Vec3& y : q.hull()) {
       const double gap = std::max(0.0, norm(Vec3(x - y)) - radii);
-      require(hull_size<P> != 1 || d >= gap - tolerance, "they are closer than their hulls, which do not hold them");
-      require(!FillsHull<P> || d <= gap + tolerance, "they are farther apart than their hulls, which they do not fill");
+      require(hull_size<P> != 1 || d >= gap - tolerance,
+              "they are closer than their hulls, so the hulls do not contain them");
+      require(!FillsHull<P> || d <= gap + tolerance,
+              "they are farther apart than their hulls, so they do not fill them");
     }
 }
 
@@ -79,8 +81,7 @@ void check_pair(const F& filter, PrimitiveId i, PrimitiveId j, std::span<const L
   const auto names = [&] { return two("primitives", index(i), index(j)); };
   require(filter.admits(i, j) == admitted && filter.admits(j, i) == admitted, broken, [&] {
     return names() + ": admits answers " + (admitted ? "true" : "false") +
-           ", and otherwise when asked again or with "
-           "the two swapped; expected one answer";
+           ", but a repeated or swapped call answers differently; expected one answer";
   });
   if constexpr (ListsExclusions<F>) {
     const std::span<const PrimitiveId> list = filter.excluded(i);
@@ -92,10 +93,11 @@ void check_pair(const F& filter, PrimitiveId i, PrimitiveId j, std::span<const L
     if (links.empty()) return;
     const LinkId a = links[index(i)], b = links[index(j)];
     if (a == b) return;
-    require(filter.admits(a, b) == filter.admits(b, a), broken,
-            [&] { return two("links", index(a), index(b)) + ": admits answers otherwise with the two swapped"; });
+    require(filter.admits(a, b) == filter.admits(b, a), broken, [&] {
+      return two("links", index(a), index(b)) + ": admits answers differently when the links are swapped";
+    });
     require(!admitted || filter.admits(a, b), broken, [&] {
-      return names() + ": admits answers true, but refuses all pairs of their " + two("links", index(a), index(b));
+      return names() + ": admits answers true, but rejects all pairs of their " + two("links", index(a), index(b));
     });
   }
 }
@@ -136,14 +138,15 @@ Violations check_primitive(std::span<const P> samples, std::span<const Pose> pos
       const double d = std::sqrt(squared_distance(p, q));
       const double tolerance = rounding * (detail::magnitude(p.bounds()) + detail::magnitude(q.bounds()));
       const auto near = [](double x, double y, double within) { return std::abs(x - y) <= within; };
-      require(d >= 0.0, "squared_distance is negative or no number");
+      require(d >= 0.0, "squared_distance is negative or not a number");
       require(near(d, std::sqrt(squared_distance(q, p)), tolerance), "squared_distance differs when they are swapped");
       require(d >= separation(p.bounds(), q.bounds()) - tolerance,
-              "they are closer than their bounds, which do not hold them");
-      require(closer_than(p, q, d + tolerance + 1e-3 * d), "closer_than denies a distance above squared_distance's");
+              "they are closer than their bounds, so the bounds do not contain them");
+      require(closer_than(p, q, d + tolerance + 1e-3 * d), "closer_than is false for a threshold above their distance");
       require(!(d > tolerance) || !closer_than(p, q, d - std::min(d, tolerance + 1e-3 * d)),
-              "closer_than affirms a distance below squared_distance's");
-      require(closer_than(p, q, d) == closer_than(q, p, d), "closer_than answers an exact tie in two ways");
+              "closer_than is true for a threshold below their distance");
+      require(closer_than(p, q, d) == closer_than(q, p, d),
+              "closer_than answers an exact tie differently when they are swapped");
       for (const Pose& pose : poses) {
         const P a = p.placed(pose), b = q.placed(pose);
         const double moved = rounding * (detail::magnitude(a.bounds()) + detail::magnitude(b.bounds())) + tolerance;
@@ -153,7 +156,7 @@ Violations check_primitive(std::span<const P> samples, std::span<const Pose> pos
       if constexpr (HasClosestPoints<P>) {
         const auto [x, y] = closest_points(p, q);
         require(near(std::sqrt(squared_norm(Vec3(x - y))), d, tolerance),
-                "their closest_points are not squared_distance apart");
+                "the distance of their closest_points differs from squared_distance");
         require(separation(Aabb(x), p.bounds()) <= tolerance && separation(Aabb(y), q.bounds()) <= tolerance,
                 "their closest_points lie outside the bounds");
       }
@@ -175,9 +178,9 @@ Violations check_pair_filter(const F& filter, std::size_t primitives, std::span<
         detail::require(kept, broken, [&] { return "excluded(" + std::to_string(i) + ") " + sentence; });
       };
       require(std::adjacent_find(list.begin(), list.end(), [](auto a, auto b) { return !(a < b); }) == list.end(),
-              "is not sorted, or names a primitive twice");
-      require(std::find(list.begin(), list.end(), id<PrimitiveId>(i)) == list.end(), "names the primitive itself");
-      require(list.empty() || index(list.back()) < primitives, "names a primitive that does not exist");
+              "is not sorted, or lists a primitive twice");
+      require(std::find(list.begin(), list.end(), id<PrimitiveId>(i)) == list.end(), "lists the primitive itself");
+      require(list.empty() || index(list.back()) < primitives, "lists a primitive that does not exist");
     }
   for (std::size_t i = 0; i < primitives; ++i)
     for (std::size_t j = 0; j < primitives; ++j)
@@ -228,7 +231,7 @@ Violations check_refinements(const G& across, std::span<const LinkId> links, std
       if (!across.admits(links[i], other_links[j]))
         detail::require(!across.admits(id<PrimitiveId>(i), id<PrimitiveId>(j)), broken, [&] {
           return detail::two("primitives", i, j) +
-                 " of the two models: admits answers true, but refuses all pairs of " +
+                 " of the two models: admits answers true, but rejects all pairs of " +
                  detail::two("links", index(links[i]), index(other_links[j]));
         });
     }
@@ -250,7 +253,7 @@ Violations check_distance_matrix(const D& matrix, std::size_t primitives) {
       };
       require(is_finite(m) && m >= 0.0, "the threshold is " + number_text(m) + ", expected a finite length >= 0");
       require(m == matrix.threshold(b, a), "the threshold differs when they are swapped");
-      require(matrix.reach(a) + matrix.reach(b) >= m, "their reaches add up to less than the threshold");
+      require(matrix.reach(a) + matrix.reach(b) >= m, "the sum of their reaches is below the threshold");
     }
   return broken;
 }
@@ -268,7 +271,7 @@ Violations check_collector(C collector, std::span<const Hit> hits) {
       detail::require(kept, broken, [&] { return "hit " + std::to_string(k) + ": " + sentence; });
     };
     require(collector.cutoff() <= cutoff, "the cutoff grew");
-    require(!done || collector.done(), "the collector was done and no longer is");
+    require(!done || collector.done(), "the collector was done, but is not done after another hit");
     cutoff = collector.cutoff();
     done = collector.done();
   }

@@ -22,7 +22,8 @@ inline std::size_t check_block(std::span<const double> block, std::size_t dof_co
   if (dof_count == 0 ? !block.empty()
                      : block.empty() || block.size() % dof_count != 0 || block.size() > simd::width * dof_count)
     throw ConfigurationError("a block of " + std::to_string(block.size()) + " values, expected 1 to " +
-                             std::to_string(simd::width) + " configurations of " + std::to_string(dof_count));
+                             std::to_string(simd::width) + " configurations of " + std::to_string(dof_count) +
+                             " values");
   const auto refuse = [&](std::size_t k, const char* expected) {
     throw ConfigurationError("configuration " + std::to_string(k / dof_count) + " of the block, value " +
                              std::to_string(k % dof_count) + " is " + number_text(block[k]) + ", expected " + expected);
@@ -36,7 +37,7 @@ inline std::size_t check_block(std::span<const double> block, std::size_t dof_co
     const RigidGroup& group = groups[id<GroupId>(g)];
     if (group.joint.kind != JointKind::prismatic) continue;
     for (std::size_t k = group.dof; k < block.size(); k += dof_count)
-      if (!is_length(block[k])) refuse(k, "a slide of at most 2^1000");
+      if (!is_length(block[k])) refuse(k, "a displacement of at most 2^1000");
   }
   return dof_count == 0 ? 1 : block.size() / dof_count;
 }

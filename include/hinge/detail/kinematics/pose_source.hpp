@@ -126,7 +126,7 @@ inline void PoseSource::set_configuration(std::span<const double> q) {
   for (const std::size_t k : slides_)
     if (!is_length(q[k]))
       throw ConfigurationError("configuration value " + std::to_string(k) + " is " + number_text(q[k]) +
-                               ", expected a slide of at most 2^1000");
+                               ", expected a displacement of at most 2^1000");
   std::uint64_t changes = 0;
   for (std::size_t k = 0; k < q.size(); ++k) {
     const double old = q_[k];
@@ -188,11 +188,13 @@ inline void PoseSource::compute_through(std::size_t last) noexcept {
 
 inline void PoseSource::set_poses(std::span<const Pose> poses) {
   if (poses.size() != groups_->size())
-    throw ConfigurationError(std::to_string(poses.size()) + " poses, expected " + std::to_string(groups_->size()));
+    throw ConfigurationError(std::to_string(poses.size()) + " poses, expected " + std::to_string(groups_->size()) +
+                             ", one per rigid group");
   for (std::size_t g = 0; g < poses.size(); ++g)
     if (!is_rigid(poses[g]) || (g == 0 && !(poses[0] == Pose{})))
-      throw ConfigurationError("pose of rigid group " + std::to_string(g) +
-                               (g == 0 ? ": the world's must be the identity" : ": not a rigid placement"));
+      throw ConfigurationError(
+          "pose of rigid group " + std::to_string(g) +
+          (g == 0 ? ": expected the identity, because this group is the world" : ": expected a rigid placement"));
   compute_through(groups_->size() - 1);
   for (std::size_t g = 1; g < poses.size(); ++g) {
     moved_[g] = forgotten_ || !frames_[g].is(poses[g]);

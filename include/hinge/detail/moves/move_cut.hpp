@@ -42,12 +42,12 @@ class MoveCut {
     ++list_;
     for (const DofChange& change : changes) {
       if (change.dof >= dofs_.size())
-        refuse(change, "the selection has " + std::to_string(dofs_.size()) + " values, counted from 0");
+        refuse(change, "expected a number below " + std::to_string(dofs_.size()) + ", the number of selected DOF");
       Dof& dof = dofs_[change.dof];
-      if (dof.named_at == list_) refuse(change, "it is changed twice in one move");
+      if (dof.named_at == list_) refuse(change, "expected one change of this value per move, found two");
       dof.named_at = list_;
       if (!is_finite(change.value)) refuse(change, "expected a finite number");
-      if (dof.slides && !is_length(change.value)) refuse(change, "expected a slide of at most 2^1000");
+      if (dof.slides && !is_length(change.value)) refuse(change, "expected a displacement of at most 2^1000");
     }
   }
 
