@@ -38,7 +38,7 @@ constexpr const char* footer =
     "alpha beta gamma epsilon zeta chi kappa), a chain A, A:45, A:10-20, A:HEM, file:2, A:45:chi1, A:10-20:phi,psi, "
     "A:chi,\n"
     "a ligand's bond B:401:C5-C6; joined by ',' or 'or', and, not, parentheses: 'A and not (A:10-20 or omega)'.\n"
-    "omega stays at its reference unless --omega is given or it is named.\n"
+    "omega stays at its reference unless --omega is given or the selection names omega.\n"
     "Parts (--place, --between, --inside): a chain (A), a ligand (KNI), residues (A:10-20), a file (file:2), joined "
     "in\n"
     "the same way; '+' means the same as ','.";
@@ -65,34 +65,38 @@ Exit run(int argc, char** argv) {
                                                 hinge::detail::simd::name(hinge::detail::simd::compiled_for())));
   app.require_subcommand(1);
 
-  CLI::App* info = app.add_subcommand("info", "what the file holds, its degrees of freedom and rigid groups");
+  CLI::App* info =
+      app.add_subcommand("info", "show the contents of the file, its degrees of freedom and its rigid groups");
   biocd::add_model_options(*info, o);
   biocd::add_json_option(*info, o);
   info->add_flag("--atoms", o.atoms, "list atoms, bonds, thresholds and constant contacts (with --json)");
   info->callback([&] { command = biocd::run_info; });
 
-  CLI::App* check = app.add_subcommand("check", "verdict and pairs for each model of the file, or frame");
+  CLI::App* check = app.add_subcommand("check", "check each model of the file, or each frame of trajectories");
   biocd::add_model_options(*check, o);
   biocd::add_check_options(*check, o);
   check->add_option("TRAJECTORY", o.trajectories,
-                    "conformations instead of the file's own: DCD, XTC, .npy, PDB, mmCIF, plain or .gz");
+                    "conformations to check instead of the models of FILE: DCD, XTC, .npy, PDB, mmCIF, plain or .gz");
   check->callback([&] { command = biocd::run_check; });
 
-  CLI::App* sample = app.add_subcommand("sample", "random conformations of the free torsions, each checked");
+  CLI::App* sample =
+      app.add_subcommand("sample", "draw random conformations of the free torsions and check each of them");
   biocd::add_model_options(*sample, o);
   biocd::add_check_options(*sample, o);
   add_number(*sample, "-n,--count", o.count, counts, "number of conformations");
-  add_number(*sample, "--seed", o.seed, seeds, "seed; conformation k is a function of (seed, k) alone");
+  add_number(*sample, "--seed", o.seed, seeds, "seed; conformation k depends only on (seed, k)");
   add_number(*sample, "--sigma", o.sigma_degrees, lengths_above_0,
-             "Gaussian about the reference, degrees (default: full range)");
+             "standard deviation of a Gaussian about the reference, degrees (default: uniform over the full range)");
   biocd::add_closures_option(*sample, o);
   sample->add_flag("--collision-free", o.collision_free, "only conformations that do not collide");
   add_number(*sample, "--tries", o.most_tries, counts,
-             "starts for each conformation at most, where cycles are closed or --collision-free");
+             "maximal number of starts for each conformation (with closed cycles or --collision-free)");
   sample->add_flag("--torsions", o.torsions,
-                   "rows of --json and --csv say every free torsion (degrees) and placement as drawn");
-  sample->add_option("--torsions-out", o.torsions_out,
-                     "write them to this .npy file: samples x DOF, 64-bit floats, in the order of `dofs` in --json");
+                   "add every free torsion (degrees) and every placement to the rows of --json and --csv");
+  sample->add_option(
+      "--torsions-out", o.torsions_out,
+      "write the free torsions and placements to this .npy file: samples x DOF, 64-bit floats, in the order "
+      "of `dofs` in --json");
   sample->callback([&] {
     o.keep_closures = o.keep_closures.value_or(true);
     o.draws = true;
@@ -102,31 +106,31 @@ Exit run(int argc, char** argv) {
   CLI::App* walk = app.add_subcommand("walk", "Monte Carlo walk of collision-free moves from the file's conformation");
   biocd::add_model_options(*walk, o);
   biocd::add_json_option(*walk, o);
-  add_number(*walk, "--steps", o.steps, counts, "moves to try");
+  add_number(*walk, "--steps", o.steps, counts, "number of moves to try");
   add_number(*walk, "--step-size", o.step_degrees, lengths_above_0,
              "standard deviation of a torsion's change, degrees");
-  add_number(*walk, "--changes", o.changes, counts, "torsions that a move changes");
-  add_number(*walk, "--seed", o.seed, seeds, "seed; a walk is a function of it, the file and the options alone");
+  add_number(*walk, "--changes", o.changes, counts, "number of torsions that a move changes");
+  add_number(*walk, "--seed", o.seed, seeds, "seed; a walk depends only on the seed, the file and the options");
   walk->add_option("--out", o.out, "write conformations to this .pdb, .cif, .dcd or .npy file");
-  add_number(*walk, "--every", o.every, counts, "steps from one conformation written to the next");
+  add_number(*walk, "--every", o.every, counts, "number of steps between two written conformations");
   biocd::add_closures_option(*walk, o);
   walk->callback([&] {
     o.keep_closures = o.keep_closures.value_or(true);
     command = biocd::run_walk;
   });
 
-  CLI::App* merge = app.add_subcommand("merge", "joins the outputs of all shards of one run");
-  merge->add_option("FILES", o.shards, "what --shard 1/n ... n/n printed")->required();
+  CLI::App* merge = app.add_subcommand("merge", "join the outputs of all shards of one run");
+  merge->add_option("FILES", o.shards, "outputs of --shard 1/n ... n/n")->required();
   merge->callback([&] { command = biocd::run_merge; });
 
   CLI::App* path =
-      app.add_subcommand("path", "is the straight path between two conformations free? Proved, or sampled");
+      app.add_subcommand("path", "check the straight path between two conformations, by proof or by sampling");
   biocd::add_model_options(*path, o);
   path->remove_option(path->get_option("--engine"));  // only one engine certifies paths
   biocd::add_path_options(*path, o);
   path->callback([&] { command = biocd::run_path; });
 
-  CLI::App* demo = app.add_subcommand("demo", "the main job on one protein: sample, time, verify, draw");
+  CLI::App* demo = app.add_subcommand("demo", "demonstrate the library on one protein: sample, time, verify, draw");
   demo->add_option("FILE", o.file, "PDB or mmCIF file, plain or .gz")->required();
   demo->add_option("--out", o.out, "folder for the plot and the viewer scripts")->required();
   add_number(*demo, "-n,--count", o.count, counts, "conformations per row");
@@ -140,7 +144,7 @@ Exit run(int argc, char** argv) {
     app.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error) == 0 ? Exit::free : Exit::usage;  // --help, --version
-    throw hinge::ModelError(std::string(error.what()) + "; --help says more");
+    throw hinge::ModelError(std::string(error.what()) + "; see --help");
   }
   biocd::check_outputs(o, demo->parsed());
   return command(o);

@@ -216,7 +216,7 @@ Exit run_check(const Options& options) {
   };
   const auto finish = [&](const std::string& error) {
     if (others > 1)
-      fmt::print(stderr, "note: {} more models have other atoms than the first; `other_atoms` of --json says which\n",
+      fmt::print(stderr, "note: {} more models have other atoms than the first model; see `other_atoms` of --json\n",
                  others - 1);
     results.finish(summary.json(has_closures), error);
     if (options.output != Output::table) return;

@@ -38,10 +38,11 @@ bool is_inside(const std::filesystem::path& file, const std::filesystem::path& f
 void check_outputs(const Options& options, bool is_folder) {
   if (!options.torsions_out.empty()) {
     if (std::filesystem::path(options.torsions_out).extension() != ".npy")
-      throw hinge::ModelError("--torsions-out " + options.torsions_out + ": expected .npy");
+      throw hinge::ModelError("--torsions-out " + options.torsions_out + ": expected a file name with .npy");
     hinge::tool::check_output("--torsions-out", options.torsions_out, input_files(options));
     if (options.torsions_out == options.out)
-      throw hinge::ModelError("--torsions-out " + options.torsions_out + ": is the file of --out, expected another");
+      throw hinge::ModelError("--torsions-out " + options.torsions_out +
+                              ": is the file of --out, expected a different file");
   }
   const std::filesystem::path out = options.out;
   if (out.empty()) return;
@@ -49,8 +50,7 @@ void check_outputs(const Options& options, bool is_folder) {
     conformation_format(options.out);
     hinge::tool::check_output("--out", out, input_files(options));
     if (is_inside(out, options.read.dictionary))
-      throw hinge::ModelError("--out " + options.out +
-                              ": is in the monomer dictionary, expected another file to write");
+      throw hinge::ModelError("--out " + options.out + ": is in the monomer dictionary, expected a different file");
     return;
   }
   std::error_code error;

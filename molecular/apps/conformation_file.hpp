@@ -30,7 +30,7 @@ inline std::size_t results_at_once(std::size_t atoms) {
 inline hinge::molecular::TrajectoryFormat conformation_format(const std::string& path) {
   const auto format = hinge::molecular::trajectory_format(path);
   if (!path.empty() && !format)
-    throw hinge::ModelError("--out " + path + ": expected " + hinge::molecular::trajectory_extensions);
+    throw hinge::ModelError("--out " + path + ": expected a file name with " + hinge::molecular::trajectory_extensions);
   return format.value_or(hinge::molecular::TrajectoryFormat::pdb);
 }
 
@@ -77,7 +77,7 @@ class ConformationFile {
     const bool is_file = size() > 0 || wants_whole_frames();
     if (size() == 0)
       fmt::print(stderr, "note: --out {}: no conformation{}: {}\n", path_, only_free_ ? " is free" : " to write",
-                 is_file ? "the file holds 0 frames" : "no file is written, the format has none without atoms");
+                 is_file ? "the file holds 0 frames" : "no file is written, the format needs atoms");
     if (!is_file) return;
     writer_->finish();
     file_.finish();

@@ -88,7 +88,7 @@ Exit run_demo(const Options& options) {
   for (const std::size_t k : {std::size_t{1}, std::size_t{5}, std::size_t{10}, std::size_t{35}, residues})
     counts.insert(std::min(k, residues));
   const NamedSampling samplings[] = {
-      {"full", "torsions over the full turn", {options.seed, {}}},
+      {"full", "torsions over the full range", {options.seed, {}}},
       {"0.5 deg", "torsions 0.5 degrees (sigma) about native", {options.seed, std::numbers::pi / 360}}};
   const unsigned threads = std::max(1U, std::thread::hardware_concurrency());
   CheckOptions rules = options.check;

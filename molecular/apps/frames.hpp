@@ -58,8 +58,9 @@ class Frames {
   std::size_t atom_count() const {
     for (const hinge::molecular::Trajectory& file : files_)
       if (file.atom_count() != files_.front().atom_count())
-        throw hinge::ModelError(fmt::format("--out: frames of {} and of {} atoms do not go into one file",
-                                            files_.front().atom_count(), file.atom_count()));
+        throw hinge::ModelError(
+            fmt::format("--out: the trajectories have frames of {} and {} atoms, expected one number of atoms",
+                        files_.front().atom_count(), file.atom_count()));
     return files_.front().atom_count();
   }
   /// Returns true if all files store 32-bit floats.

@@ -43,7 +43,7 @@ Job load(const Options& options) {
   auto torsions = loops ? select_loop_torsions(*molecule, options.free, options.omega) : selected.torsions;
   std::optional<EnsembleGroups> ensemble;
   if (!options.rigid_from.empty()) {
-    if (loops) throw hinge::ModelError("--rigid-from with --loop: expected one of them, a loop stands still outside");
+    if (loops) throw hinge::ModelError("--rigid-from and --loop are both given, expected one of the two");
     ensemble = find_rigid_groups(options, *molecule, torsions);
     torsions = ensemble->torsions;
     made.held = held_placements(*molecule, *ensemble);
@@ -101,17 +101,17 @@ void explain(const Options& options, const Job& job) {
   fmt::print("  distance     {:.4f} angstrom in the first model\n", distance(p, q));
   const int min_bonds = checker.min_bonds().of(s, i, j), bonds = bond_distance(s, i, j, min_bonds - 1);
   if (bonds >= 0)
-    fmt::print("  dropped      {} bonds apart, pairs count from {} on\n", bonds, min_bonds);
+    fmt::print("  dropped      {} bonds apart, expected at least {}\n", bonds, min_bonds);
   else if (!checker.exclusions().in_scope(a, b))
-    fmt::print("  dropped      no --between or --inside asks about it\n");
+    fmt::print("  dropped      not in a pair of --between or --inside\n");
   else if (!t.rules->inside_residues && s.atoms[i].residue == s.atoms[j].residue)
-    fmt::print("  dropped      inside one residue\n");
+    fmt::print("  dropped      both atoms in one residue\n");
   else if (!checker.exclusions().admits(a, b))
-    fmt::print("  dropped      collides in the reference, exempted\n");
+    fmt::print("  dropped      collides in the reference, so it is exempt\n");
   else if (checker.constant(i, j))
     fmt::print(
-        "  kept         for coordinates from a file; its distance is constant under this selection, so samples "
-        "leave it out\n");
+        "  kept         for coordinates from a file; samples leave it out, because its distance is constant under "
+        "this selection\n");
   else
     fmt::print("  kept         at least {} bonds apart, distance changes under this selection\n", min_bonds);
   fmt::print("  verdict      {}\n", closer ? "closer than the threshold" : "not closer than the threshold");

@@ -36,10 +36,10 @@ class ShardFile {
     std::error_code error;
     const auto status = std::filesystem::status(path_, error);
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-      refuse("is no regular file, expected one: shards are read twice");
+      refuse("is not a regular file, expected a file that can be read twice");
     stream_ = std::ifstream(path_);  // closed early: more shards than file descriptors are possible
     if (!stream_) throw LoadError(path_ + ": cannot be opened");
-    if (!next()) refuse("is empty, expected what biocd --shard printed");
+    if (!next()) refuse("is empty, expected the output of biocd --shard");
     if (line_.starts_with("# biocd shard "))
       open_csv();
     else
@@ -58,7 +58,7 @@ class ShardFile {
       const bool is_new = index >= expected;
       // CSV has one row per pair, so an index may repeat.
       if (is_new ? index >= first + count : is_json || expected == first || index + 1 != expected)
-        refuse(fmt::format("conformation {} where {} was expected", index, expected));
+        refuse(fmt::format("has conformation {}, expected conformation {}", index, expected));
       if (is_new) {
         absent += index - expected;
         expected = index + 1;
@@ -68,8 +68,8 @@ class ShardFile {
     const bool ended = is_end();
     const std::uint64_t missing = ended ? read_missing() : 0;
     if (!ended || absent + (first + count - expected) != missing)
-      refuse(fmt::format("ends behind conformation {}, expected {} conformations from {} on but for {}", expected,
-                         count, first, missing));
+      refuse(fmt::format("ends before conformation {}, expected {} conformations from {} on, of which {} are missing",
+                         expected, count, first, missing));
     stream_.close();
   }
   void close() { stream_.close(); }
@@ -92,9 +92,9 @@ class ShardFile {
   }
 
   void check_range() const {
-    if (shard.index < 1 || shard.index > shard.of) refuse("no shard of a run");
+    if (shard.index < 1 || shard.index > shard.of) refuse("its shard number is not one of 1 to n");
     const auto [begin, end] = shard_range(shard, total);
-    if (first != begin || count != end - begin) refuse("holds other conformations than its shard has");
+    if (first != begin || count != end - begin) refuse("its range of conformations does not fit its shard number");
   }
 
   bool is_end() const { return is_json ? line_ == json_rows_end : line_.starts_with(csv_shard_end); }
@@ -107,7 +107,8 @@ class ShardFile {
     const std::string_view text = std::string_view(line_).substr(std::string_view(csv_shard_end).size() + 1);
     std::uint64_t missing = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), missing);
-    if (error != std::errc{} || end != text.data() + text.size()) refuse("its last line is damaged");
+    if (error != std::errc{} || end != text.data() + text.size())
+      refuse("its last line is damaged, expected the number of missing samples");
     return missing;
   }
 
@@ -118,13 +119,13 @@ class ShardFile {
     if (std::sscanf(line_.c_str(),
                     "# biocd shard %llu/%llu: %llu conformations from %llu of %llu, question %16[0-9a-f]", &i, &n, &c,
                     &f, &t, digest) != 6)
-      refuse("its first line is damaged");
+      refuse("its first line is damaged, expected the header of a shard");
     shard = {i, n};
     count = c;
     first = f;
     total = t;
     check_range();
-    if (!next() || !line_.starts_with(csv_columns)) refuse("its second line is damaged");
+    if (!next() || !line_.starts_with(csv_columns)) refuse("its second line is damaged, expected the column names");
     header = line_ + "\n";
     question = fmt::format("csv {} {} {}", digest, n, t);
   }
@@ -133,11 +134,11 @@ class ShardFile {
     is_json = true;
     std::string text = line_ + "\n";
     while (next() && line_ != json_rows_begin) text += line_ + "\n";
-    if (line_ != json_rows_begin) refuse("has no conformations, expected what biocd --shard printed");
+    if (line_ != json_rows_begin) refuse("has no conformations, expected the output of biocd --shard");
     text.resize(text.size() - std::min<std::size_t>(2, text.size()));  // removes the comma before the rows
     head = Json::parse(text + "}", nullptr, false);
     if (head.is_discarded() || !head.is_object()) refuse("its head is damaged");
-    if (!head.contains("shard")) refuse("is no shard but a whole run");
+    if (!head.contains("shard")) refuse("is the output of a whole run, expected a shard");
     const Json own = head["shard"];
     const auto number = [&](const char* key) {
       if (!own.is_object() || !own.contains(key) || !own[key].is_number_unsigned()) refuse("its shard is damaged");
@@ -184,7 +185,7 @@ Exit run_merge(const Options& options) {
     files.back().open();
     files.back().close();
     if (files.back().question != files.front().question)
-      throw LoadError(path + ": is a shard of another run than " + files.front().path());
+      throw LoadError(path + ": is not a shard of the same run as " + files.front().path());
   }
   std::sort(files.begin(), files.end(),
             [](const ShardFile& a, const ShardFile& b) { return a.shard.index < b.shard.index; });

@@ -89,15 +89,15 @@ void print_table(const Options& options, const Job& job, const Asked& asked) {
   }
   fmt::print("\n");
   if (asked.closure_residual > 0.0)
-    fmt::print("closures: not solved, so cycles open; the worse residual of the ends is {:.3f} angstrom\n",
+    fmt::print("closures: not solved, so cycles open; the larger residual of the two ends is {:.3f} angstrom\n",
                asked.closure_residual);
   switch (answer.verdict) {
     case PathVerdict::free:
       if (options.sampled_degrees)
-        fmt::print("free at {} states at most {} degrees apart; what lies between them was not looked at\n",
+        fmt::print("free at {} states at most {} degrees apart; the states between them were not tested\n",
                    answer.counts.configurations, *options.sampled_degrees);
       else
-        fmt::print("free: proved for every state, from {} of them\n", answer.counts.configurations);
+        fmt::print("free: proved for every state, by testing {} states\n", answer.counts.configurations);
       break;
     case PathVerdict::colliding:
       fmt::print("collides at t = {}, {} pairs\n", answer.parameter, asked.pairs.size());
@@ -124,7 +124,8 @@ void note_open_closures(const Job& job, const Asked& asked) {
   const auto most = std::ranges::max_element(worst);
   if (most == worst.end() || *most <= 1e-6) return;
   std::fprintf(stderr,
-               "note: a straight path closes no cycles: %td of %zu closures open on it, most %s, by %.3f angstrom\n",
+               "note: a straight path does not keep cycles closed: %td of %zu closures open on it, the most %s, by "
+               "%.3f angstrom\n",
                std::ranges::count_if(worst, [](double residual) { return residual > 1e-6; }), worst.size(),
                closure_names(job)[static_cast<std::size_t>(most - worst.begin())].c_str(), *most);
 }
@@ -133,7 +134,7 @@ void note_open_closures(const Job& job, const Asked& asked) {
 
 Exit run_path(const Options& options) {
   if (!options.loop.empty())
-    throw hinge::ModelError("--loop: cycles are not closed along a path, expected no loops; sample closes them");
+    throw hinge::ModelError("--loop: a path does not keep cycles closed, expected no loops (use biocd sample)");
   const Job job = load(options);
   print_notes(job);
   if (!options.explain.empty()) {

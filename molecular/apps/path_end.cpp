@@ -44,12 +44,13 @@ std::vector<double> read_degrees(std::string_view text, std::size_t count, const
       refuse(
           fmt::format("value {} is '{}', expected a finite number of degrees, at most 1e+15", turns.size() + 1, word));
     turns.push_back(value);
-    if (comma && text.find_first_not_of(blanks) == std::string_view::npos) refuse("ends with a comma");
+    if (comma && text.find_first_not_of(blanks) == std::string_view::npos)
+      refuse("ends with a comma, expected a value after it");
   }
   if (turns.size() != count)
     refuse(
-        fmt::format("{} values, expected {}: a turn from the reference, in degrees, for each DOF of the selection "
-                    "(moves of placed parts in angstrom)",
+        fmt::format("{} values, expected {}: the change from the reference, in degrees, for each DOF of the selection "
+                    "(translations of placed parts in angstrom)",
                     turns.size(), count));
   return turns;
 }
@@ -61,7 +62,7 @@ std::size_t find_model(const std::string& option, std::string_view number, const
   if (error == std::errc{} && end == number.data() + number.size() && found != s.model_numbers.end())
     return static_cast<std::size_t>(found - s.model_numbers.begin());
   throw hinge::ModelError(
-      fmt::format("{} model '{}': the models are numbered {}{}", option, number, s.model_numbers.front(),
+      fmt::format("{} model '{}': expected the number of a model: {}{}", option, number, s.model_numbers.front(),
                   s.model_numbers.size() > 1 ? fmt::format(" ... {}", s.model_numbers.back()) : ""));
 }
 

@@ -242,7 +242,7 @@ std::string heading(const Options& options, const Job& job) {
   if (options.check.exempt_reference) {
     exempt = ", reference collisions exempt";
     if (const std::size_t rest = checker.reference_collisions().size() - exempted_pairs(job); rest > 0)
-      exempt += fmt::format(" but for {} between molecules (--exempt-interfaces)", rest);
+      exempt += fmt::format(" except {} between molecules (--exempt-interfaces)", rest);
   }
   std::string text = fmt::format(
       "{}: {} atoms, {} residues, {} chains, {} bonds\nselection {}{}{}: {} DOF, {} rigid groups, {} closures\n"
@@ -269,7 +269,7 @@ std::string left_out_line(const Structure& s) {
   if (s.waters_dropped > 0) what += fmt::format("{}{} waters", what.empty() ? "" : ", ", s.waters_dropped);
   if (what.empty()) return {};
   if (names > 0) options = "--hetero keeps ligands and ions";
-  if (s.waters_dropped > 0) options += names > 0 ? ", --hetero waters waters too" : "--hetero waters keeps them";
+  if (s.waters_dropped > 0) options += names > 0 ? ", --hetero waters also keeps waters" : "--hetero waters keeps them";
   return fmt::format("left out: {} ({})\n", what, options);
 }
 
@@ -286,7 +286,7 @@ void print_constant_contacts(const Job& job) {
 void print_notes(const Job& job) {
   for (const std::string& note : all_notes(job)) std::fprintf(stderr, "note: %s\n", note.c_str());
   if (job.checker.thresholds().rules->name == "molprobity" && !has_hydrogens(job.molecule->structure()))
-    std::fprintf(stderr, "note: rules molprobity: the structure has no hydrogens, MolProbity would add them first\n");
+    std::fprintf(stderr, "note: rules molprobity: the structure has no hydrogens, but MolProbity adds them first\n");
   for (const std::string& note : job.kept.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   if (job.kept.held.empty()) return;
   constexpr std::size_t most = 8;

@@ -157,7 +157,7 @@ std::string rigid_groups_text(const Options& options, const Job& job) {
                         group.segments.size(), group.segments.size() == 1 ? "" : "s", residues_text(s, group.atoms()),
                         group.spread, deviation_text(s, all.groups[g]));
   }
-  if (found.groups.size() > most) text += fmt::format("  and {} smaller ones\n", found.groups.size() - most);
+  if (found.groups.size() > most) text += fmt::format("  and {} smaller groups\n", found.groups.size() - most);
   for (std::size_t k = 0; k < found.torsions.size(); ++k)
     text += fmt::format("  free {:<22} spread {:.1f} degrees\n",
                         torsion_label(s, job.molecule->torsions()[found.torsions[k]]), found.turn_spreads[k] / degree);

@@ -140,16 +140,15 @@ void print_table(const Job& job, const Summary& summary, double seconds) {
              static_cast<double>(summary.checked()) / seconds);
   if (const auto& starts = summary.starts()) {
     const std::uint64_t all = summary.checked() + starts->refused + starts->unclosed;
-    fmt::print(
-        "starts: {}, of which {} closed ({:.2f} %), {} of those refused because they collide; samples missing: {}\n",
-        all, all - starts->unclosed, share(all - starts->unclosed, all), starts->refused, starts->missing);
+    fmt::print("starts: {}; closed: {} ({:.2f} %); closed, but rejected for a collision: {}; samples missing: {}\n",
+               all, all - starts->unclosed, share(all - starts->unclosed, all), starts->refused, starts->missing);
   } else if (summary.worst_residual() > 0.0) {
-    fmt::print("closures: sampled freely, so cycles open (--closures keep keeps them closed)\n");
+    fmt::print("closures: not solved, so cycles open (--closures keep closes them)\n");
   }
   print_closures(job, summary.worst_residuals());
   for (const Offender& o : summary.top()) fmt::print("  {:<18} {:<18} {:8}\n", o.label_i, o.label_j, o.count);
   if (summary.count_error() > 0)
-    fmt::print("  counts of pairs may be too low by up to {}: there were too many different ones\n",
+    fmt::print("  counts of pairs may be too low by up to {}: there were too many different pairs\n",
                summary.count_error());
 }
 
@@ -172,7 +171,7 @@ Exit run_sample(const Options& options) {
 
   TorsionFile torsions(options.torsions_out, job.checker.dof_count());
   if (options.torsions && options.output == Output::table)
-    throw hinge::ModelError("--torsions: expected --json or --csv with it, or --torsions-out FILE.npy");
+    throw hinge::ModelError("--torsions: expected --json or --csv in addition, or --torsions-out FILE.npy instead");
 
   Json head{{"tool", "biocd"}, {"command", "sample"}, {"model", model_json(options, job)}, {"mode", mode.text()}};
   head["seed"] = options.seed;

@@ -53,7 +53,7 @@ std::pair<std::string, PlacementRange> read_placement(const std::string& word) {
         !(degrees >= 0.0 && degrees <= 180.0))
       throw hinge::ModelError(
           "--place '" + word +
-          "': expected PART=DISTANCE,DEGREES, a distance from 0 to 1e+09 angstrom and a turn from 0 to 180");
+          "': expected PART=DISTANCE,DEGREES, a distance from 0 to 1e+09 angstrom and an angle from 0 to 180");
     range.turn = std::min(degrees * degree, std::numbers::pi);
   }
   return {word.substr(0, equals), range};
@@ -63,7 +63,7 @@ PairScope read_scope(const Options& options, const Structure& structure) {
   std::vector<std::pair<Part, Part>> between;
   for (const auto& [first, second] : options.between) {
     if (first == "rest" && second == "rest")
-      throw hinge::ModelError("--between rest rest: expected a part that one of them is the rest of");
+      throw hinge::ModelError("--between rest rest: expected at least one part, as in --between A rest");
     const Part a = find_part(structure, first == "rest" ? second : first);
     const Part b = first == "rest" || second == "rest" ? rest_of(structure, a) : find_part(structure, second);
     between.emplace_back(a, b);

@@ -16,42 +16,50 @@ using Reals = NumberRange<double>;
 
 void add_model_options(CLI::App& command, Options& o) {
   command.add_option("FILE", o.file, "PDB or mmCIF file, plain or .gz")->required();
-  command.add_option("--with", o.with, "one more file beside FILE, kept whole but for its waters (repeatable)")
+  command
+      .add_option("--with", o.with, "one more file in addition to FILE; all of it is kept except waters (repeatable)")
       ->allow_extra_args(false);
-  CLI::Option* free = command.add_option("--free", o.free, "torsions that are free (with --loop: side chains only)")
+  CLI::Option* free = command.add_option("--free", o.free, "torsions that are free (with --loop: only side chains)")
                           ->capture_default_str();
-  command.add_option("--loop", o.loop, "loops A:40-52,...: free with both ends held, all else stands still");
+  command.add_option("--loop", o.loop,
+                     "loops A:40-52,...: free between two fixed ends; everything outside the loops is fixed");
   command.parse_complete_callback([&o, free] {
     if (!o.loop.empty() && free->count() == 0) o.free = "none";
   });
   command.add_flag("--keep-hbonds", o.keep_hydrogen_bonds,
-                   "hydrogen bonds of the backbone (Kabsch & Sander) are closures");
+                   "treat hydrogen bonds of the backbone (Kabsch & Sander) as closures");
   command
-      .add_option("--rigid-from", o.rigid_from,
-                  "conformations (DCD, XTC, .npy, PDB, mmCIF, plain or .gz): torsions inside groups that these keep "
-                  "rigid stay at their reference (repeatable)")
+      .add_option(
+          "--rigid-from", o.rigid_from,
+          "conformations (DCD, XTC, .npy, PDB, mmCIF, plain or .gz) from which rigid groups are found; torsions "
+          "inside a rigid group stay at their reference (repeatable)")
       ->allow_extra_args(false);
   add_number(command, "--rigid-tolerance", o.rigid_tolerance, lengths_above_0,
-             "by how much distances inside a rigid group may vary: standard deviation, angstrom");
+             "largest standard deviation of a distance inside a rigid group, angstrom");
   command
-      .add_option("--place", o.place,
-                  "PART[=DISTANCE[,DEGREES]]: a chain, ligand or file that moves and turns as one against the rest, in "
-                  "samples by up to so many angstrom and degrees (default 10,180; repeatable)")
+      .add_option(
+          "--place", o.place,
+          "PART[=DISTANCE[,DEGREES]]: a chain, ligand or file that moves as one body relative to the rest; samples "
+          "move it by at most DISTANCE angstrom and DEGREES (default 10,180; repeatable)")
       ->allow_extra_args(false);
-  command.add_option("--between", o.between, "PART PART: only pairs of an atom of each count ('rest': of all others)");
-  command.add_option("--inside", o.inside, "PART: only pairs inside it count, and those of --between (repeatable)")
-      ->allow_extra_args(false);
-  command.add_flag("--omega", o.omega, "free omega too");
+  command.add_option("--between", o.between,
+                     "PART PART: test only pairs of one atom from each part ('rest': all other atoms)");
   command
-      .add_option("--rules", o.check.thresholds.rules,
-                  "what a clash is: biocd (the next five options), severe, molprobity, chimerax, posebusters; auto: "
-                  "severe for a structure with hydrogens unless one of these options is given, else biocd")
+      .add_option("--inside", o.inside,
+                  "PART: test only pairs inside this part, in addition to the pairs of --between (repeatable)")
+      ->allow_extra_args(false);
+  command.add_flag("--omega", o.omega, "free omega, too");
+  command
+      .add_option(
+          "--rules", o.check.thresholds.rules,
+          "definition of a clash: biocd (set by the next five options), severe, molprobity, chimerax, posebusters "
+          "or auto (severe for a structure with hydrogens if none of the five options is given, otherwise biocd)")
       ->capture_default_str();
   command.add_option("--radii", o.check.thresholds.radii, "radii set: bondi (default), probe, probe-united, amber");
   add_number(command, "--rho", o.check.thresholds.rho, Reals{0.0, 1000.0, true},
              "M = rho * (sum of radii) (default: 0.8)");
   add_number(command, "--min-bonds", o.check.min_bonds, NumberRange<int>{1, 1000},
-             "pairs count from this bond distance on (default: the radii set's, 4 for bondi)");
+             "smallest number of bonds between the atoms of a tested pair (default: set by --radii, 4 for bondi)");
   command
       .add_option_function<std::string>(
           "--hbond",
@@ -61,7 +69,7 @@ void add_model_options(CLI::App& command, Options& o) {
           "hydrogen-bond rule: auto (on with hydrogens), on, off")
       ->check(CLI::IsMember({"auto", "on", "off"}));
   add_number(command, "--hbond-allowance", o.check.thresholds.hydrogen_bond_allowance, Reals{0.0, 1000.0},
-             "taken from M(polar H, acceptor), angstrom (default: 0.4)");
+             "length subtracted from M(polar H, acceptor), angstrom (default: 0.4)");
   command
       .add_option_function<std::string>(
           "--hydrogens", [&o](const std::string& text) { o.read.keep_hydrogens = text == "keep"; },
@@ -71,12 +79,11 @@ void add_model_options(CLI::App& command, Options& o) {
   command.add_option_function<std::string>(
       "--altloc",
       [&o](const std::string& text) {
-        if (text.size() != 1) throw CLI::ValidationError("--altloc", "one character expected");
+        if (text.size() != 1) throw CLI::ValidationError("--altloc", "expected one character");
         o.read.altloc = text.front();
       },
-      "alternative location to use (default: the one of the highest summed occupancy); residues without it take their "
-      "own "
-      "best");
+      "alternative location to use (default: the location of highest summed occupancy); residues without it use "
+      "their own location of highest occupancy");
   command
       .add_option_function<std::string>(
           "--hetero",
@@ -84,16 +91,17 @@ void add_model_options(CLI::App& command, Options& o) {
             o.read.hetero = word != "none";
             o.read.waters = word == "waters";
           },
-          "keep ligands (and ions and sugars; the same as --hetero alone), or waters too, or none (default)")
+          "hetero atoms to keep: ligands (with ions and sugars; the same as --hetero alone), waters (these as well) "
+          "or none (default)")
       ->check(CLI::IsMember({"none", "ligands", "waters"}));
   command
       .add_option("--components", o.read.components,
-                  "CIF file with chemical components: bonds of residues by name (may be given more than once)")
+                  "CIF file of chemical components, which give the bonds of residues by name (repeatable)")
       ->allow_extra_args(false);
   command
       .add_option_function<std::string>(
           "--dictionary", [&o](const std::string& text) { o.read.dictionary = text == "none" ? std::string() : text; },
-          "folder of a monomer dictionary, or none (default: $CLIBD_MON, else Debian's refmac-dictionary)")
+          "folder of a monomer dictionary, or none (default: $CLIBD_MON, otherwise Debian's refmac-dictionary)")
       ->default_str(o.read.dictionary.string());
   command
       .add_option_function<std::string>(
@@ -101,28 +109,31 @@ void add_model_options(CLI::App& command, Options& o) {
           [&o](const std::string& text) {
             o.read.bonds = text == "recorded" ? BondSearch::recorded : BondSearch::geometry;
           },
-          "bonds between residues that no polymer makes: geometry (default: recorded ones, and by distance where "
-          "valences and angles allow) or recorded")
+          "bonds between residues, apart from polymer bonds: recorded (only bonds recorded in the file) or geometry "
+          "(default: also bonds found by distance, if valences and angles allow them)")
       ->check(CLI::IsMember({"recorded", "geometry"}));
-  CLI::Option* exempt =
-      command.add_flag("--exempt-reference", o.check.exempt_reference,
-                       "pairs that collide in the file's (first) model do not count, but for those of "
-                       "two files, or of a placed part and the rest");
-  command.add_flag("--exempt-interfaces", o.check.exempt_interfaces, "nor do these")->needs(exempt);
+  CLI::Option* exempt = command.add_flag(
+      "--exempt-reference", o.check.exempt_reference,
+      "ignore pairs that collide in the first model of the file, except pairs of two files and pairs of a "
+      "placed part and the rest");
+  command
+      .add_flag("--exempt-interfaces", o.check.exempt_interfaces,
+                "ignore the pairs that --exempt-reference excepts, too")
+      ->needs(exempt);
   command.add_option("--engine", o.check.engine, "simd, lazy (the paper's) or brute")->capture_default_str();
-  command.add_option("--explain", o.explain, "say which rule keeps or drops the pair of atoms i,j (numbers from 0)");
+  command.add_option("--explain", o.explain, "print which rule keeps or drops the pair of atoms i,j (numbers from 0)");
 }
 
 void add_json_option(CLI::App& command, Options& o) {
   command.add_flag_callback(
-      "--json", [&o] { o.output = Output::json; }, "JSON on standard output");
+      "--json", [&o] { o.output = Output::json; }, "print JSON on standard output");
 }
 
 void add_check_options(CLI::App& command, Options& o) {
   add_json_option(command, o);
   command
       .add_flag_callback(
-          "--csv", [&o] { o.output = Output::csv; }, "CSV on standard output")
+          "--csv", [&o] { o.output = Output::csv; }, "print CSV on standard output")
       ->excludes("--json");
   command
       .add_option_function<std::string>(
@@ -132,41 +143,42 @@ void add_check_options(CLI::App& command, Options& o) {
               throw hinge::ModelError("--mode '" + text + "': expected D in angstrom, at most 1e+09");
             o.mode = text;
           },
-          "any, all, within:D (angstrom) or closest")
+          "question: any, all, within:D (angstrom) or closest")
       ->default_str(o.mode);
   command.add_option("--out", o.out, "write the conformations to this .pdb, .cif, .dcd or .npy file");
   command
       .add_option_function<std::string>(
           "--filter", [&o](const std::string& text) { o.only_free = text == "free"; },
-          "conformations that --out gets: all (default) or free")
+          "conformations that --out writes: all (default) or free")
       ->check(CLI::IsMember({"all", "free"}))
       ->needs("--out");
   command.add_option_function<std::string>(
       "--shard", [&o](const std::string& text) { o.shard = parse_shard(text); },
-      "i/n: part i of n (from 1), for biocd merge; with --json or --csv");
+      "i/n: run only part i of n (from 1), for biocd merge; needs --json or --csv");
   add_number(command, "--threads", o.threads, NumberRange<unsigned>{1, 1024},
-             "worker threads; the output does not depend on them");
+             "number of worker threads; the output does not depend on it");
 }
 
 void add_closures_option(CLI::App& command, Options& o) {
   command
       .add_option_function<std::string>(
           "--closures", [&o](const std::string& text) { o.keep_closures = text == "keep"; },
-          "cycles through disulphides and other bonds: keep (default) or open; loops are always kept")
+          "cycles through disulphides and other bonds: keep closed (keep, default) or let open (open); loops "
+          "stay closed")
       ->check(CLI::IsMember({"open", "keep"}));
 }
 
 void add_path_options(CLI::App& command, Options& o) {
   add_json_option(command, o);
   constexpr const char* end =
-      "reference, model:N (its torsions), @FILE or a list of turns from the reference, degrees, comma separated, one "
-      "per DOF";
+      "reference, model:N (the torsions of that model), @FILE, or comma-separated changes from the reference, one per "
+      "DOF, degrees";
   command.add_option("--from", o.from, end)->required();
   command.add_option("--to", o.to, end)->required();
   CLI::Option* sampled = add_number(command, "--sampled", o.sampled_degrees, lengths_above_0,
-                                    "look at states at most so many degrees apart (default: certify every state)");
+                                    "test states at most this many degrees apart (default: certify every state)");
   add_number(command, "--min-step", o.min_step, Reals{0.0, 1.0, true},
-             "stretches no longer than this share of the path are not cut any more")
+             "do not subdivide intervals shorter than this fraction of the path")
       ->excludes(sampled);
 }
 

@@ -27,14 +27,17 @@ using Moves = hinge::MoveChecker<hinge::Point, BondExclusions, hinge::TypedThres
 
 void check_options(const Options& options, const Job& job) {
   if (options.check.engine != "simd")
-    throw hinge::ModelError("walk: engine '" + options.check.engine + "': only the simd engine answers moves");
-  if (!options.place.empty()) throw hinge::ModelError("--place: a walk turns torsions, expected no placed parts");
+    throw hinge::ModelError("walk: engine '" + options.check.engine + "': expected simd, the only engine for moves");
+  if (!options.place.empty())
+    throw hinge::ModelError("--place: a walk changes only torsions, expected no placed parts");
   const std::size_t dof = job.checker.dof_count();
   if (dof == 0)
-    throw hinge::ModelError("--free " + options.free + ": no torsion is free, so nothing can walk" +
-                            (job.kept.held.empty() ? "" : " (closed cycles hold them; --closures open lets them go)"));
+    throw hinge::ModelError(
+        "--free " + options.free + ": no torsion is free, expected at least one" +
+        (job.kept.held.empty() ? "" : " (closed cycles hold the torsions; --closures open frees them)"));
   if (options.changes > dof)
-    throw hinge::ModelError(fmt::format("--changes {}: only {} torsions are free", options.changes, dof));
+    throw hinge::ModelError(
+        fmt::format("--changes {}: expected at most {}, the number of free torsions", options.changes, dof));
 }
 
 void check_start(const Options& options, const Structure& s, Moves& moves) {
@@ -42,8 +45,8 @@ void check_start(const Options& options, const Structure& s, Moves& moves) {
   const std::vector<hinge::Hit>& hits = moves.collisions();
   const auto name = [&](hinge::PrimitiveId i) { return label(s, static_cast<std::uint32_t>(hinge::index(i))); };
   throw hinge::LoadError(fmt::format(
-      "{}: collides in {} pair{}, first {} and {}; expected a free conformation to start from "
-      "(--exempt-reference leaves its colliding pairs out)",
+      "{}: collides in {} pair{}, first {} and {}; expected a start without collisions "
+      "(--exempt-reference exempts these pairs)",
       options.file, hits.size(), hits.size() == 1 ? "" : "s", name(hits.front().first), name(hits.front().second)));
 }
 
@@ -117,7 +120,7 @@ Exit run_walk(const Options& options) {
                static_cast<double>(options.steps) / walking.count());
     if (file.size() > 0) fmt::print("{} conformations written to {}\n", file.size(), options.out);
     if (!job.kept.closures.empty())
-      fmt::print("closures kept: {}; moves that did not close, and were rejected: {}\n", job.kept.closures.size(),
+      fmt::print("closures kept: {}; moves rejected because they did not close: {}\n", job.kept.closures.size(),
                  unclosed);
     if (end.closure_residual > 0.0)
       fmt::print("closures: the worst residual at the end is {:.3g} angstrom\n", end.closure_residual);

@@ -268,7 +268,7 @@ TEST(BiocdEnsemble, FindsRigidGroups) {
   };
   refused(file() + " --rigid-from " + file(), "1 conformations, expected at least two", 2);
   refused(from + " --rigid-tolerance 0", "--rigid-tolerance '0': expected a number above 0", 2);
-  refused(from + " --loop A:7-11", "--rigid-from with --loop", 2);
+  refused(from + " --loop A:7-11", "--rigid-from and --loop are both given", 2);
   refused(file() + " --rigid-from /nonexistent", "/nonexistent", 3);
   Frame bad = read_structure(test::ubiquitin()).models[0];
   bad[7][1] = std::numeric_limits<double>::quiet_NaN();

@@ -188,7 +188,8 @@ TEST_F(BiocdFiles, PipesDevicesAndFoldersAreWhatTheyAre) {
   EXPECT_NE(run_tool("/bin/sh", "-c 'cat " + in + " | " HINGE_BIOCD " check " + in + " /dev/stdin 2>&1'")
                 .out.find("/dev/stdin: is a pipe or device, expected a regular file"),
             std::string::npos);
-  EXPECT_EQ(said("merge /dev/zero"), "biocd: /dev/zero: is no regular file, expected one: shards are read twice\n");
+  EXPECT_EQ(said("merge /dev/zero"),
+            "biocd: /dev/zero: is not a regular file, expected a file that can be read twice\n");
   EXPECT_EQ(said("path" + in + " --from reference --to @/dev/zero"),
             "biocd: /dev/zero: is a device, expected a file\n");
 }
@@ -237,7 +238,8 @@ TEST_F(BiocdFiles, FormatsFollowTheExtensionInEveryCommand) {
     EXPECT_EQ(run_biocd("info" + file("x.pdb") + " 2>&1").status, 0) << command;
     const test::Said said = run_biocd(command + " --out" + file("x.xyz") + " 2>&1");
     EXPECT_EQ(said.status, 2) << command;
-    EXPECT_NE(said.out.find("x.xyz: expected .pdb, .cif, .dcd or .npy"), std::string::npos) << said.out;
+    EXPECT_NE(said.out.find("x.xyz: expected a file name with .pdb, .cif, .dcd or .npy"), std::string::npos)
+        << said.out;
     EXPECT_EQ(std::count(said.out.begin(), said.out.end(), '\n'), 1) << said.out;  // one line: rejected before any work
     EXPECT_FALSE(fs::exists(folder / "x.xyz"));
   }
@@ -275,7 +277,8 @@ TEST_F(BiocdFiles, ModelsThatDifferAreCheckedAsWhatTheyAre) {
   EXPECT_NE(said.out.find("model 2: collides"), std::string::npos) << said.out;
   EXPECT_NE(said.out.find("model 3: free"), std::string::npos) << said.out;
   EXPECT_NE(
-      said.out.find("model 2 has other atoms than the first: A:GLY2:OXT is there, too (10 atoms, 9 in the first)"),
+      said.out.find(
+          "model 2 has other atoms than the first model: A:GLY2:OXT is additional (10 atoms, 9 in the first model)"),
       std::string::npos)
       << said.out;
   const test::Said written = run_biocd("check" + file("nmr.pdb") + " --out" + file("all.pdb") + " 2>&1");
@@ -288,7 +291,7 @@ TEST_F(BiocdFiles, ModelsThatDifferAreCheckedAsWhatTheyAre) {
   std::ofstream(folder / "top.pdb") << alanine() << far;
   const test::Said frames = run_biocd("check" + file("top.pdb") + file("nmr.pdb") + " 2>&1");
   EXPECT_EQ(frames.status, 3) << frames.out;
-  EXPECT_NE(frames.out.find("A:GLY2:OXT is there, too"), std::string::npos) << frames.out;
+  EXPECT_NE(frames.out.find("A:GLY2:OXT is additional"), std::string::npos) << frames.out;
 }
 
 /// Converts the ATOM records of the models to mmCIF.
@@ -320,7 +323,7 @@ TEST_F(BiocdFiles, ModelsThatDifferMayBeMmcif) {
   const test::Said said = run_biocd("check" + file("nmr.cif") + " 2>&1");
   EXPECT_EQ(said.status, 1) << said.out;
   for (const char* words : {"model 1: free", "model 2: collides", "model 3: free",
-                            "model 2 has other atoms than the first: A:GLY2:OXT is there, too"})
+                            "model 2 has other atoms than the first model: A:GLY2:OXT is additional"})
     EXPECT_NE(said.out.find(words), std::string::npos) << words << "\n" << said.out;
   for (const std::string& command : {"info" + file("nmr.cif"), "sample" + file("nmr.cif") + " -n 1",
                                      "path" + file("nmr.cif") + " --from reference --to model:2",
@@ -339,7 +342,8 @@ TEST_F(BiocdFiles, ModelsThatDifferMayBeMmcif) {
 TEST_F(BiocdFiles, SaysWhatWasLeftOut) {
   std::ofstream(folder / "wet.pdb") << alanine() << pdb_atom(6, "O", "HOH", 2, 9, 9, 9, "O", "HETATM")
                                     << pdb_atom(7, "ZN", "ZN", 3, 20, 9, 9, "ZN", "HETATM");
-  const std::string line = "left out: ZN x1, 1 waters (--hetero keeps ligands and ions, --hetero waters waters too)";
+  const std::string line =
+      "left out: ZN x1, 1 waters (--hetero keeps ligands and ions, --hetero waters also keeps waters)";
   for (const std::string command :
        {"check", "sample -n 1", "path --from reference --to reference", "check --csv", "sample -n 1 --csv", "info"}) {
     const test::Said said = run_biocd(command + " " + file("wet.pdb") + " 2>&1");
@@ -366,7 +370,7 @@ TEST_F(BiocdFiles, OfWatersAloneAreCheckedThoughNothingTurns) {
                                        << pdb_atom(2, "O", "HOH", 2, 2, 0, 0, "O", "HETATM");
   const test::Said said = run_biocd("check" + file("waters.pdb") + " 2>&1");
   EXPECT_EQ(said.status, 1) << said.out;  // 2.000 < 0.8 * (1.52 + 1.52)
-  EXPECT_NE(said.out.find("nothing but waters"), std::string::npos) << said.out;
+  EXPECT_NE(said.out.find("the file holds only waters"), std::string::npos) << said.out;
   EXPECT_EQ(run_biocd("check --free phi" + file("waters.pdb") + " 2>&1").status, 2);
 }
 

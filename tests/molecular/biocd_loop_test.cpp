@@ -121,10 +121,10 @@ TEST(BiocdLoop, RefusesWhatIsNoLoop) {
   };
   EXPECT_NE(refused("--loop A:1-8").find("MET1 is the first residue of its chain"), std::string::npos);
   EXPECT_NE(refused("--loop A:70-76").find("GLY76 is the last residue of its chain"), std::string::npos);
-  EXPECT_NE(refused("--loop A:36-38").find("has 4 turns, expected at least 6"), std::string::npos);
+  EXPECT_NE(refused("--loop A:36-38").find("has 4 torsions, expected at least 6"), std::string::npos);
   EXPECT_NE(refused("--loop A:10-20,A:15-25").find("shares residues with loop A:GLY10-SER20"), std::string::npos);
   EXPECT_NE(refused("--loop A:10-20 --free backbone").find("only side chains"), std::string::npos);
-  EXPECT_NE(refused("--loop A:10").find("turns"), std::string::npos);
+  EXPECT_NE(refused("--loop A:10").find("torsions"), std::string::npos);
   EXPECT_NE(refused("--loop nonsense").find("CHAIN:RESIDUES"), std::string::npos);
   refused("--closures maybe");
   refused("--loop A:10-20 --tries 0");

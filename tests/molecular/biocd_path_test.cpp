@@ -118,10 +118,10 @@ TEST(BiocdPath, TakesEndsFromAFile) {
     EXPECT_TRUE(outcome.out.starts_with(prefix)) << outcome.out;
     return std::to_string(outcome.status) + ": " + outcome.out.substr(std::min(prefix.size(), outcome.out.size()));
   };
-  EXPECT_EQ(said(list), "3: ends with a comma\n");
+  EXPECT_EQ(said(list), "3: ends with a comma, expected a value after it\n");
   EXPECT_EQ(said(empty),
-            "3: 0 values, expected 2: a turn from the reference, in degrees, for each DOF of the selection "
-            "(moves of placed parts in angstrom)\n");
+            "3: 0 values, expected 2: the change from the reference, in degrees, for each DOF of the selection "
+            "(translations of placed parts in angstrom)\n");
   EXPECT_EQ(said(words), "3: value 2 is 'x', expected a finite number of degrees, at most 1e+15\n");
   EXPECT_EQ(said(comma), "3: value 2 is '', expected a finite number of degrees, at most 1e+15\n");
   EXPECT_EQ(path(two + "/nonexistent 2>&1").out, "biocd: /nonexistent: cannot be opened: No such file or directory\n");
@@ -168,11 +168,12 @@ TEST(BiocdPath, RefusesEndsThatDoNotFit) {
             "2: biocd: --to 'abc': value 1 is 'abc', expected a finite number of degrees, at most 1e+15\n");
   EXPECT_EQ(refusal("--from nan --to 1"),
             "2: biocd: --from 'nan': value 1 is 'nan', expected a finite number of degrees, at most 1e+15\n");
-  EXPECT_EQ(refusal("--from 1,2 --to 1"),
-            "2: biocd: --from '1,2': 2 values, expected 1: a turn from the reference, in degrees, for each DOF of the "
-            "selection (moves of placed parts in angstrom)\n");
-  EXPECT_EQ(refusal("--from model:1 --to model:2"), "2: biocd: --to model '2': the models are numbered 1\n");
-  EXPECT_EQ(refusal("--from model:x --to 1"), "2: biocd: --from model 'x': the models are numbered 1\n");
+  EXPECT_EQ(
+      refusal("--from 1,2 --to 1"),
+      "2: biocd: --from '1,2': 2 values, expected 1: the change from the reference, in degrees, for each DOF of the "
+      "selection (translations of placed parts in angstrom)\n");
+  EXPECT_EQ(refusal("--from model:1 --to model:2"), "2: biocd: --to model '2': expected the number of a model: 1\n");
+  EXPECT_EQ(refusal("--from model:x --to 1"), "2: biocd: --from model 'x': expected the number of a model: 1\n");
   for (const char* options : {"--from 0", "--to 0", "--from 0 --to 1 --sampled 0", "--from 0 --to 1 --sampled -1",
                               "--from 0 --to 1 --sampled inf", "--from 0 --to 1 --min-step 0", "--from 0 --to 1 --csv",
                               "--from 0 --to 1 --sampled 1 --min-step 0.1", "--from 0 --to 1 --engine brute"})

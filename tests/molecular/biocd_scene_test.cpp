@@ -123,7 +123,7 @@ TEST(BiocdScene, SaysWhatItIsAbout) {
         "placed: B, within 10 angstrom and 180 degrees, about (", "pairs: between A and B\n", "pairs: inside B:1-10\n"})
     EXPECT_NE(info.out.find(line), std::string::npos) << line << info.out;
   const Said why = run_biocd("info " + file() + " --inside A:1-10 --explain 0,601");
-  EXPECT_NE(why.out.find("dropped      no --between or --inside asks about it\n"), std::string::npos) << why.out;
+  EXPECT_NE(why.out.find("dropped      not in a pair of --between or --inside\n"), std::string::npos) << why.out;
   EXPECT_NE(run_biocd("check " + file() + " --with " + file()).out.find("placed: nothing\n"), std::string::npos);
 }
 
@@ -158,12 +158,12 @@ TEST(BiocdScene, RefusesWhatDoesNotFit) {
   const std::string chains = "expected a chain (A), the name of a residue, CHAIN:RESIDUES or file:N";
   expect("--place Q", "selection 'Q': " + chains);
   const std::string range =
-      ": expected PART=DISTANCE,DEGREES, a distance from 0 to 1e+09 angstrom and a turn from 0 to 180";
+      ": expected PART=DISTANCE,DEGREES, a distance from 0 to 1e+09 angstrom and an angle from 0 to 180";
   for (const char* bad : {"A=", "A=x", "A=-1", "A=nan", "A=inf", "A=3,", "A=3,181", "A=3,-1", "A=3,4,5", "A=3,nan"})
     expect(std::string("--place ") + bad, "--place '" + std::string(bad) + "'" + range);
-  expect("--place A --place A", "placing 'A': A:MET1:N is placed with 'A' already");
-  expect("--between rest rest", "--between rest rest: expected a part that one of them is the rest of");
-  expect("--between A rest", "the rest of 'A': expected a part that is not everything");
+  expect("--place A --place A", "placing 'A': A:MET1:N already belongs to placed part 'A'");
+  expect("--between rest rest", "--between rest rest: expected at least one part, as in --between A rest");
+  expect("--between A rest", "the rest of 'A' is empty: the part holds all residues, expected fewer");
   EXPECT_EQ(said("--between A").status, 2);
   EXPECT_EQ(said("--with /nonexistent.pdb").status, 3);
   EXPECT_NE(said("--place A:1-10").out.find("is bonded to"), std::string::npos);

@@ -69,7 +69,7 @@ TEST(Biocd, SaysWhatItRecognised) {
   EXPECT_EQ(json["bond_sources"][0], (Json{{"residue", "DA"}, {"source", "residue table"}, {"count", 4}}));
   const Outcome delta = biocd("check " + dna + " --free A:5:delta 2>&1");
   EXPECT_EQ(delta.status, 2);
-  EXPECT_NE(delta.out.find("ring of the sugar"), std::string::npos) << delta.out;
+  EXPECT_NE(delta.out.find("lies in the sugar ring"), std::string::npos) << delta.out;
 }
 
 TEST(Biocd, TakesComponentsFromFilesAndRefusesBadOnes) {

@@ -144,7 +144,7 @@ TEST(BondsByDistance, CovalentLigandsAreBondedByNameAndLength) {
   const std::string text = residue("SER", 'A', serine) + residue("LIG", 'B', acyl(1.35));
   const Structure s = read(text);
   EXPECT_EQ(bonds_between(s), std::vector<std::string>{"A:SER1:OG - B:LIG1:C1"});
-  EXPECT_NE(notes_of(s).find("bond by distance, which no record tells of: A:SER1:OG - B:LIG1:C1, 1.350 angstrom"),
+  EXPECT_NE(notes_of(s).find("bond found by distance, not recorded in the file: A:SER1:OG - B:LIG1:C1, 1.350 angstrom"),
             std::string::npos)
       << notes_of(s);
   EXPECT_TRUE(collisions(s).empty());

@@ -269,7 +269,7 @@ TEST(Components, OfADictionaryThatOnlyShareTheNameAreNotUsed) {
   const Dictionary dictionary("LGD", component("LGD", "LGD C1 C4 SING N\nLGD C2 C4 SING N\nLGD C3 C1 SING N\n"));
   const Structure s = read(hetatm(zigzag({1.53, 1.53, 1.53}), "LGD"), std::nullopt, dictionary.path());
   EXPECT_EQ(source_of(s, "LGD"), "covalent radii");
-  EXPECT_TRUE(has_note(s, "is not what L:LGD1:C1 belongs to"));
+  EXPECT_TRUE(has_note(s, "does not fit the residue of L:LGD1:C1: "));
   EXPECT_EQ(s.bonds.size(), 3U);
 }
 
@@ -277,7 +277,7 @@ TEST(Components, LeaveAtomsTheyDoNotKnowToRadii) {
   const Structure s =
       read(hetatm(zigzag({1.53, 1.53, 1.53}), "LGD"), component("LGD", "LGD C1 C2 SING N\nLGD C2 C3 SING N\n"));
   EXPECT_EQ(s.bonds.size(), 3U);
-  EXPECT_TRUE(has_note(s, "beyond the template of: LGD"));
+  EXPECT_TRUE(has_note(s, "that the template lacks: LGD"));
 }
 
 TEST(Components, NameTheBearersOfHydrogens) {

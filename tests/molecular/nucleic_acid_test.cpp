@@ -246,7 +246,7 @@ TEST(NucleicAcid, IsSelectedByTheNamesOfItsTorsions) {
     select_torsions(m, "A:5:delta", false);
     FAIL() << "expected a ModelError";
   } catch (const ModelError& error) {
-    EXPECT_NE(std::string(error.what()).find("ring of the sugar"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("lies in the sugar ring"), std::string::npos) << error.what();
   }
 }
 

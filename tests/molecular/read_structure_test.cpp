@@ -152,7 +152,7 @@ TEST(ReadStructure, TakesNoAtomsFromBehindTheEndOfALine) {
   EXPECT_EQ(read_structure(file.path()).atoms.size(), 5U);
   text = alanine();
   text[text.find("CA")] = '\0';
-  EXPECT_EQ(refusal(text), ":2: a NUL character, expected the text of a PDB or mmCIF file");
+  EXPECT_EQ(refusal(text), ":2: the line has a NUL character, expected the text of a PDB or mmCIF file");
 }
 
 TEST(ReadStructure, ReadsABondRecordThatEndsInTheMiddleOfANumber) {
@@ -191,7 +191,7 @@ TEST(ReadStructure, ReadsAllMembersOfAGzippedFileOrRefusesIt) {
     refused(flipped, first.size(), "expected a gzip member or the end of the file");
   }
   refused(first + "more", first.size(), "expected a gzip member or the end of the file");
-  refused(first + std::string(9, '\0') + "more", first.size() + 9, "expected nothing but zeros");
+  refused(first + std::string(9, '\0') + "more", first.size() + 9, "expected only zeros");
   refused(first + second.substr(0, second.size() - 1), first.size() + second.size() - 1, "cut short");
   refused(first + second.substr(0, 5), first.size() + 5, "cut short");
   std::string wrong_sum = first;
@@ -229,7 +229,7 @@ TEST(ReadStructure, TakesTheAtomsThatAllModelsHave) {
   EXPECT_EQ(s.models[1].size(), 4U);
   EXPECT_EQ(s.bonds.size(), 3U);
   EXPECT_TRUE(
-      has_note(s, "models differ: 1 atoms that not every model has are left out (first: A:ALA1:CB of model 1)"));
+      has_note(s, "models differ: 1 atoms are left out, because some models lack them (first: A:ALA1:CB of model 1)"));
   // Another order of the atoms is the same molecule; another ion is not.
   const std::string zinc = atom(6, "ZN", "ZN", 3, 20, 9, 9, ' ', 1, "ZN", "HETATM"),
                     renumbered = atom(6, "ZN", "ZN", 4, 20, 9, 9, ' ', 1, "ZN", "HETATM");
@@ -242,7 +242,7 @@ TEST(ReadStructure, TakesTheAtomsThatAllModelsHave) {
   std::string other = alanine();
   for (std::size_t at = 0; (at = other.find("A   1", at)) != std::string::npos;) other[at + 4] = '7';
   EXPECT_NE(refusal("MODEL        1\n" + alanine() + "ENDMDL\nMODEL        2\n" + other + "ENDMDL\n")
-                .find("its models share no atom"),
+                .find("its models have no common atom"),
             std::string::npos);
 }
 
@@ -252,7 +252,7 @@ TEST(ReadStructure, KeepsHeteroAtomsAndWatersWhereThereIsNothingElse) {
   const TemporaryFile waters(water), both(water + zinc), all(alanine() + water + zinc);
   Structure s = read_structure(waters.path());
   EXPECT_EQ(s.atoms.size(), 1U);
-  EXPECT_TRUE(has_note(s, "nothing but waters"));
+  EXPECT_TRUE(has_note(s, "the file holds only waters"));
   s = read_structure(both.path());
   EXPECT_EQ(s.atoms.size(), 1U);
   EXPECT_EQ(s.waters_dropped, 1U);
@@ -330,16 +330,16 @@ TEST(ReadStructure, ReadsOneConformerOfTheHighestSummedOccupancy) {
   for (std::size_t k = 5; k < 8; ++k) EXPECT_EQ(s.atoms[k].altloc, 'A');
   EXPECT_EQ(s.atoms[8].altloc, 'C');
   EXPECT_EQ(s.models.front()[8][0], 51.0);
-  EXPECT_TRUE(
-      has_note(s,
-               "alternative locations: A, of the highest summed occupancy, is read in 3 residues; 1 lack it and "
-               "are read at their own best (first: A:LEU5 at C); 4 atoms are left out (first: A:LEU2:CG at B)"));
+  EXPECT_TRUE(has_note(
+      s,
+      "alternative locations: A (highest summed occupancy) is used in 3 residues; 1 residues use "
+      "their own location of highest occupancy (first: A:LEU5 at C); 4 atoms are left out (first: A:LEU2:CG at B)"));
   ReadOptions options;
   options.altloc = 'B';
   s = read_structure(file.path(), options);
   for (std::size_t k = 5; k < 8; ++k) EXPECT_EQ(s.atoms[k].altloc, 'B');
   EXPECT_EQ(s.atoms[8].altloc, 'C');
-  EXPECT_TRUE(has_note(s, "alternative locations: B, as asked for, is read in 3 residues"));
+  EXPECT_TRUE(has_note(s, "alternative locations: B (--altloc) is used in 3 residues"));
 }
 
 TEST(ReadStructure, TakesTheFirstLetterOfEquallyOccupiedConformers) {

@@ -244,21 +244,23 @@ TEST(SelectionGrammar, HasItsWordsAsPartsDo) {
 TEST(SelectionGrammar, SaysWhereItFailsAndWhatThereIs) {
   EXPECT_EQ(refusal_of("A:4:phi,Q:3"),
             "selection 'A:4:phi,Q:3', at character 9 ('Q:3'): expected a chain (A AB _); there is no chain 'Q'");
-  EXPECT_EQ(refusal_of("A:99"),
-            "selection 'A:99': expected a residue of chain A; it has no 99, it goes from A:ALA1 to A:LEU12");
+  EXPECT_EQ(
+      refusal_of("A:99"),
+      "selection 'A:99': expected a residue of chain A; the chain has no residue 99, it goes from A:ALA1 to A:LEU12");
   EXPECT_EQ(refusal_of("A:4-5:phi,chi7").find("selection 'A:4-5:phi,chi7', at character 11 ('chi7'): expected all"),
             0U);
   EXPECT_EQ(refusal_of("AB:60:chi1"),
-            "selection 'AB:60:chi1': expected torsions that turn there; these residues have phi, psi, omega");
+            "selection 'AB:60:chi1': expected a rotatable torsion of these residues; they have phi, psi, omega");
   EXPECT_EQ(refusal_of("A:4 and (phi,psi"),
             "selection 'A:4 and (phi,psi', at character 9 ('('): expected ')' for each '('");
-  EXPECT_EQ(refusal_of("phi,"), "selection 'phi,', at its end: expected a word to select by, or '('");
+  EXPECT_EQ(refusal_of("phi,"), "selection 'phi,', at its end: expected a selection word or '('");
   EXPECT_EQ(refusal_of("phi psi"),
-            "selection 'phi psi', at character 5 ('psi'): expected ',', '+', and, or, or the end");
+            "selection 'phi psi', at character 5 ('psi'): expected ',', '+', 'and', 'or' or the end of the selection");
   EXPECT_EQ(
       refusal_of("A:4-5,7-8"),
       "selection 'A:4-5,7-8', at character 7 ('7-8'): expected a chain before the number of a residue, as in A:7-8");
-  EXPECT_EQ(refusal_of("A:4 and AB"), "selection 'A:4 and AB': expected torsions to free; it selects nothing");
+  EXPECT_EQ(refusal_of("A:4 and AB"),
+            "selection 'A:4 and AB': expected at least one torsion to free; it selects nothing");
   EXPECT_NE(refusal_of("ligands").find("selects nothing"), std::string::npos);
   EXPECT_NE(refusal_of("not all").find("selects nothing"), std::string::npos);
   for (const char* words :
@@ -277,11 +279,12 @@ TEST(SelectionGrammar, NotesWhatMayNotBeMeant) {
   for (const char* fine :
        {"A:4-5:phi,psi", "phi,psi", "A:4 and phi", "phi,A:4:chi1", "A:4,AB", "all", "none", "not A:4"})
     EXPECT_EQ(notes(fine), Notes{}) << fine;
-  EXPECT_EQ(notes("A:4-5,phi"), (Notes{"selection 'A:4-5,phi': 'phi' is about all residues (19 torsions), not only "
-                                       "A:4-5; write A:4-5:phi for these"}));
+  EXPECT_EQ(notes("A:4-5,phi"),
+            (Notes{"selection 'A:4-5,phi': 'phi' selects torsions of all residues (19), not only of "
+                   "A:4-5; write A:4-5:phi for these residues"}));
   EXPECT_EQ(notes("A:4:psi or phi").size(), 1U);
   EXPECT_EQ(notes("A:4,all"), (Notes{"selection 'A:4,all': 'all' frees all " + std::to_string(select("all").size()) +
-                                     " torsions, whatever stands beside it"}));
+                                     " torsions, regardless of the other words"}));
   EXPECT_EQ(notes("A:4,ligands"), (Notes{"selection 'A:4,ligands': 'ligands' selects nothing"}));
   EXPECT_EQ(notes("A:4,(A:5 and AB)"), (Notes{"selection 'A:4,(A:5 and AB)': '(A:5 and AB)' selects nothing"}));
 }

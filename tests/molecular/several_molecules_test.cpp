@@ -101,19 +101,20 @@ TEST(Part, SaysWhatItCouldNotFind) {
             "selection 'Q': expected a chain (A B L C), the name of a residue, CHAIN:RESIDUES or file:N");
   EXPECT_EQ(refusal([&] { find_part(s, "Q:3"); }),
             "selection 'Q:3': expected a chain (A B L C); there is no chain 'Q'");
-  EXPECT_EQ(refusal([&] { find_part(s, "A:99"); }),
-            "selection 'A:99': expected a residue of chain A; it has no 99, it goes from A:ALA1 to A:GLU5");
+  EXPECT_EQ(
+      refusal([&] { find_part(s, "A:99"); }),
+      "selection 'A:99': expected a residue of chain A; the chain has no residue 99, it goes from A:ALA1 to A:GLU5");
   EXPECT_EQ(refusal([&] { find_part(s, "A:TRP"); }),
-            "selection 'A:TRP': expected CHAIN:45, CHAIN:10-20 or CHAIN:NAME of a residue there is");
+            "selection 'A:TRP': expected CHAIN:45, CHAIN:10-20 or CHAIN:NAME of a residue in the structure");
   EXPECT_EQ(refusal([&] { find_part(s, "A:4-2"); }),
             "selection 'A:4-2': expected the first residue to come before the last");
   EXPECT_EQ(refusal([&] { find_part(s, "file:5"); }), "selection 'file:5': expected file:N with N from 1 to 4");
-  EXPECT_EQ(refusal([&] { find_part(s, "A+"); }), "selection 'A+', at its end: expected a word to select by, or '('");
+  EXPECT_EQ(refusal([&] { find_part(s, "A+"); }), "selection 'A+', at its end: expected a selection word or '('");
   EXPECT_EQ(find_part(s, "LIG").residues.size(), 2U);
   EXPECT_EQ(refusal([&] { find_part(s, "LIG", ResidueNames::only); }),
-            "selection 'LIG': expected one residue; there are 2: L:LIG1 C:LIG1; say which as CHAIN:NUMBER");
+            "selection 'LIG': expected one residue, found 2: L:LIG1 C:LIG1; choose one as CHAIN:NUMBER");
   EXPECT_EQ(refusal([&] { rest_of(s, find_part(s, "A+B+L+C")); }),
-            "the rest of 'A+B+L+C': expected a part that is not everything");
+            "the rest of 'A+B+L+C' is empty: the part holds all residues, expected fewer");
 }
 
 // --- joined files ---
@@ -181,7 +182,7 @@ TEST(JoinStructures, PairsModelsOfOneFileWithAllOthers) {
               join_structures({poses, receptor, poses});
             }),
             "joining structures: " + poses.name + "+" + receptor.name + "+" + poses.name +
-                " have 3 and 3 models, expected one of them to have a single one");
+                " have 3 and 3 models, expected a single model in one of them");
   EXPECT_THROW(join_structures({}), ModelError);
 }
 
@@ -266,8 +267,8 @@ TEST(PlacedPart, IsRefusedWhereABondHoldsIt) {
   bonded.bonds.push_back({first, second, BondOrigin::disulphide});
   std::ranges::sort(bonded.bonds, {}, [](const Bond& b) { return std::pair(b.first, b.second); });
   EXPECT_EQ(refusal([&] { Molecule(bonded, {.placed = {find_part(bonded, "B")}}); }),
-            "placing 'B': B:CYS1:SG is bonded to A:CYS2:SG, which it does not hold; expected a part that no bond joins "
-            "to the rest (+ joins parts)");
+            "placing 'B': B:CYS1:SG is bonded to A:CYS2:SG outside the part, expected a part without "
+            "bonds to the rest (write A+B to place A and B together)");
   EXPECT_NE(refusal([&] {
               Molecule(bonded, {.placed = {find_part(bonded, "A"), find_part(bonded, "B")}});
             }).find("is bonded to"),
@@ -278,8 +279,8 @@ TEST(PlacedPart, IsRefusedWhereABondHoldsIt) {
   EXPECT_EQ(refusal([&] {
               Molecule(scene(), {.placed = {find_part(scene(), "L"), find_part(scene(), "LIG")}});
             }),
-            "placing 'LIG': L:LIG1:C1 is placed with 'L' already");
-  EXPECT_EQ(refusal([&] { Molecule(scene(), {.placed = {Part{"x", {}}}}); }), "placing 'x': it holds no atoms");
+            "placing 'LIG': L:LIG1:C1 already belongs to placed part 'L'");
+  EXPECT_EQ(refusal([&] { Molecule(scene(), {.placed = {Part{"x", {}}}}); }), "placing 'x': the part holds no atoms");
 }
 
 TEST(PlacedPart, LeavesPairsInsideARigidOneAlone) {
@@ -446,7 +447,7 @@ TEST(PairScope, HoldsWhatItsPartsSay) {
   EXPECT_EQ(refusal([&] {
               scope(s, {{"A", "B+A:2"}}, {});
             }),
-            "between 'A' and 'B+A:2': both hold A:GLY2, expected two parts that share nothing");
+            "between 'A' and 'B+A:2': both parts hold A:GLY2, expected two parts without common residues");
 }
 
 TEST(PairScope, MakesALawfulFilter) {
@@ -614,7 +615,7 @@ TEST(SeveralMolecules, RealChainsThatABondHolds) {
             std::string::npos);
   EXPECT_NE(refusal([&] {
               Molecule(real("4hhb.pdb.gz"), {.placed = {find_part(real("4hhb.pdb.gz"), "HEM", ResidueNames::only)}});
-            }).find("expected one residue; there are 4: A:HEM142"),
+            }).find("expected one residue, found 4: A:HEM142"),
             std::string::npos);
 }
 

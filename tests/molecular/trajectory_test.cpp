@@ -128,7 +128,7 @@ TEST(Dcd, TrustsTheSizeNotTheHeader) {
   const Trajectory trajectory(file.path(), molecule);
   EXPECT_EQ(trajectory.size(), 3U);
   ASSERT_EQ(trajectory.notes().size(), 1U);
-  EXPECT_NE(trajectory.notes()[0].find("claims 500 frames, it holds 3"), std::string::npos);
+  EXPECT_NE(trajectory.notes()[0].find("says 500 frames, the file holds 3"), std::string::npos);
 }
 
 TEST(Dcd, SaysWhereItIsCutShortOrDamaged) {
@@ -175,7 +175,7 @@ TEST(Npy, RefusesWhatItCannotRead) {
   EXPECT_NE(refusal(npy_file(frames) + "more", 5).find("124 bytes of data"), std::string::npos);
   EXPECT_NE(refusal(npy_file(frames, "<f4", 1, "False", "(1, 5, 3)"), 5).find("120 bytes of data"), std::string::npos);
   const std::string whole = npy_file(frames);
-  EXPECT_NE(refusal(whole.substr(0, whole.size() - 1), 5).find("in frame 1"), std::string::npos);
+  EXPECT_NE(refusal(whole.substr(0, whole.size() - 1), 5).find("inside frame 1"), std::string::npos);
   const std::string scattered = npy_file(frames, "<f4", 1, "True");
   EXPECT_NE(refusal(scattered.substr(0, scattered.size() - 1), 5).find("119 bytes of data"), std::string::npos);
   for (std::size_t size = 1; size < 128; ++size) EXPECT_NE(refusal(whole.substr(0, size), 5), "") << size;
@@ -301,7 +301,7 @@ TEST(Trajectory, FindsTheMoleculesAtomsInFramesOfItsFile) {
   for (Vec3& x : nanometres) x /= 10.0;
   const TemporaryFile small(npy_file({nanometres}), ".npy");
   ASSERT_EQ(Trajectory(small.path(), s).notes().size(), 1U);
-  EXPECT_NE(Trajectory(small.path(), s).notes()[0].find("like nanometres"), std::string::npos);
+  EXPECT_NE(Trajectory(small.path(), s).notes()[0].find("as in nanometres"), std::string::npos);
 }
 
 /// Returns a PDB file of these frames. change(k, text) may alter the text of frame k.
@@ -402,7 +402,7 @@ TEST(PdbModels, RefusesAnotherMoleculeAndBlankCoordinates) {
     return text;
   });
   EXPECT_NE(renamed.find("model 2 has other atoms than the first"), std::string::npos) << renamed;
-  EXPECT_NE(renamed.find("A:MET1:CX is where the first has A:MET1:CA"), std::string::npos) << renamed;
+  EXPECT_NE(renamed.find("A:MET1:CX is in the place of A:MET1:CA"), std::string::npos) << renamed;
   EXPECT_NE(said([](std::size_t k, std::string text) { return k == 2 ? text.substr(0, 20000) + "\n" : text; }), "");
 }
 

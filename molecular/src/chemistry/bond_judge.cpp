@@ -175,7 +175,7 @@ bool BondJudge::has_angles(std::uint32_t i, std::uint32_t j) const {
 
 std::string BondJudge::metal_refusal(std::uint32_t metal, std::uint32_t donor) const {
   const std::string_view element = s_.atoms[donor].element;
-  if (is_metal(s_.atoms[donor].element)) return "both are metals";
+  if (is_metal(s_.atoms[donor].element)) return "both atoms are metals";
   const bool bare_carbon = element == "C" && near(donor).size() <= 1;
   if (!bare_carbon && !is_any(element, {"N", "O", "S", "Se", "F", "Cl", "Br", "I"}))
     return label(s_, donor) + " does not bind metals";
@@ -184,12 +184,12 @@ std::string BondJudge::metal_refusal(std::uint32_t metal, std::uint32_t donor) c
     return "too close for a bond";
   const auto& partners = coordinated_[metal - first_];
   if (partners.size() >= most_coordinated)
-    return label(s_, metal) + " has " + std::to_string(partners.size()) + " bonds";
+    return label(s_, metal) + " already has " + std::to_string(partners.size()) + " bonds";
   for (const Neighbour& n : near(donor))
-    if (angle(n.atom, donor, metal) < narrowest_donor) return "no bond's angles at " + label(s_, donor);
+    if (angle(n.atom, donor, metal) < narrowest_donor) return "bond angles out of range at " + label(s_, donor);
   for (const std::uint32_t other : partners)
     if (s_.atoms[other].residue != s_.atoms[donor].residue && angle(other, metal, donor) < narrowest_coordination)
-      return "no bond's angles at " + label(s_, metal);
+      return "bond angles out of range at " + label(s_, metal);
   return {};
 }
 
@@ -200,11 +200,11 @@ std::string BondJudge::refusal(std::uint32_t i, std::uint32_t j) const {
   const double excess = distance(i, j) - covalent_radius(a) - covalent_radius(b);
   if (excess < shortest_bond) return "too close for a bond";
   if (excess > longest_bond) return "too far for a bond";
-  if (is_any(a, {"N", "O"}) && is_any(b, {"N", "O"})) return "N and O of two residues form no bond";
+  if (is_any(a, {"N", "O"}) && is_any(b, {"N", "O"})) return "N and O of different residues form no bond";
   for (const std::uint32_t k : {i, j})
-    if (room(k) < 1) return label(s_, k) + " has no room for a bond";
+    if (room(k) < 1) return label(s_, k) + " has no free valence";
   for (const auto& [k, other] : {std::pair(i, j), std::pair(j, i)})
-    if (!has_angles(k, other)) return "no bond's angles at " + label(s_, k);
+    if (!has_angles(k, other)) return "bond angles out of range at " + label(s_, k);
   return {};
 }
 

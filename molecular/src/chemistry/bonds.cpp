@@ -113,7 +113,7 @@ class Perception {
       bonds_.add(link.first, link.second, origin_of(link), link.order);
     }
     if (ignored > 0)
-      s_.notes.push_back("recorded bonds too long to hold, ignored: " + std::to_string(ignored) +
+      s_.notes.push_back("recorded bonds ignored because they are too long: " + std::to_string(ignored) +
                          " (first: " + first_ignored + " angstrom)");
   }
 
@@ -144,10 +144,10 @@ class Perception {
     std::vector<Bond> added(s_.bonds.begin() + static_cast<std::ptrdiff_t>(told), s_.bonds.end());
     std::sort(added.begin(), added.end(), before);
     for (const Bond& bond : added)
-      s_.notes.push_back("bond by distance, which no record tells of: " +
+      s_.notes.push_back("bond found by distance, not recorded in the file: " +
                          named({bond.first, bond.second, bond.origin, 0.0}));
     if (refused > 0)
-      s_.notes.push_back("as close as bonds, but not taken for bonds: " + std::to_string(refused) +
+      s_.notes.push_back("close enough for a bond, but not bonded: " + std::to_string(refused) +
                          " pairs (first: " + first_refused + ")");
   }
 

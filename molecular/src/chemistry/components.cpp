@@ -34,7 +34,7 @@ std::filesystem::path file_of(const std::filesystem::path& dictionary, const std
 
 ComponentLibrary::ComponentLibrary(std::filesystem::path dictionary) : dictionary_(std::move(dictionary)) {
   if (!dictionary_.empty() && !std::filesystem::is_directory(dictionary_))
-    throw LoadError(dictionary_.string() + ": expected the folder of a monomer dictionary");
+    throw LoadError(dictionary_.string() + ": is not a folder, expected the folder of a monomer dictionary");
 }
 
 void ComponentLibrary::add_file(const std::filesystem::path& path) {

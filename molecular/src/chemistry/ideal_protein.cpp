@@ -197,7 +197,7 @@ Structure build_ideal_protein(std::string_view sequence, std::string_view second
   for (std::size_t k = 0; k < sequence.size(); ++k) {
     if (find_residue_template(sequence[k]) == nullptr)
       throw ModelError("sequence: letter '" + std::string(1, sequence[k]) + "' at position " + std::to_string(k + 1) +
-                       " is no amino acid");
+                       " is not an amino acid, expected its one-letter code");
     if (secondary_structure[k] != 'H' && secondary_structure[k] != 'E' && secondary_structure[k] != 'C')
       throw ModelError("secondary structure: letter '" + std::string(1, secondary_structure[k]) + "' at position " +
                        std::to_string(k + 1) + ", expected H, E or C");

@@ -179,7 +179,7 @@ Thresholds make_thresholds(const Structure& structure, const ThresholdOptions& o
   if (rules.name != "biocd") {
     if (options.choose_biocd())
       throw ModelError("clash rules " + options.rules +
-                       ": fix radii, rho and hydrogen bonds, expected none of them beside");
+                       " set the radii, rho and the hydrogen-bond rule themselves, expected no option for them");
     return make_named_thresholds(structure, rules);
   }
   const RadiiSet& set = radii_set(options.radii.value_or("bondi"));

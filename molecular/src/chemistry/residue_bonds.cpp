@@ -86,8 +86,8 @@ const Component* ResidueBonds::fitting_component(std::uint32_t r) {
     if (bonds_.distance(*i, *j) > fitting_bond_max * radii) ++too_long;
   }
   if (fitting_share * too_long > present) {
-    s_.notes.push_back(component->name + " of " + component->source + " is not what " +
-                       label(s_, s_.residues[r].first_atom) + " belongs to: " + std::to_string(too_long) + " of its " +
+    s_.notes.push_back(component->name + " of " + component->source + " does not fit the residue of " +
+                       label(s_, s_.residues[r].first_atom) + ": " + std::to_string(too_long) + " of its " +
                        std::to_string(present) + " bonds are too long");
     return nullptr;
   }
@@ -203,13 +203,13 @@ void ResidueBonds::add_hydrogen(std::uint32_t h, std::uint32_t r) {
   if (bearer)
     bonds_.add(*bearer, h, BondOrigin::residue_template, BondOrder::single);
   else
-    s_.notes.push_back(label(s_, h) + ": no heavy atom of its residue within 1.6 angstrom, left unbonded");
+    s_.notes.push_back(label(s_, h) + ": no heavy atom of its residue is within 1.6 angstrom, so it has no bond");
 }
 
 void ResidueBonds::say() {
   std::string names;
   for (const std::string& name : extended_) append(names, name);
-  if (!names.empty()) s_.notes.push_back("bonds by covalent radii for atoms beyond the template of: " + names);
+  if (!names.empty()) s_.notes.push_back("bonds by covalent radii for atoms that the template lacks: " + names);
   std::map<std::string, std::string> by_source;
   for (const auto& [key, count] : sources_) {
     s_.bond_sources.push_back({key.first, key.second, count});

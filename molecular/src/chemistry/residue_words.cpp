@@ -74,7 +74,7 @@ std::vector<bool> ResidueWords::select(const SelectionWord& word, std::span<cons
   const std::size_t colon = word.text.find(':');
   if (colon == std::string_view::npos)
     refuse(word, "a chain (" + chains() + "), the name of a residue, CHAIN:RESIDUES or file:N" + left_out());
-  refuse(word, "CHAIN:45, CHAIN:10-20 or CHAIN:NAME of a residue there is" + left_out());
+  refuse(word, "CHAIN:45, CHAIN:10-20 or CHAIN:NAME of a residue in the structure" + left_out());
 }
 
 std::optional<std::vector<bool>> ResidueWords::find(const SelectionWord& word, std::string_view text) const {
@@ -119,7 +119,7 @@ std::optional<std::vector<bool>> ResidueWords::named(const SelectionWord& word, 
       some += ' ' + name_of(r);
       ++shown;
     }
-  refuse(word, "one residue; there are " + some + (count > 4 ? " ..." : "") + "; say which as CHAIN:NUMBER");
+  refuse(word, "one residue, found " + some + (count > 4 ? " ..." : "") + "; choose one as CHAIN:NUMBER");
 }
 
 std::optional<std::vector<bool>> ResidueWords::find_in_chain(const SelectionWord& word, std::string_view name,
@@ -138,9 +138,9 @@ std::optional<std::vector<bool>> ResidueWords::find_in_chain(const SelectionWord
   // Names may start with a digit, or be a number in an unusual form: "017".
   if (auto found = named(word, std::move(of_name))) {
     if (range && std::to_string(range->first.number) == text && position(range->first) < in.size())
-      refuse(word, "a number or a name, and both are there: write " + std::string(name) + ":" + std::string(text) +
-                       "-" + std::string(text) + " for the number, (" + std::string(name) + " and " +
-                       std::string(text) + ") for the name");
+      refuse(word, "a residue number or a residue name, but the chain has both: write " + std::string(name) + ":" +
+                       std::string(text) + "-" + std::string(text) + " for the number, (" + std::string(name) +
+                       " and " + std::string(text) + ") for the name");
     return found;
   }
   if (!range) return std::nullopt;
@@ -149,7 +149,8 @@ std::optional<std::vector<bool>> ResidueWords::find_in_chain(const SelectionWord
     if (r < in.size()) return r;
     const auto first = std::ranges::find(in, true) - in.begin();
     const auto last = in.rend() - std::find(in.rbegin(), in.rend(), true) - 1;
-    refuse(word, "a residue of chain " + std::string(name) + "; it has no " + std::to_string(wanted.number) +
+    refuse(word, "a residue of chain " + std::string(name) + "; the chain has no residue " +
+                     std::to_string(wanted.number) +
                      (wanted.insertion_code != '\0' ? std::string(1, wanted.insertion_code) : "") + ", it goes from " +
                      name_of(static_cast<std::uint32_t>(first)) + " to " + name_of(static_cast<std::uint32_t>(last)));
   };
@@ -188,14 +189,14 @@ std::vector<bool> ResidueWords::every(std::size_t n) const {
 std::vector<bool> ResidueWords::count(const SelectionWord& word, std::size_t n) const {
   const std::vector<std::uint32_t> residues = polymer();
   if (n > residues.size())
-    refuse(word, "at most the " + std::to_string(residues.size()) + " amino acids and nucleotides there are");
+    refuse(word, "at most " + std::to_string(residues.size()) + ", the number of amino acids and nucleotides");
   std::vector<bool> set(s_.residues.size(), false);
   for (std::size_t i = 0; i < n; ++i) set[residues[(2 * i + 1) * residues.size() / (2 * n)]] = true;
   return set;
 }
 
 std::vector<bool> ResidueWords::loops(const SelectionWord& word) const {
-  if (s_.secondary_structure.empty()) refuse(word, "a file with HELIX or SHEET records; this one has none");
+  if (s_.secondary_structure.empty()) refuse(word, "a file with HELIX or SHEET records; this file has none");
   std::vector<bool> set(s_.residues.size(), true);
   for (const SecondaryStructure& element : s_.secondary_structure)
     for (std::uint32_t r = element.first; r <= element.last; ++r) set[r] = false;

@@ -84,7 +84,7 @@ class TorsionWords {
   /// Returns the torsions of the residues `in` by the name that follows them.
   Set named(const SelectionWord& word, const Set& in, std::string_view name) {
     if (!is_torsion_word(name) && name != "ligands" && !is_bond_name(name))
-      refuse(word, "a torsion (" + names_in(in) + "), backbone, chi or all behind the residues");
+      refuse(word, "a torsion (" + names_in(in) + "), backbone, chi or all after the residues");
     Set chosen = choose(in, checked(word, name));
     require_some(word, chosen, in);
     return chosen;
@@ -103,10 +103,10 @@ class TorsionWords {
       const auto count = std::ranges::count(chosen, true);
       const std::string name(text);
       if (count == 0)
-        notes_.push_back(about(word) + "selects nothing, there are " + names_in(everywhere));
+        notes_.push_back(about(word) + "selects nothing; the molecule has " + names_in(everywhere));
       else if (word.alternative && !before.empty())
-        notes_.push_back(about(word) + "is about all residues (" + std::to_string(count) + " torsions), not only " +
-                         before + "; write " + before + ":" + name + " for these");
+        notes_.push_back(about(word) + "selects torsions of all residues (" + std::to_string(count) +
+                         "), not only of " + before + "; write " + before + ":" + name + " for these residues");
       return chosen;
     }
     if (const auto in = residues_.find(word, text)) {
@@ -129,7 +129,7 @@ class TorsionWords {
   }
 
   static std::string_view checked(const SelectionWord& word, std::string_view name) {
-    if (name == "delta") refuse(word, "a torsion that turns; delta lies in the ring of the sugar, which is rigid");
+    if (name == "delta") refuse(word, "a rotatable torsion; delta lies in the sugar ring, which is rigid");
     return name;
   }
 
@@ -165,7 +165,7 @@ class TorsionWords {
   }
 
   void require_some(const SelectionWord& word, const Set& chosen, const Set& in) const {
-    if (!any(chosen)) refuse(word, "torsions that turn there; these residues have " + names_in(in));
+    if (!any(chosen)) refuse(word, "a rotatable torsion of these residues; they have " + names_in(in));
   }
 
   /// Returns "phi, psi, chi1": the names of these residues' torsions, at most twelve.
@@ -217,14 +217,14 @@ SelectedTorsions read_selection(const Molecule& molecule, std::string_view expre
   }
   // "all" is the default, also for molecules without torsions.
   if (result.torsions.empty() && !words.asked_for_none() && expression != "all")
-    refuse({expression, expression}, "torsions to free; it selects nothing" +
+    refuse({expression, expression}, "at least one torsion to free; it selects nothing" +
                                          (result.notes.empty() ? std::string() : " (" + result.notes.front() + ")"));
   if (result.words.size() > 1)
     for (const SelectedTorsions::Word& word : result.words) {
       const std::string who = "selection '" + std::string(expression) + "': '" + word.text + "' ";
       if (word.count >= all && all > 0)
         result.notes.push_back(who + "frees all " + std::to_string(word.count) +
-                               " torsions, whatever stands beside it");
+                               " torsions, regardless of the other words");
       else if (word.count == 0 && word.text != "none" &&
                std::ranges::none_of(result.notes, [&](const std::string& note) { return note.starts_with(who); }))
         result.notes.push_back(who + "selects nothing");

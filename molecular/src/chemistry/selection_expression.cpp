@@ -21,7 +21,7 @@ class Reader {
 
   std::vector<SelectionTerm> read() {
     std::vector<SelectionTerm> terms = alternatives();
-    if (!token_.empty()) refuse(here(), "',', '+', and, or, or the end");
+    if (!token_.empty()) refuse(here(), "',', '+', 'and', 'or' or the end of the selection");
     return terms;
   }
 
@@ -77,7 +77,7 @@ class Reader {
   }
 
   std::vector<bool> group() {
-    if (++depth_ > 100) refuse(here(), "at most 100 parentheses inside each other");
+    if (++depth_ > 100) refuse(here(), "at most 100 nested parentheses");
     const SelectionWord opening = here();
     advance();
     std::vector<bool> selected;
@@ -92,7 +92,7 @@ class Reader {
   }
 
   std::vector<bool> word() {
-    if (!is_word()) refuse(here(), "a word to select by, or '('");
+    if (!is_word()) refuse(here(), "a selection word or '('");
     const SelectionWord word = here();
     advance();
     std::vector<SelectionWord> bound;

@@ -156,7 +156,7 @@ Checker::Checker(std::shared_ptr<const Molecule> molecule, DofSelection selectio
   thresholds_ = std::make_shared<const Thresholds>(make_thresholds(molecule_->structure(), chosen));
   if (options.min_bonds && thresholds_->rules->name != "biocd")
     throw ModelError("clash rules " + options.thresholds.rules +
-                     ": fix the minimal bond distance, expected none beside");
+                     " set the minimal bond distance themselves, expected no option for it");
   min_bonds_ = options.min_bonds ? MinBonds(*options.min_bonds) : thresholds_->min_bonds;
   auto exempt = never_counted(molecule_->structure(), *thresholds_->rules);
   exclusions_ = std::make_shared<const BondExclusions>(molecule_->structure(), min_bonds_, exempt, options.scope);

@@ -24,8 +24,8 @@ PairScope::PairScope(const Structure& structure, std::span<const std::pair<Part,
     for (const std::uint32_t r : a.residues)
       if (std::ranges::binary_search(b.residues, r)) {
         const std::string atom = label(structure, structure.residues[r].first_atom);
-        throw ModelError("between '" + a.name + "' and '" + b.name + "': both hold " + atom.substr(0, atom.rfind(':')) +
-                         ", expected two parts that share nothing");
+        throw ModelError("between '" + a.name + "' and '" + b.name + "': both parts hold " +
+                         atom.substr(0, atom.rfind(':')) + ", expected two parts without common residues");
       }
     hold(a, 2 * k);
     hold(b, 2 * k + 1);

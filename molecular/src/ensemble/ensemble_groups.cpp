@@ -118,7 +118,7 @@ std::vector<std::uint32_t> EnsembleGroup::atoms() const {
 EnsembleGroups find_ensemble_groups(const EnsembleSpread& spread, double tolerance) {
   if (spread.conformations() < 2)
     throw ModelError("rigid groups of an ensemble: " + std::to_string(spread.conformations()) +
-                     " conformations, expected at least two, or nothing moves");
+                     " conformations, expected at least two");
   if (!(tolerance > 0.0) || !is_length(tolerance))
     throw ModelError("rigid groups of an ensemble: tolerance " + number_text(tolerance) +
                      ", expected a length above 0 in angstrom");

@@ -92,7 +92,7 @@ EnsembleSpread::EnsembleSpread(const Molecule& molecule, std::span<const std::si
       points_of_[b].push_back(position[atom]);
     }
   if (points_.size() > most_points)
-    throw ModelError("rigid groups of an ensemble: the axes of " + std::to_string(torsions.size()) + " torsions are " +
+    throw ModelError("rigid groups of an ensemble: the axes of " + std::to_string(torsions.size()) + " torsions have " +
                      std::to_string(points_.size()) + " atoms, expected at most " + std::to_string(most_points) +
                      "; select fewer torsions");
   mean_.resize(at(0, points_.size()));

@@ -33,8 +33,8 @@ class Assembler {
     for (const RawModel& model : raw_.models)
       if (!options_.model || model.number == *options_.model) chosen.push_back(&model);
     if (chosen.empty())
-      throw LoadError(path_ + (options_.model ? ": has no model " + std::to_string(*options_.model) + ", it has " +
-                                                    std::to_string(raw_.models.size())
+      throw LoadError(path_ + (options_.model ? ": has no model " + std::to_string(*options_.model) +
+                                                    "; number of models: " + std::to_string(raw_.models.size())
                                               : ": has no atoms"));
     for (const RawResidue& residue : chosen.front()->residues)
       for (const RawAtom& atom : residue.atoms)
@@ -45,7 +45,7 @@ class Assembler {
     if (s_.atoms.empty())
       throw LoadError(path_ + ": no atoms left (" + std::to_string(s_.waters_dropped) + " waters and " +
                       std::to_string(s_.hetero_dropped) +
-                      " hetero atoms left out; --hetero keeps ligands and ions, --hetero waters waters too)");
+                      " hetero atoms left out; --hetero keeps ligands and ions, --hetero waters also keeps waters)");
     resolve_records();
     resolve_conect();
     say_repairs();
@@ -64,8 +64,8 @@ class Assembler {
     bool& kept = has_hetero ? options_.hetero : options_.waters;
     if (kept) return;
     kept = true;
-    s_.notes.emplace_back(has_hetero ? "no protein or nucleic acid in the file: its ligands and ions are kept"
-                                     : "nothing but waters in the file: they are kept");
+    s_.notes.emplace_back(has_hetero ? "the file holds no protein or nucleic acid: its ligands and ions are kept"
+                                     : "the file holds only waters: they are kept");
   }
 
   /// Adds the atoms of one model, of the chosen conformer; the first model defines the topology.
@@ -133,7 +133,7 @@ class Assembler {
       if (element == "H" && !options_.keep_hydrogens) continue;
       if (++seen[atom.name] > 1) {
         if (first)
-          s_.notes.push_back(name_of(raw) + ": atom " + atom.name + " is there more than once, the first is used");
+          s_.notes.push_back(name_of(raw) + ": atom " + atom.name + " occurs more than once, the first is used");
         continue;
       }
       if (!first && difference_.empty() && !is_same(positions.size(), atom, raw))
@@ -163,10 +163,11 @@ class Assembler {
   std::string element_of(const RawAtom& atom, const RawResidue& residue, const std::string& where, bool first) {
     std::string element = element_by_name(atom, residue);
     if (element.empty())
-      throw LoadError(where + ": the element is unknown and cannot be told from the name, expected the file to say it");
+      throw LoadError(where +
+                      ": neither the file nor the atom name gives the element, expected an element in the file");
     if (element != atom.element && first && ++repaired_ == 1)
       first_repair_ =
-          name_of(residue) + ":" + atom.name + " read as " + (atom.element.empty() ? "nothing" : atom.element);
+          name_of(residue) + ":" + atom.name + ", in the file " + (atom.element.empty() ? "none" : atom.element);
     return element;
   }
 
@@ -205,13 +206,13 @@ class Assembler {
         ++dangling;
     }
     if (dangling > 0)
-      s_.notes.push_back(std::to_string(dangling) + " recorded bonds name atoms that are not there or were left out");
+      s_.notes.push_back(std::to_string(dangling) + " recorded bonds name atoms that are missing or were left out");
     for (const RawElement& element : raw_.elements) {
       const auto a = residue(element.first), b = residue(element.last);
       if (a && b && *a <= *b)
         s_.secondary_structure.push_back(SecondaryStructure{element.kind, *a, *b});
       else
-        s_.notes.emplace_back("a helix or strand record names residues that are not there or out of order, ignored");
+        s_.notes.emplace_back("a helix or strand record is ignored: its residues are missing or out of order");
     }
   }
 

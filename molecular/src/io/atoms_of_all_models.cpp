@@ -95,9 +95,9 @@ std::string first_difference(const Structure& other, const Structure& molecule) 
   };
   while (i < other.atoms.size() && i < molecule.atoms.size() && same()) ++i;
   if (i == other.atoms.size() && i == molecule.atoms.size()) return {};
-  if (i == other.atoms.size()) return label(molecule, i) + " is not there";
-  if (i == molecule.atoms.size()) return label(other, i) + " is there, too";
-  return label(other, i) + " is where the first has " + label(molecule, i);
+  if (i == other.atoms.size()) return label(molecule, i) + " is missing";
+  if (i == molecule.atoms.size()) return label(other, i) + " is additional";
+  return label(other, i) + " is in the place of " + label(molecule, i);
 }
 
 std::optional<MatchedAtoms> match_atoms(const Structure& other, const Structure& molecule) {
@@ -122,9 +122,9 @@ MatchedAtoms conformation(const Structure& other, const Structure& molecule, boo
   }
   if (may_have_more)
     if (auto matched = match_atoms(other, molecule)) return std::move(*matched);
-  throw OtherAtoms(where + " has other atoms than the first: " + difference + " (" +
+  throw OtherAtoms(where + " has other atoms than the first model: " + difference + " (" +
                    std::to_string(other.atoms.size()) + " atoms, " + std::to_string(molecule.atoms.size()) +
-                   " in the first)");
+                   " in the first model)");
 }
 
 std::vector<Structure> assemble_each(RawFile raw, const std::string& path, ReadOptions options) {
@@ -154,8 +154,8 @@ Structure assemble_common(RawFile raw, const std::string& path, const ReadOption
       if (!common) left_out.emplace(key, m);
     }
   if (std::find(keep.begin(), keep.end(), true) == keep.end())
-    throw OtherAtoms(path + ": its models share no atom, " + first_difference(each[1], first) +
-                     "; choose one with --model");
+    throw OtherAtoms(path + ": its models have no common atom (" + first_difference(each[1], first) +
+                     "), choose one with --model");
   Structure common = with_atoms(first, keep);
   common.models.resize(1);
   for (std::size_t m = 1; m < each.size(); ++m) {
@@ -163,9 +163,10 @@ Structure assemble_common(RawFile raw, const std::string& path, const ReadOption
     common.model_numbers.push_back(each[m].model_numbers[0]);
   }
   const auto& [key, m] = *left_out.begin();
-  common.notes.push_back("models differ: " + std::to_string(left_out.size()) +
-                         " atoms that not every model has are left out (first: " + label(each[m], atoms[m].at(key)) +
-                         " of model " + std::to_string(each[m].model_numbers[0]) + ")");
+  common.notes.push_back(
+      "models differ: " + std::to_string(left_out.size()) +
+      " atoms are left out, because some models lack them (first: " + label(each[m], atoms[m].at(key)) + " of model " +
+      std::to_string(each[m].model_numbers[0]) + ")");
   return common;
 }
 

@@ -20,7 +20,7 @@ BinaryFile::BinaryFile(const std::filesystem::path& path) : name_(path.string())
   if (::stat(name_.c_str(), &status) != 0) throw LoadError(name_ + ": cannot be opened: " + std::strerror(errno));
   if (S_ISDIR(status.st_mode)) throw LoadError(name_ + ": is a directory, expected a file of coordinates");
   if (!S_ISREG(status.st_mode))
-    throw LoadError(name_ + ": is a pipe or device, expected a regular file: coordinates are read in any order");
+    throw LoadError(name_ + ": is a pipe or device, expected a regular file, which can be read in any order");
   descriptor_ = ::open(name_.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor_ < 0) throw LoadError(name_ + ": cannot be opened: " + std::strerror(errno));
   if (::fstat(descriptor_, &status) != 0 || status.st_size <= 0) {
@@ -63,15 +63,16 @@ std::size_t BinaryFile::read(std::uint64_t offset, std::span<char> to) const {
 
 void BinaryFile::read_all(std::uint64_t offset, std::span<char> to, const std::string& what) const {
   if (const std::size_t got = read(offset, to); got < to.size())
-    throw LoadError(name_ + ": ends at byte " + std::to_string(offset + got) + " in " + what + ", which ends at byte " +
-                    std::to_string(offset + to.size()) + "; it may be cut short");
+    throw LoadError(name_ + ": ends at byte " + std::to_string(offset + got) + " inside " + what +
+                    ", expected at least " + std::to_string(offset + to.size()) + " bytes; it may be cut short");
 }
 
 std::vector<char> BinaryFile::read_all(std::uint64_t offset, std::size_t count, const std::string& what) const {
   // A damaged count may be huge: check it before allocating memory.
   if (offset > size_ || count > size_ - offset)
-    throw LoadError(name_ + ": ends at byte " + std::to_string(size_) + " in " + what + " of " + std::to_string(count) +
-                    " bytes from byte " + std::to_string(offset) + " on; it may be cut short");
+    throw LoadError(name_ + ": ends at byte " + std::to_string(size_) + " inside " + what + ", which has " +
+                    std::to_string(count) + " bytes and starts at byte " + std::to_string(offset) +
+                    "; it may be cut short");
   std::vector<char> bytes(count);
   read_all(offset, std::span(bytes), what);
   return bytes;

@@ -66,7 +66,7 @@ void check_pdb(std::string_view text, const std::string& path, std::size_t numbe
     // The parser would end the line at the NUL and lose the next one.
     if (line.find('\0') != std::string_view::npos)
       throw LoadError(path + ":" + std::to_string(number) +
-                      ": a NUL character, expected the text of a PDB or mmCIF file");
+                      ": the line has a NUL character, expected the text of a PDB or mmCIF file");
     if (is_atom_record(line)) {
       read_pdb_coordinates(line, path, number);
       ++atoms;
@@ -76,7 +76,7 @@ void check_pdb(std::string_view text, const std::string& path, std::size_t numbe
       const std::string where = path + ":" + std::to_string(number);
       const std::string_view name = trimmed(line.substr(6));
       if (open_model != 0)
-        throw LoadError(where + ": MODEL " + std::string(name) + " begins, but the one of line " +
+        throw LoadError(where + ": MODEL " + std::string(name) + " begins, but the MODEL of line " +
                         std::to_string(open_model) + " has no ENDMDL");
       const int model = model_number(line, static_cast<int>(++model_count));
       if (!models.insert(model).second && twice.empty()) twice = where + ": MODEL " + std::to_string(model);
@@ -90,7 +90,7 @@ void check_pdb(std::string_view text, const std::string& path, std::size_t numbe
       is_closed = true;
     }
   }
-  if (!twice.empty() && model_count <= most_model_numbers) throw LoadError(twice + " is there twice");
+  if (!twice.empty() && model_count <= most_model_numbers) throw LoadError(twice + " occurs twice");
   if (atoms == 0)
     throw LoadError(path + ": no ATOM or HETATM record in " + std::to_string(number - lines_before) +
                     " lines, expected a PDB or mmCIF file");
@@ -99,8 +99,7 @@ void check_pdb(std::string_view text, const std::string& path, std::size_t numbe
   const bool is_whole = is_closed || (notes != nullptr && model_count == 1 && last == longest);
   if (!is_whole) throw LoadError(path + what + ", the file may be cut short");
   if (notes != nullptr)
-    notes->push_back("line " + std::to_string(open_model) +
-                     ": MODEL has no ENDMDL, it is taken to go to the end of the file");
+    notes->push_back("line " + std::to_string(open_model) + ": MODEL has no ENDMDL, the model ends with the file");
 }
 
 }  // namespace hinge::molecular

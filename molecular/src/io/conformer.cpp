@@ -70,10 +70,11 @@ std::string ConformerChoice::note() const {
   if (inside_ + beside_ == 0) return {};
   std::string text = "alternative locations: ";
   if (conformer_)
-    text += std::string(1, *conformer_) + (asked_for_ ? ", as asked for" : ", of the highest summed occupancy") +
-            ", is read in " + std::to_string(inside_) + " residues; ";
+    text += std::string(1, *conformer_) + (asked_for_ ? " (--altloc)" : " (highest summed occupancy)") +
+            " is used in " + std::to_string(inside_) + " residues; ";
   if (beside_ > 0)
-    text += std::to_string(beside_) + " lack it and are read at their own best (first: " + first_beside_ + "); ";
+    text += std::to_string(beside_) + " residues use their own location of highest occupancy (first: " + first_beside_ +
+            "); ";
   text += std::to_string(dropped_) + " atoms are left out";
   return text + (dropped_ > 0 ? " (first: " + first_dropped_ + ")" : "");
 }

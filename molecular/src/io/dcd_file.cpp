@@ -50,7 +50,7 @@ std::uint64_t DcdFile::record(std::uint64_t offset, std::uint64_t& next, const s
   file_.read_all(offset + marker_size_ + size, length, what);
   if (marker(bytes.data()) != size)
     throw LoadError(file_.name() + ": " + what + ": a record of " + std::to_string(size) + " bytes at byte " +
-                    std::to_string(offset) + " is closed by " + std::to_string(marker(bytes.data())));
+                    std::to_string(offset) + " ends with the length " + std::to_string(marker(bytes.data())));
   next = offset + 2 * marker_size_ + size;
   return size;
 }
@@ -97,7 +97,7 @@ DcdFile::DcdFile(BinaryFile file) : file_(std::move(file)) {
   frames_at_ = next;
   if (frames_at_ == file_.size()) {
     if (integer(header, frame_count_at) == 0) return;  // a writer without frames leaves such a file
-    throw LoadError(file_.name() + ": holds no frame, its header claims " +
+    throw LoadError(file_.name() + ": holds no frame, expected the number in its header: " +
                     std::to_string(integer(header, frame_count_at)));
   }
 
@@ -108,8 +108,8 @@ DcdFile::DcdFile(BinaryFile file) : file_(std::move(file)) {
   frames_ = static_cast<std::size_t>(whole + (cut ? 1 : 0));
   const std::int32_t claimed = integer(header, frame_count_at);
   if (claimed < 0 || static_cast<std::uint64_t>(claimed) != whole)
-    notes_.push_back(file_.name() + ": its header claims " + std::to_string(claimed) + " frames, it holds " +
-                     std::to_string(whole) + (cut ? " and the start of another one" : ""));
+    notes_.push_back(file_.name() + ": its header says " + std::to_string(claimed) + " frames, the file holds " +
+                     std::to_string(whole) + (cut ? " and a part of another frame" : ""));
   if (!moving_.empty()) first_ = frame(0);
 }
 

@@ -92,7 +92,7 @@ void append(Structure& all, Structure added) {
     all.secondary_structure.push_back({element.kind, element.first + residues, element.last + residues});
   if (all.models.size() > 1 && added.models.size() > 1)
     throw ModelError("joining structures: " + all.name + " have " + std::to_string(all.models.size()) + " and " +
-                     std::to_string(added.models.size()) + " models, expected one of them to have a single one");
+                     std::to_string(added.models.size()) + " models, expected a single model in one of them");
   if (added.models.size() > 1) {
     all.models.resize(added.models.size(), all.models.front());
     all.model_numbers = added.model_numbers;
@@ -111,7 +111,7 @@ void append(Structure& all, Structure added) {
 }  // namespace
 
 Structure join_structures(std::vector<Structure> structures) {
-  if (structures.empty()) throw ModelError("joining structures: expected at least one");
+  if (structures.empty()) throw ModelError("joining structures: got none, expected at least one");
   Structure all = std::move(structures.front());
   for (std::size_t k = 1; k < structures.size(); ++k) append(all, std::move(structures[k]));
   return all;

@@ -83,7 +83,7 @@ NpyFile::NpyFile(BinaryFile file) : file_(std::move(file)) {
   reversed_ = type[1] != '=' && (type[1] == '>') != is_big;
   const std::string_view order = behind(header, "fortran_order");
   fortran_ = order.starts_with("True");
-  if (!fortran_ && !order.starts_with("False")) refuse("no fortran_order in its header");
+  if (!fortran_ && !order.starts_with("False")) refuse("its header has no fortran_order, expected True or False");
   std::vector<std::uint64_t> shape;
   const std::string_view tuple = behind(header, "shape");
   const bool is_tuple = read_tuple(tuple, shape);

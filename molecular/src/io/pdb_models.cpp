@@ -87,13 +87,13 @@ void PdbModels::find_models() {
     for_lines(std::string_view(chunk).substr(0, end + 1), [&](std::string_view line) { finder.add(line); });
     chunk.erase(0, end + 1);
   }
-  if (models_.empty()) throw LoadError(file_.name() + ": expected DCD, XTC, NumPy, PDB or mmCIF, found no ATOM record");
+  if (models_.empty()) throw LoadError(file_.name() + ": has no ATOM record, expected DCD, XTC, NumPy, PDB or mmCIF");
   if (!finder.named() || models_.size() > most_model_numbers) return;
   std::vector<int> numbers;
   for (const Model& model : models_) numbers.push_back(model.number);
   std::sort(numbers.begin(), numbers.end());
   if (const auto twice = std::adjacent_find(numbers.begin(), numbers.end()); twice != numbers.end())
-    throw LoadError(file_.name() + ": MODEL " + std::to_string(*twice) + " is there twice");
+    throw LoadError(file_.name() + ": MODEL " + std::to_string(*twice) + " occurs twice");
 }
 
 PdbModels::PdbModels(BinaryFile file, const Structure& structure, const ReadOptions& options, bool may_have_more)

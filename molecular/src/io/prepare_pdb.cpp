@@ -56,7 +56,8 @@ PreparedPdb prepare_pdb(const std::string& text, std::size_t columns) {
       if (!open) result.model_numbers.push_back(model);
       open = true;
       if (serials.size() == most_atoms)
-        throw std::runtime_error("more than " + std::to_string(most_atoms) + " atoms, expected mmCIF of so many");
+        throw std::runtime_error("more than " + std::to_string(most_atoms) +
+                                 " atoms, expected an mmCIF file for so many atoms");
       const std::string number = hybrid36(serials.size());
       serials.push_back(read_hybrid36(line.substr(6, 5)).value_or(0));
       kept.replace(kept.size() - line.size() + 6, 5, std::string(5 - number.size(), ' ') + number);

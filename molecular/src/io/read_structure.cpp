@@ -88,7 +88,7 @@ std::string read_bytes(const std::filesystem::path& path, bool first_model, bool
     if (const std::uint64_t read = file.packed(); total > harmless + most_times * read)
       throw LoadError(path.string() + ": " + std::to_string(read) + " bytes unpack to more than " +
                       std::to_string(total) + ", expected at most 64 MiB + " + std::to_string(most_times) +
-                      " times as many; unpack it first if it is a structure");
+                      " times as many; if the file is right, unpack it first");
     if (const std::size_t end = first_model && !behind ? first.end(bytes) : std::string::npos;
         end != std::string::npos) {
       rest = bytes.substr(end);

@@ -102,8 +102,8 @@ Trajectory::Trajectory(const Structure& molecule)
 void Trajectory::choose_atoms() {
   const std::size_t atoms = atom_count(), records = molecule_->atom_records, own = molecule_->atoms.size();
   if (atoms != own && (records == 0 || atoms != records)) {
-    std::string expected = std::to_string(records) + " as in the molecule's file";
-    if (records != own) expected += ", or " + std::to_string(own) + " as were kept of them";
+    std::string expected = std::to_string(records) + " (all atoms of the molecule's file)";
+    if (records != own) expected += " or " + std::to_string(own) + " (the atoms read from it)";
     throw LoadError(path_ + ": frames of " + std::to_string(atoms) + " atoms, expected " + expected);
   }
   all_kept_ = atoms == own;
@@ -121,8 +121,8 @@ void Trajectory::check_unit() {
   const double mean = sum / static_cast<double>(molecule_->bonds.size());
   // Bonds of organic molecules measure 1 to 2 angstrom: 0.1 to 0.2 if the unit is nanometres.
   if (!molecule_->bonds.empty() && mean < 0.3)
-    notes_.push_back(path_ + ": bonds are " + number_text(mean) +
-                     " long in its first frame, like nanometres; it is read as angstrom");
+    notes_.push_back(path_ + ": the mean bond length in its first frame is " + number_text(mean) +
+                     ", as in nanometres; the file is read as angstrom");
 }
 
 std::size_t Trajectory::size() const noexcept {
@@ -166,7 +166,7 @@ std::vector<Vec3> Trajectory::frame(std::size_t k) const {
     Eigen::Index axis = 0;
     while (is_length(positions[i][axis])) ++axis;
     throw LoadError(path_ + ": frame " + std::to_string(k) + ": " + atom + "): " + "xyz"[axis] + " is " +
-                    number_text(positions[i][axis]) + ", expected a number");
+                    number_text(positions[i][axis]) + ", expected a finite number");
   }
   return positions;
 }

@@ -42,12 +42,12 @@ std::size_t UnpackedFile::unpack(std::span<char> to) {
   stream_.avail_out = static_cast<uInt>(to.size());
   while (stream_.avail_out == to.size()) {
     if (!fill()) {
-      if (in_member_) refuse("ends in a gzip member; it may be cut short");
+      if (in_member_) refuse("the file ends inside a gzip member; it may be cut short");
       break;
     }
     if (!in_member_ && *stream_.next_in == 0 && members_ > 0) {
       while (fill()) {
-        if (*stream_.next_in != 0) refuse("expected nothing but zeros behind the last gzip member");
+        if (*stream_.next_in != 0) refuse("expected only zeros after the last gzip member");
         ++stream_.next_in;
         --stream_.avail_in;
       }

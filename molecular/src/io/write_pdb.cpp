@@ -119,10 +119,10 @@ void write_pairs(std::ostream& out, std::string_view word, const std::vector<Rec
 
 void check_fits_pdb(const Structure& s) {
   const auto refuse = [](const std::string& what) {
-    throw ModelError(what + " does not fit the PDB format; a .cif file holds it");
+    throw ModelError(what + " does not fit the PDB format; write a .cif file instead");
   };
   for (const Chain& chain : s.chains)
-    if (chain.name.size() > 1) refuse("chain " + chain.name + ", of more than one character,");
+    if (chain.name.size() > 1) refuse("chain name " + chain.name + " of more than one character");
   for (const Residue& residue : s.residues) {
     const auto where = [&] { return " (" + label(s, residue.first_atom) + ")"; };
     if (residue.name.size() > 3) refuse("residue name " + residue.name + where());
@@ -166,7 +166,7 @@ void write_pdb_model(std::ostream& out, const Structure& structure, std::span<co
           const double x = positions[i][k];
           if (!(x > -999.9995 && x < 9999.9995))
             throw ModelError(label(structure, i) + ": coordinate " + number_text(x) +
-                             " does not fit the PDB columns; a .cif file holds it");
+                             " does not fit the PDB columns; write a .cif file instead");
           text += fixed(x, 3, 8);
         }
         text += "  1.00  0.00      ";

@@ -105,7 +105,7 @@ void TrajectoryWriter::add(std::span<const Vec3> positions, int number) {
   std::string bytes;
   const auto put_single = [&](std::string& to, double x) {
     const auto value = static_cast<float>(x);
-    if (!std::isfinite(value)) throw ModelError("a coordinate of " + number_text(x) + " does not fit 32 bits");
+    if (!std::isfinite(value)) throw ModelError("a coordinate of " + number_text(x) + " does not fit a 32-bit float");
     put(to, value);
   };
   if (format_ == TrajectoryFormat::npy) {

@@ -115,7 +115,7 @@ std::vector<Vec3> unpack_xtc(const XtcBlock& block, std::span<const char> bits, 
   Steps least{};
   for (std::size_t k = 0; k < 3; ++k) {
     least[k] = block.least[k];
-    if (block.most[k] < block.least[k]) refuse("the largest coordinate is below the least");
+    if (block.most[k] < block.least[k]) refuse("the largest coordinate is below the smallest");
     sizes[k] = static_cast<std::uint64_t>(block.most[k] - least[k]) + 1;
     if (sizes[k] >> 32 != 0) refuse("coordinates take more than 32 bits");
   }
@@ -150,7 +150,7 @@ std::vector<Vec3> unpack_xtc(const XtcBlock& block, std::span<const char> bits, 
       run = said / 3;
       change = static_cast<std::int32_t>(said % 3) - 1;
     }
-    if (positions.size() + 1 + run > atoms) refuse("more atoms are packed than the frame has");
+    if (positions.size() + 1 + run > atoms) refuse("the coordinates hold more atoms than the header says");
     const auto size = small_ranges[static_cast<std::size_t>(small)];
     const Steps half = {-std::int64_t{size / 2}, -std::int64_t{size / 2}, -std::int64_t{size / 2}};
     Steps last = large;
@@ -160,7 +160,7 @@ std::vector<Vec3> unpack_xtc(const XtcBlock& block, std::span<const char> bits, 
       if (k == 0) put(large);  // the first two are swapped: a water's oxygen, stored second, is near both hydrogens
     }
     if (run == 0) put(large);
-    if (reader.overrun()) refuse("coordinates go on behind their end");
+    if (reader.overrun()) refuse("the coordinates need more bytes than the header says");
     if (change != 0) {
       small += change;
       check_small();

@@ -61,7 +61,7 @@ XtcFile::Head XtcFile::head(std::uint64_t offset) const {
   h.bytes.resize(packed_head + 4);
   const std::size_t got = file_.read(offset, h.bytes);
   const auto need = [&](std::size_t size) {
-    if (got < size) refuse("the file ends in its header; it may be cut short");
+    if (got < size) refuse("the file ends inside the header of the frame; it may be cut short");
   };
   need(plain_head);
   const char* at = h.bytes.data();
@@ -73,7 +73,8 @@ XtcFile::Head XtcFile::head(std::uint64_t offset) const {
     refuse(std::to_string(h.atoms) + " atoms, expected " +
            (atoms_ != 0 ? std::to_string(atoms_) + " as in the first frame" : "at least one"));
   if (integer(at + plain_head - 4) != h.atoms)
-    refuse(std::to_string(h.atoms) + " atoms and coordinates of " + std::to_string(integer(at + plain_head - 4)));
+    refuse(std::to_string(h.atoms) + " atoms, but coordinates of " + std::to_string(integer(at + plain_head - 4)) +
+           " atoms");
   if (h.atoms <= most_plain_atoms) {
     h.data_at = offset + plain_head;
     h.data_size = 12 * std::int64_t{h.atoms};
@@ -86,7 +87,8 @@ XtcFile::Head XtcFile::head(std::uint64_t offset) const {
       h.magic == xtc_magic ? integer(at + packed_head - 4) : number_at<std::int64_t>(at + packed_head - 4, swaps_bytes);
   // Every atom takes at least two bits.
   if (h.data_size <= 0 || h.atoms / 4 > h.data_size)
-    refuse("coordinates of " + std::to_string(h.data_size) + " bytes for " + std::to_string(h.atoms) + " atoms");
+    refuse(std::to_string(h.data_size) + " bytes of coordinates for " + std::to_string(h.atoms) +
+           " atoms, expected more");
   return h;
 }
 
@@ -110,7 +112,7 @@ std::vector<Vec3> XtcFile::frame(std::size_t k) const {
   block.small = integer(at + 28);
   const std::string where = file_.name() + ": " + what;
   if (!(block.per_nanometre > 0.0) || !std::isfinite(block.per_nanometre))
-    throw LoadError(where + ": precision " + number_text(block.per_nanometre) + ", expected above 0");
+    throw LoadError(where + ": precision " + number_text(block.per_nanometre) + ", expected a finite number above 0");
   data.resize(data.size() + xtc_padding);
   return unpack_xtc(block, data, static_cast<std::size_t>(h.atoms), where);
 }

@@ -49,8 +49,8 @@ ClosedSampler::ClosedSampler(const Molecule& molecule, const DofSelection& selec
       sampling_(sampling),
       ranges_(ranges.begin(), ranges.end()),
       most_tries_(most_tries) {
-  if (most_tries == 0) throw ModelError("0 tries a sample: expected at least one");
-  if (selection.size() == 0) throw ModelError("no torsion is free: expected some to sample");
+  if (most_tries == 0) throw ModelError("0 tries per sample, expected at least one");
+  if (selection.size() == 0) throw ModelError("no torsion is free, expected at least one");
   static_cast<void>(sample_configuration(sampling, 0, molecule, selection, ranges));  // validates the ranges
 }
 

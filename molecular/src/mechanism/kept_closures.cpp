@@ -51,9 +51,9 @@ KeptClosures find_kept_closures(const Molecule& molecule, std::span<const std::s
     if (std::ranges::any_of(columns, [&](std::size_t k) {
           return molecule.torsion_of(all.dofs()[equations.position(k)]) == Molecule::no_torsion;
         }))
-      left_open(c, "it joins a placed part and what is not placed with it");
+      left_open(c, "it joins a placed part and atoms that are not placed with it");
     else if (contains(open, c))
-      left_open(c, "no random start closes it");
+      left_open(c, "no random start could close it");
     else
       candidates.push_back(c);
   }

@@ -48,7 +48,7 @@ void check_backbone(const Structure& s, std::uint32_t r, std::string_view word) 
     const auto begin = s.atoms.begin() + residue.first_atom, end = s.atoms.begin() + residue.last_atom;
     if (residue.kind != ResidueKind::amino_acid ||
         std::none_of(begin, end, [&](const Atom& atom) { return atom.name == name; }))
-      refuse_loop(word, name_of(s, r) + " is no amino acid with N, CA and C");
+      refuse_loop(word, name_of(s, r) + " is not an amino acid with atoms N, CA and C");
   }
 }
 
@@ -60,7 +60,7 @@ Loop stretch_of(const Structure& s, const SelectionTerm& term) {
   const auto first = static_cast<std::uint32_t>(begin - term.selected.begin());
   const auto last = static_cast<std::uint32_t>(end - term.selected.begin() - 1);
   if (std::find(end, term.selected.end(), true) != term.selected.end())
-    refuse_loop(term.text, "its residues do not follow one another behind " + name_of(s, last) +
+    refuse_loop(term.text, "its residues are not contiguous after " + name_of(s, last) +
                                ", expected CHAIN:FIRST-LAST, as in A:40-52");
   return {first, last};
 }
@@ -78,13 +78,13 @@ std::vector<Loop> find_loops(const Structure& structure, std::string_view words)
     for (std::uint32_t r = range.first; r < range.last; ++r)
       if (next[r] != r + 1)
         refuse_loop(word, "no peptide bond joins " + name_of(structure, r) + " and " + name_of(structure, r + 1) +
-                              ": a loop does not cross a break of the chain");
+                              ": a loop cannot cross a break of the chain");
     const auto before = std::find(next.begin(), next.end(), range.first);
     const bool starts = before == next.end(), ends = !next[range.last];
     if (starts || ends)
-      refuse_loop(word, name_of(structure, starts ? range.first : range.last) + " is the " +
-                            (starts ? "first" : "last") +
-                            " residue of its chain: an end that nothing holds needs no closing, free it with --free");
+      refuse_loop(word,
+                  name_of(structure, starts ? range.first : range.last) + " is the " + (starts ? "first" : "last") +
+                      " residue of its chain, expected a residue before and after the loop; --free frees chain ends");
     for (const Loop& other : loops)
       if (range.first <= other.last && other.first <= range.last)
         refuse_loop(word, "shares residues with loop " + label(structure, other));
@@ -109,7 +109,7 @@ std::vector<std::size_t> select_loop_torsions(const Molecule& molecule, std::str
     if (!torsions[k].name.starts_with("chi"))
       throw ModelError("selection '" + std::string(side_chains) + "' frees " + torsions[k].name + " of " +
                        label(molecule.structure(), torsions[k].atoms[1]) +
-                       ": beside a loop only side chains (chi) can be free, all else outside it stands still");
+                       ", expected only side chains (chi): all other torsions outside the loop are fixed");
   for (const Loop& loop : molecule.loops()) {
     std::size_t turns = 1;  // psi of the last residue: it follows from the others and is no DOF
     for (std::size_t k = 0; k < torsions.size(); ++k) {
@@ -124,9 +124,9 @@ std::vector<std::size_t> select_loop_torsions(const Molecule& molecule, std::str
     // A closed cycle of k torsions has k - 6 degrees of freedom. With k = 6 it has other isolated conformations; with k
     // < 6 it is rigid.
     if (turns < 6)
-      refuse_loop(
-          label(molecule.structure(), loop),
-          "has " + std::to_string(turns) + " turns, expected at least 6: fewer cannot move with both ends held");
+      refuse_loop(label(molecule.structure(), loop),
+                  "has " + std::to_string(turns) +
+                      " torsions, expected at least 6: with fewer it cannot move between its fixed ends");
   }
   std::sort(chosen.begin(), chosen.end());
   return chosen;

@@ -19,7 +19,7 @@ Part find_part(const Structure& structure, std::string_view words, ResidueNames 
   part.name = words;
   for (std::uint32_t r = 0; r < in.size(); ++r)
     if (in[r]) part.residues.push_back(r);
-  if (part.residues.empty()) refuse({words, words}, "residues; it selects none");
+  if (part.residues.empty()) refuse({words, words}, "at least one residue; it selects none");
   return part;
 }
 
@@ -29,7 +29,7 @@ Part rest_of(const Structure& structure, const Part& part) {
   for (std::uint32_t r = 0; r < structure.residues.size(); ++r)
     if (!std::ranges::binary_search(part.residues, r)) rest.residues.push_back(r);
   if (rest.residues.empty())
-    throw ModelError("the rest of '" + part.name + "': expected a part that is not everything");
+    throw ModelError("the rest of '" + part.name + "' is empty: the part holds all residues, expected fewer");
   return rest;
 }
 

@@ -23,22 +23,23 @@ PartPlacer::PartPlacer(const Structure& structure, std::span<PlacedPart> placed)
     for (std::uint32_t atom = 0; atom < in.size(); ++atom) {
       if (!in[atom]) continue;
       if (part_of_[atom] != none)
-        throw ModelError(who + label(structure, atom) + " is placed with '" + placed[part_of_[atom]].part.name +
-                         "' already");
+        throw ModelError(who + label(structure, atom) + " already belongs to placed part '" +
+                         placed[part_of_[atom]].part.name + "'");
       part_of_[atom] = k;
       one.centre += structure.models.front()[atom];
       count += 1.0;
     }
-    if (count == 0.0) throw ModelError(who + "it holds no atoms");
+    if (count == 0.0) throw ModelError(who + "the part holds no atoms");
     one.centre /= count;
   }
   for (const Bond& bond : structure.bonds) {
     if (part_of_[bond.first] == part_of_[bond.second]) continue;
     const bool first = part_of_[bond.first] != none;
     const std::uint32_t in = first ? bond.first : bond.second, out = first ? bond.second : bond.first;
-    throw ModelError("placing '" + placed[part_of_[in]].part.name + "': " + label(structure, in) + " is bonded to " +
-                     label(structure, out) +
-                     ", which it does not hold; expected a part that no bond joins to the rest (+ joins parts)");
+    throw ModelError(
+        "placing '" + placed[part_of_[in]].part.name + "': " + label(structure, in) + " is bonded to " +
+        label(structure, out) +
+        " outside the part, expected a part without bonds to the rest (write A+B to place A and B together)");
   }
 }
 
