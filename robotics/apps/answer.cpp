@@ -78,7 +78,8 @@ std::vector<std::string> notes_on_bodies(const Options& options, Worker& worker)
   if (options.contained)
     for (const BodyId body : environment.bodies())
       if (const auto edge = environment.open_edge(body); edge && environment.triangle_count(body) > 1)
-        notes.push_back(environment.name(body) + " has an open mesh, nothing is looked for inside it: " + edge->text());
+        notes.push_back(environment.name(body) +
+                        " has an open mesh, so containment in it is not tested: " + edge->text());
   const Robot& robot = worker.checker.robot();
   const hinge::KinematicTree& tree = robot.model().tree();
   const hinge::RigidGroups groups(tree, hinge::DofSelection::all(tree));
@@ -86,7 +87,7 @@ std::vector<std::string> notes_on_bodies(const Options& options, Worker& worker)
     if (groups.group_of(contact.link) != hinge::GroupId{0}) continue;
     const std::string &link = robot.link_name(contact.link), &body = environment.name(contact.body);
     notes.push_back("link '" + link + "' never moves and collides with body '" + body +
-                    "' in every configuration; --allow '" + link + "' '" + body + "' leaves the two out");
+                    "' in every configuration; --allow '" + link + "' '" + body + "' leaves this pair out");
   }
   return notes;
 }

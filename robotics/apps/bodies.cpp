@@ -43,9 +43,9 @@ class BodyReader {
       body.name = shape.substr(0, equals);
       body.is_named = true;
       shape.remove_prefix(equals + 1);
-      if (body.name.empty()) refuse("has an empty name before '='");
+      if (body.name.empty()) refuse("the name before '=' is empty, expected NAME=SHAPE");
     }
-    if (shape.empty()) refuse("names no shape");
+    if (shape.empty()) refuse("the shape is missing, expected [NAME=]SHAPE");
     read_shape(shape, body);
     Vec3 angles = Vec3::Zero();
     while (!rest.empty()) {
@@ -59,7 +59,8 @@ class BodyReader {
         angles = three(key, value);
       } else if (key == "scale" && !body.primitive) {
         const std::vector<double> s = numbers(key, value);
-        if (s.size() != 1 && s.size() != 3) refuse("scale: expected one number or three");
+        if (s.size() != 1 && s.size() != 3)
+          refuse("scale: " + std::to_string(s.size()) + " numbers, expected one or three");
         body.scale = s.size() == 1 ? Vec3::Constant(s[0]) : Vec3(s[0], s[1], s[2]);
       } else {
         refuse("'" + std::string(field) + "': expected xyz=X Y Z, rpy=R P Y" + (body.primitive ? "" : " or scale=S") +

@@ -34,7 +34,7 @@ std::vector<double> sample(const Robot& robot, std::uint64_t seed, std::uint64_t
 void check_limits(const Options& options, const Robot& robot) {
   for (const auto limits : {robot.lower(), robot.upper()})
     if (const auto far = find_too_far(robot, limits))
-      throw hinge::LoadError(options.urdf + ": no samples can be taken up to this limit: " + far->what);
+      throw hinge::LoadError(options.urdf + ": a joint limit is too large for sampling: " + far->what);
 }
 
 std::vector<double> join_states(const char* option, const std::vector<std::string>& states, const Options& options,
@@ -52,8 +52,8 @@ std::vector<double> join_states(const char* option, const std::vector<std::strin
     }
     if (!found)
       throw hinge::ModelError(std::string(option) + " '" + wanted + "': " +
-                              (options.srdf.empty() ? "there is no --srdf to name states"
-                               : known.empty()      ? options.srdf + " has no states"
+                              (options.srdf.empty() ? "expected --srdf, which defines the states"
+                               : known.empty()      ? options.srdf + " defines no states"
                                                     : "expected one of " + known));
     if (const auto far = find_too_far(*job.robot, q))
       throw hinge::ModelError(std::string(option) + " '" + wanted + "': " + far->what);

@@ -40,7 +40,8 @@ void fill_meshes(RobotDescription& robot, std::vector<std::string>& notes) {
       const auto open = open_edge(tessellate(*mesh).triangles);
       mesh->solid = !open;
       if (open)
-        notes.push_back("link '" + link.name + "' has an open mesh, nothing is looked for inside it: " + open->text());
+        notes.push_back("link '" + link.name +
+                        "' has an open mesh, so containment in it is not tested: " + open->text());
     }
 }
 
@@ -50,9 +51,9 @@ std::vector<Body> read_bodies(const Options& options, const Robot& robot) {
     Body body = parse_body(text);
     const auto same = [&](const Body& other) { return other.name == body.name && (other.is_named || body.is_named); };
     if (std::any_of(bodies.begin(), bodies.end(), same))
-      throw hinge::ModelError("--env '" + text + "': there is a body '" + body.name + "' already");
+      throw hinge::ModelError("--env '" + text + "': another body already has the name '" + body.name + "'");
     if (body.is_named && robot.find_link(body.name))
-      throw hinge::ModelError("--env '" + text + "': '" + body.name + "' is the name of a link");
+      throw hinge::ModelError("--env '" + text + "': a link already has the name '" + body.name + "'");
     bodies.push_back(std::move(body));
   }
   return bodies;
@@ -88,7 +89,7 @@ void read_allowed(const Options& options, Job& job) {
     if (!allowed) {
       const bool has_link = job.robot->find_link(link).has_value();
       throw hinge::ModelError("--allow " + link + " " + body + ": " +
-                              (has_link ? "'" + body + "' is no body of --env"
+                              (has_link ? "'" + body + "' is not a body of --env"
                                         : "robot '" + job.robot->name() + "' has no link '" + link + "'"));
     }
     job.allowed.push_back(*allowed);
@@ -97,11 +98,12 @@ void read_allowed(const Options& options, Job& job) {
 
 /// A floating robot may be anywhere, so with bodies of the world the user must choose its base.
 void check_floating_base(const Options& options, const RobotDescription& robot) {
-  const std::string joint = options.urdf + ": joint '" + robot.floating_base + "' lets the whole robot float";
+  const std::string joint = options.urdf + ": joint '" + robot.floating_base + "' is a floating base";
   if (options.floating_base.empty())
-    throw hinge::ModelError(joint + ": with --env say --floating-base fixed (it stands where the joint's origin is)");
+    throw hinge::ModelError(joint +
+                            ": --env needs --floating-base fixed, which places the robot at the origin of this joint");
   if (options.floating_base == "free")
-    throw hinge::ModelError(joint + ": --floating-base free is not offered, expected fixed; for a base that moves, " +
+    throw hinge::ModelError(joint + ": --floating-base free is not supported, expected fixed; for a moving base, " +
                             "replace the joint by three prismatic and three continuous ones");
 }
 
@@ -161,7 +163,7 @@ void print_incomplete(const Robot& robot) {
   std::string names;
   for (const std::string& link : robot.description().incomplete) names += (names.empty() ? "" : ", ") + link;
   if (!names.empty())
-    std::fprintf(stderr, "note: incomplete model: geometry is missing, and was not tested, of %s\n", names.c_str());
+    std::fprintf(stderr, "note: incomplete model: geometry is missing and was not tested for: %s\n", names.c_str());
 }
 
 }  // namespace robocd

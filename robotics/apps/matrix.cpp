@@ -84,7 +84,9 @@ Exit run_matrix(const Options& options) {
   for (const auto& [kind, count] : counts) std::fprintf(stderr, "%6zu pairs %s\n", count, name(kind));
   std::fprintf(stderr, "%zu of %zu pairs disabled\n", kept + disabled, matrix.entries.size());
   if (met > 0)
-    std::fprintf(stderr, "note: pairs that %s disables were seen to collide sometimes: %zu; comments name them\n",
+    std::fprintf(stderr,
+                 "note: pairs that %s disables, but that collide in some configurations: %zu; comments in the output "
+                 "name them\n",
                  options.srdf.c_str(), met);
   print_incomplete(*robot);
   return Exit::free;

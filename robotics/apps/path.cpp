@@ -102,10 +102,11 @@ void print_table(const Options& options, const Job& job, const Worker& worker, c
   switch (path.verdict) {
     case PathVerdict::free:
       if (options.sampled)
-        fmt::print("free at {} states at most {} rad or m apart; what lies between them was not looked at{}\n",
+        fmt::print("free at {} states at most {} rad or m apart; the states between them were not tested{}\n",
                    asked.states_looked_at, *options.sampled, incomplete(*job.robot));
       else
-        fmt::print("free: proved for every state, from {} of them{}\n", asked.states_looked_at, incomplete(*job.robot));
+        fmt::print("free: proved for every state, by testing {} states{}\n", asked.states_looked_at,
+                   incomplete(*job.robot));
       break;
     case PathVerdict::colliding: {
       fmt::print("collides at t = {}{}{}\n", path.parameter, where, incomplete(*job.robot));

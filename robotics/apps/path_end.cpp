@@ -27,8 +27,9 @@ std::vector<double> read_row(const std::string& what, std::string file, Job& job
   }
   const auto rows = read_configurations(file, *job.robot, job.notes);
   if (named ? row >= rows.size() : rows.size() > 1)
-    throw hinge::ModelError(what + ": " + file + " has " + std::to_string(rows.size()) + " rows, expected one of @" +
-                            file + ":0 to @" + file + ":" + std::to_string(rows.size() - 1));
+    throw hinge::ModelError(what + ": " + file + " has " + std::to_string(rows.size()) +
+                            " rows, expected a row from @" + file + ":0 to @" + file + ":" +
+                            std::to_string(rows.size() - 1));
   return rows[row];
 }
 

@@ -74,10 +74,10 @@ class ConfigurationReader {
         blank = blank == 0 ? number_ : blank;
         continue;
       }
-      if (blank != 0) refuse(blank, "is blank, but lines follow it");
+      if (blank != 0) refuse(blank, "the line is blank, expected blank lines only at the end of the file");
       rows.push_back(read_row(line));
     }
-    if (rows.empty()) throw hinge::LoadError(path_ + ": holds no configurations, only a header");
+    if (rows.empty()) throw hinge::LoadError(path_ + ": holds only a header, expected configurations below it");
     return rows;
   }
 
@@ -90,7 +90,7 @@ class ConfigurationReader {
   std::string fault_of(const std::string& name) const {
     const JointDescription& joint = robot_.description().joints[*robot_.find_joint(name)];
     if (joint.type == JointType::fixed) return "joint '" + name + "' is fixed and takes no value";
-    return "joint '" + name + "' follows joint '" + joint.mimic->joint + "' and takes no value of its own";
+    return "joint '" + name + "' mimics joint '" + joint.mimic->joint + "' and takes no value";
   }
 
   void read_header(std::string_view line) {
@@ -107,15 +107,15 @@ class ConfigurationReader {
         place_.push_back(count);
         continue;
       }
-      if (seen[k]) refuse(1, column + "joint '" + name + "' is there twice");
+      if (seen[k]) refuse(1, column + "joint '" + name + "' occurs twice");
       seen[k] = true;
       place_.push_back(k);
     }
     for (std::size_t k = 0; k < count; ++k)
       if (!seen[k])
         refuse(1, "has no column for joint '" + robot_.independent_name(k) + "'" +
-                      (left_out.empty() ? "" : "; columns that name no joint: " + left_out));
-    if (!left_out.empty()) notes_.push_back(path_ + ": columns that name no joint are left out: " + left_out);
+                      (left_out.empty() ? "" : "; columns without a known joint: " + left_out));
+    if (!left_out.empty()) notes_.push_back(path_ + ": columns without a known joint are left out: " + left_out);
   }
 
   std::vector<double> read_row(std::string_view line) const {
@@ -177,11 +177,11 @@ std::optional<TooFar> find_too_far(const Robot& robot, std::span<const double> q
     if (std::abs(value) <= hinge::tool::largest_value) continue;  // NaN goes on to the error
     const std::string& joint = robot.description().joints[robot.joint_of(hinge::id<hinge::DofId>(d))].name;
     const std::string& leader = robot.independent_name(drives[d].independent);
-    return TooFar{drives[d].independent,
-                  "joint '" + leader + "' is " + hinge::number_text(x) +
-                      (joint == leader ? std::string()
-                                       : ", which takes its follower '" + joint + "' to " + hinge::number_text(value)) +
-                      ", expected at most 1e+15"};
+    return TooFar{drives[d].independent, "joint '" + leader + "' is " + hinge::number_text(x) +
+                                             (joint == leader ? std::string()
+                                                              : ", which moves the mimic joint '" + joint + "' to " +
+                                                                    hinge::number_text(value)) +
+                                             ", expected at most 1e+15"};
   }
   return {};
 }

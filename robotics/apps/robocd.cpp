@@ -29,57 +29,57 @@ constexpr NumberRange<std::uint64_t> seeds{0, UINT64_MAX};
 
 constexpr const char* footer =
     "Exit status: 0 free, 1 collision found, 2 usage, 3 bad input, 4 undecided (path).\n"
-    "Lengths are metres, angles radians. A pair of links is tested unless the two move as one, are joined by one\n"
-    "movable joint, or are disabled by --srdf or --skip-pairs.";
+    "Lengths are in metres, angles in radians. All pairs of links are tested except pairs in one rigid group, pairs\n"
+    "joined by one movable joint, and pairs disabled by --srdf or --skip-pairs.";
 
 /// Lets an option be given several times, with one value each. The next word is a new argument.
 CLI::Option* repeatable(CLI::Option* option) { return option->allow_extra_args(false); }
 
 void add_robot_options(CLI::App& command, Options& o) {
-  command.add_option("URDF", o.urdf, "robot description; meshes STL, OBJ, DAE or PLY")->required();
+  command.add_option("URDF", o.urdf, "robot description with meshes in STL, OBJ, DAE or PLY")->required();
   repeatable(command.add_option(
       "--package-path", o.package_folders,
-      "folder of packages for package://, repeatable; those of ROS_PACKAGE_PATH and AMENT_PREFIX_PATH come after"));
+      "folder of packages for package://, searched before ROS_PACKAGE_PATH and AMENT_PREFIX_PATH; repeatable"));
   command
       .add_option_function<std::string>(
           "--missing-meshes", [&o](const std::string& text) { o.skip_missing_meshes = text == "skip"; },
-          "refuse (default) or skip: leave out geometry whose mesh is absent or empty, or that is of a kind not read; "
-          "every verdict then says that the model is incomplete")
+          "refuse (default) or skip (leave out geometry if its mesh is missing or empty, or its shape is not "
+          "supported; every verdict then says that the model is incomplete)")
       ->check(CLI::IsMember({"refuse", "skip"}));
   command
       .add_option_function<std::string>(
           "--primitives", [&o](const std::string& text) { o.reference_primitives = text == "reference"; },
-          "exact (default: spheres and capsules exact, cylinders enclosed to 1 mm) or reference (inscribed: 32 sides "
-          "a cylinder, 320 triangles a sphere)")
+          "exact (default: exact spheres and capsules, cylinders enclosed to 1 mm) or reference (inscribed meshes: 32 "
+          "sides per cylinder, 320 triangles per sphere)")
       ->check(CLI::IsMember({"exact", "reference"}));
 }
 
 void add_srdf_option(CLI::App& command, Options& o, const char* help) {
   command.add_option("--srdf", o.srdf, help);
   command.add_flag("--note-unknown-links", o.note_unknown_links,
-                   "pairs of the SRDF with links the robot lacks are noted, not refused");
+                   "print a note, not an error, for SRDF pairs with links that the robot does not have");
 }
 
 void add_pair_options(CLI::App& command, Options& o) {
-  add_srdf_option(command, o, "disabled pairs of links and named states");
+  add_srdf_option(command, o, "SRDF file with disabled pairs of links and named states");
   repeatable(command.add_option(
       "--skip-pairs", o.skip_pairs,
-      "text file of more disabled pairs, two links or a link and a body of --env a line; repeatable"));
+      "text file of more disabled pairs; each line names two links, or a link and a body of --env; repeatable"));
 }
 
 void add_contained_option(CLI::App& command, Options& o) {
   command.add_flag("--contained", o.contained,
-                   "closed meshes are solid, as boxes, cylinders, spheres and capsules are");
+                   "treat closed meshes as solid, like boxes, cylinders, spheres and capsules");
 }
 
 void add_json_option(CLI::App& command, Options& o) {
   command.add_flag_callback(
-      "--json", [&o] { o.output = robocd::Output::json; }, "JSON on standard output");
+      "--json", [&o] { o.output = robocd::Output::json; }, "print JSON on standard output");
 }
 
 void add_clearance_option(CLI::App& command, Options& o) {
   add_number(command, "--clearance", o.clearance, Reals{0.0, hinge::tool::largest_length},
-             "links closer than this collide, m; touching ones always do");
+             "links closer than this length collide, m; links that touch always collide");
 }
 
 void add_environment_option(CLI::App& command, Options& o) {
@@ -87,27 +87,29 @@ void add_environment_option(CLI::App& command, Options& o) {
       "--env", o.environment,
       "body in the world, [NAME=]SHAPE[,xyz=X Y Z][,rpy=R P Y][,scale=S], where SHAPE is a mesh file, "
       "'box:X Y Z', 'sphere:R', 'cylinder:R L' or 'capsule:R L'; repeatable"));
-  repeatable(command.add_option("--allow", o.allowed,
-                                "LINK BODY: the two may touch, such as a base and its table; repeatable"))
+  repeatable(
+      command.add_option("--allow", o.allowed,
+                         "LINK BODY: this link and this body may touch, for example a base and its table; repeatable"))
       ->type_name("LINK BODY");
   command
       .add_option("--floating-base", o.floating_base,
-                  "fixed: a robot whose base floats stands at its joint's origin; to be said with --env")
+                  "fixed: a robot with a floating base stands at the origin of its base joint; required with --env")
       ->check(CLI::IsMember({"fixed", "free"}));
 }
 
 void add_configuration_options(CLI::App& command, Options& o) {
-  CLI::Option_group* source = command.add_option_group("configurations", "one of these");
-  CLI::Option* random =
-      add_number(*source, "--random", o.count, counts, "number of configurations uniform within the limits")
-          ->default_str("");
-  source->add_option("--csv-in", o.csv_in, "file of configurations, a row each, under a header of joint names");
-  repeatable(source->add_option("--state", o.states,
-                                "GROUP/NAME of the SRDF; repeatable, together one configuration, rest zero"));
-  source->add_flag("--zero", o.zero, "every joint zero");
+  CLI::Option_group* source = command.add_option_group("configurations", "exactly one of these options");
+  CLI::Option* random = add_number(*source, "--random", o.count, counts,
+                                   "number of random configurations, uniform within the joint limits")
+                            ->default_str("");
+  source->add_option("--csv-in", o.csv_in,
+                     "CSV file of configurations: a header of joint names, then one configuration per row");
+  repeatable(source->add_option(
+      "--state", o.states,
+      "GROUP/NAME of the SRDF; several states make one configuration, other joints are zero; repeatable"));
+  source->add_flag("--zero", o.zero, "the configuration with every joint at zero");
   source->require_option(1);
-  add_number(command, "--seed", o.seed, seeds, "seed; random configuration k is a function of (seed, k) alone")
-      ->needs(random);
+  add_number(command, "--seed", o.seed, seeds, "seed; random configuration k depends only on (seed, k)")->needs(random);
 }
 
 void add_check_options(CLI::App& command, Options& o) {
@@ -116,7 +118,7 @@ void add_check_options(CLI::App& command, Options& o) {
   add_json_option(command, o);
   command
       .add_flag_callback(
-          "--csv", [&o] { o.output = robocd::Output::csv; }, "CSV on standard output")
+          "--csv", [&o] { o.output = robocd::Output::csv; }, "print CSV on standard output")
       ->excludes("--json");
   command
       .add_option_function<std::string>(
@@ -126,48 +128,48 @@ void add_check_options(CLI::App& command, Options& o) {
               throw hinge::ModelError("--mode '" + text + "': expected D in metres, at most 1e+09");
             o.mode = text;
           },
-          "any, all, within:D (m) or closest")
+          "question: any, all, within:D (m) or closest")
       ->default_str(o.mode);
   add_environment_option(command, o);
   add_contained_option(command, o);
   command.add_option("--engine", o.engine, "simd, lazy (the paper's) or brute")->capture_default_str();
   add_number(command, "--threads", o.threads, NumberRange<unsigned>{1, 1024},
-             "worker threads; the output does not depend on them");
-  command.add_option("--out", o.out, "CSV file of the configurations to write, as --csv-in reads them");
+             "number of worker threads; the output does not depend on it");
+  command.add_option("--out", o.out, "write the configurations to this CSV file, in the format of --csv-in");
 }
 
 void add_matrix_options(CLI::App& command, Options& o) {
   constexpr NumberRange<std::size_t> numbers{0, std::size_t{1} << 53};
-  add_number(command, "--samples", o.matrix.samples, numbers, "random configurations looked at");
+  add_number(command, "--samples", o.matrix.samples, numbers, "number of random configurations to test");
   add_number(command, "--seed", o.matrix.seed, seeds, "seed of the random configurations");
   add_number(command, "--cells", o.matrix.cells, numbers,
-             "boxes of joint values a proof may try, per pair; 0: no proofs");
+             "maximal number of boxes of joint values that a proof may use per pair; 0: no proofs");
   add_clearance_option(command, o);
   add_contained_option(command, o);
-  add_srdf_option(command, o,
-                  "a file to add to: all that is in it is kept, and no proof is looked for of pairs it disables");
+  add_srdf_option(command, o, "SRDF file to extend: its contents are kept, and pairs that it disables are not proved");
   command.add_flag("--disable-unseen", o.disable_unseen,
-                   "disable pairs that were never seen to meet too, although that is no proof");
+                   "also disable pairs that were not seen in collision, although this is not a proof");
   command.add_option("--out", o.out, "SRDF file to write (default: standard output)");
 }
 
 void add_path_options(CLI::App& command, Options& o) {
   constexpr const char* end =
-      "zero, state:GROUP/NAME (several: commas), @FILE.csv or @FILE.csv:ROW (rows from 0), or a list of values, comma "
-      "separated, one per independent joint";
-  CLI::Option_group* ends = command.add_option_group("path", "--from and --to, or --waypoints");
+      "zero, state:GROUP/NAME (several names separated by commas), @FILE.csv, @FILE.csv:ROW (rows from 0), or "
+      "comma-separated values, one per independent joint";
+  CLI::Option_group* ends = command.add_option_group("path", "either --from and --to, or --waypoints");
   CLI::Option* from = ends->add_option("--from", o.from, end);
   CLI::Option* to = ends->add_option("--to", o.to, end);
   from->needs(to);
   to->needs(from);
-  ends->add_option("--waypoints", o.waypoints, "CSV file of configurations, as of check --csv-in; each to the next")
+  ends->add_option("--waypoints", o.waypoints,
+                   "CSV file of configurations, in the format of check --csv-in; the path joins each row to the next")
       ->excludes(from)
       ->excludes(to);
   ends->require_option(1, 2);
   CLI::Option* sampled = add_number(command, "--sampled", o.sampled, Reals{0.0, hinge::tool::largest_length, true},
-                                    "look at states at most so far apart, rad or m (default: certify every state)");
+                                    "test states at most this far apart, rad or m (default: certify every state)");
   add_number(command, "--min-step", o.min_step, Reals{0.0, 1.0, true},
-             "stretches no longer than this share of the path are not cut any more")
+             "do not subdivide intervals shorter than this fraction of the path")
       ->excludes(sampled);
   add_environment_option(command, o);
   add_contained_option(command, o);
@@ -184,25 +186,26 @@ Exit run(int argc, char** argv) {
                                                 hinge::detail::simd::name(hinge::detail::simd::compiled_for())));
   app.require_subcommand(1);
 
-  CLI::App* info = app.add_subcommand("info", "links, joints, rigid groups and tested pairs");
+  CLI::App* info = app.add_subcommand("info", "show links, joints, rigid groups and tested pairs");
   add_robot_options(*info, o);
   add_pair_options(*info, o);
   add_json_option(*info, o);
   info->callback([&] { command = robocd::run_info; });
 
-  CLI::App* check = app.add_subcommand("check", "verdict and pairs of links for configurations");
+  CLI::App* check = app.add_subcommand("check", "check configurations: verdicts and colliding pairs of links");
   add_robot_options(*check, o);
   add_pair_options(*check, o);
   add_check_options(*check, o);
   check->callback([&] { command = robocd::run_check; });
 
-  CLI::App* matrix = app.add_subcommand("matrix", "an SRDF of the pairs of links that need no test, and why");
+  CLI::App* matrix =
+      app.add_subcommand("matrix", "write an SRDF with the pairs of links that need no test, and the reasons");
   add_robot_options(*matrix, o);
   add_matrix_options(*matrix, o);
   matrix->callback([&] { command = robocd::run_matrix; });
 
   CLI::App* path =
-      app.add_subcommand("path", "is the straight path between two configurations free? Proved, or sampled");
+      app.add_subcommand("path", "check the straight path between two configurations, by proof or by sampling");
   add_robot_options(*path, o);
   add_pair_options(*path, o);
   add_path_options(*path, o);
@@ -212,7 +215,7 @@ Exit run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error) == 0 ? Exit::free : Exit::usage;  // --help, --version
-    throw hinge::ModelError(std::string(error.what()) + "; --help says more");
+    throw hinge::ModelError(std::string(error.what()) + "; see --help");
   }
   robocd::check_outputs(o);
   return command(o);

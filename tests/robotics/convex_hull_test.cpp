@@ -116,7 +116,7 @@ TEST(ConvexHull, RefusesCoordinatesTooLargeForItsMargin) {
     test::hull_of(points);
     ADD_FAILURE() << "not refused";
   } catch (const ModelError& error) {
-    EXPECT_NE(std::string(error.what()).find("link 'link': no convex hull around "), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("link 'link': no convex hull of "), std::string::npos) << error.what();
   }
 }
 

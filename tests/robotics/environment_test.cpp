@@ -264,11 +264,14 @@ TEST(Environment, NeverGivesABodyIdTwice) {
   EXPECT_NE(third, second);
   EXPECT_EQ(environment.bodies(), (std::vector<BodyId>{first, third}));
   EXPECT_EQ(environment.triangle_count(third), 12U);
-  EXPECT_EQ(hinge::test::refusal<Error>([&] { environment.remove(second); }), "body 1 was removed");
+  EXPECT_EQ(hinge::test::refusal<Error>([&] { environment.remove(second); }),
+            "body 1 was removed from the environment");
   EXPECT_EQ(hinge::test::refusal<Error>([&] { environment.set_pose(BodyId{7}, Pose{}); }),
-            "body 7: the environment never had it");
-  EXPECT_EQ(hinge::test::refusal<Error>([&] { static_cast<void>(environment.pose(second)); }), "body 1 was removed");
-  EXPECT_EQ(hinge::test::refusal<Error>([&] { environment.detach(second); }), "body 1 was removed");
+            "body 7 was never added to the environment");
+  EXPECT_EQ(hinge::test::refusal<Error>([&] { static_cast<void>(environment.pose(second)); }),
+            "body 1 was removed from the environment");
+  EXPECT_EQ(hinge::test::refusal<Error>([&] { environment.detach(second); }),
+            "body 1 was removed from the environment");
 }
 
 TEST(Environment, RefusesMeshesAndPosesNamingTheBody) {
@@ -284,7 +287,8 @@ TEST(Environment, RefusesMeshesAndPosesNamingTheBody) {
   bent.rotation(0, 0) = 1.1;
   EXPECT_EQ(add(mesh, bent), "body 0 'table': its pose is not a rigid placement (finite, R R^T = 1, det 1)");
   mesh.triangles[3].b[1] = nan;
-  EXPECT_EQ(add(mesh, Pose{}), "body 0 'table': mesh: triangle 3 has a vertex that is not finite");
+  EXPECT_EQ(add(mesh, Pose{}),
+            "body 0 'table': mesh: triangle 3 has a vertex that is not finite, expected finite coordinates");
   EXPECT_EQ(environment.size(), 0U);
   const BodyId body = environment.add(cube(1.0), at(3), "table");
   EXPECT_EQ(hinge::test::refusal<Error>([&] { environment.set_pose(body, bent); }),
@@ -308,7 +312,7 @@ TEST(Environment, RefusesLinksThatAreNone) {
   EXPECT_FALSE(environment.attached_to(body).has_value());
   environment.attach(body, robot, *robot->find_link("hand"), Pose{});
   EXPECT_EQ(hinge::test::refusal<Error>([&] { environment.set_pose(body, Pose{}); }),
-            "body 0 'tool' hangs on link 'hand' of robot 'slider': expected it to be detached first");
+            "body 0 'tool' is attached to link 'hand' of robot 'slider', expected a detached body");
 }
 
 TEST(Environment, RefusesClearancesEnginesAndMargins) {
@@ -318,7 +322,7 @@ TEST(Environment, RefusesClearancesEnginesAndMargins) {
   Environment lazy(0.0, "lazy");
   RobotChecker checker = checker_of(slider());
   EXPECT_EQ(hinge::test::refusal<Error>([&] { checker.collides(lazy); }),
-            "the environment was made for engine 'lazy', the robot uses 'simd'");
+            "the environment uses engine 'lazy', the robot uses engine 'simd', expected one engine for both");
   Environment environment;
   EXPECT_THROW(checker.within(environment, nan), ConfigurationError);
 }

@@ -113,9 +113,8 @@ TEST(LinkMargins, RefuseClearancesThatAreNoLengths) {
 TEST(LinkMargins, RefusePairsThatAreNone) {
   const Robot robot = random_robot(0);
   const LinkId a = *robot.find_link("link1"), b = *robot.find_link("link2");
-  EXPECT_EQ(refusal(robot, 0.0, {{a, a, 0.1}}),
-            "clearance of links 'link1' and 'link1': a link is not tested with itself");
-  EXPECT_EQ(refusal(robot, 0.0, {{a, b, 0.1}, {b, a, 0.1}}), "clearance of links 'link2' and 'link1' is named twice");
+  EXPECT_EQ(refusal(robot, 0.0, {{a, a, 0.1}}), "clearance of links 'link1' and 'link1': expected two different links");
+  EXPECT_EQ(refusal(robot, 0.0, {{a, b, 0.1}, {b, a, 0.1}}), "clearance of links 'link2' and 'link1' is given twice");
   EXPECT_EQ(refusal(robot, 0.0, {{a, id<LinkId>(8), 0.1}}),
             "clearance of links: the robot has no link 8, expected 1 to 7");
   EXPECT_NE(refusal(robot, 0.0, {{world, a, 0.1}}), "");

@@ -80,14 +80,15 @@ TEST(ReadMesh, DropsJoinsAndMendsNothing) {
 TEST(ReadMesh, RefusesStlFilesCutShortOrEmpty) {
   const std::string whole = binary_stl(two_facets);
   EXPECT_EQ(refusal("a.stl", whole.substr(0, 150)),
-            "a.stl: binary STL announces 2 triangles, which take 184 bytes; the file has 150");
+            "a.stl: the header of the binary STL gives 2 triangles, which need 184 bytes; the file has 150");
   EXPECT_EQ(refusal("a.stl", binary_stl(two_facets, "solid").substr(0, 183)),
-            "a.stl: binary STL announces 2 triangles, which take 184 bytes; the file has 183");
+            "a.stl: the header of the binary STL gives 2 triangles, which need 184 bytes; the file has 183");
   EXPECT_EQ(refusal("a.stl", whole.substr(0, 40)), "a.stl: 40 bytes, expected at least the 84 of a binary STL");
   EXPECT_EQ(refusal("a.stl", binary_stl({})), "a.stl: has no triangles");
   EXPECT_EQ(refusal("a.stl", "solid\nendsolid\n"), "a.stl: has no triangles");
-  EXPECT_EQ(refusal("a.stl", "solid\nfacet normal 0 0 1\n"),
-            "a.stl: text STL with 1 facets, 0 of them ended, and no endsolid: cut short or damaged");
+  EXPECT_EQ(
+      refusal("a.stl", "solid\nfacet normal 0 0 1\n"),
+      "a.stl: text STL with 1 facets, of which 0 have an endfacet, and no endsolid: the file is cut short or damaged");
 }
 
 TEST(ReadMesh, RefusesVerticesThatAreNotFinite) {
@@ -173,7 +174,7 @@ std::vector<std::string> notes_of(const std::string& name, const std::string& by
 TEST(ReadMesh, LeavesLinesAndPointsOutWithANote) {
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   EXPECT_EQ(notes_of("a.obj", vertices + "f 1 2 3\nl 2 3\np 1\n", 1),
-            (std::vector<std::string>{"a.obj: 2 lines or points are left out, they are no surface"}));
+            (std::vector<std::string>{"a.obj: 2 lines or points are left out, because they have no surface"}));
   EXPECT_TRUE(notes_of("a.obj", vertices + "f 1 2 3\nf 1 2 2\n", 2).empty());
   EXPECT_EQ(refusal("a.obj", vertices + "l 1 2 3\n"), "a.obj: has no triangles, only 2 lines or points");
   EXPECT_EQ(read("a.obj", vertices + "f 1 2 3\nl 2 3\n").triangles.size(), 1U);  // notes are optional
@@ -247,7 +248,7 @@ TEST(ReadMesh, LeavesTheLinesOfADaeOut) {
   text.insert(text.find("</mesh>"), lines);
   // Two nodes instance the mesh, so its line is counted twice.
   EXPECT_EQ(notes_of("a.dae", text, 2),
-            (std::vector<std::string>{"a.dae: 2 lines or points are left out, they are no surface"}));
+            (std::vector<std::string>{"a.dae: 2 lines or points are left out, because they have no surface"}));
 }
 
 TEST(ReadMesh, InventsNoTrianglesForOtherFilesWithoutFaces) {
@@ -263,19 +264,19 @@ TEST(ReadMesh, InventsNoTrianglesForOtherFilesWithoutFaces) {
   EXPECT_EQ(
       notes_of("a.ply",
                vertices + "element face 2\nproperty list uchar int vertex_indices\n" + xyz + "3 0 1 2\n2 0 1\n", 1),
-      (std::vector<std::string>{"a.ply: 1 lines or points are left out, they are no surface"}));
+      (std::vector<std::string>{"a.ply: 1 lines or points are left out, because they have no surface"}));
 }
 
 // assimp would read past the end of the array.
 TEST(ReadMesh, RefusesDaeInputsWithoutTheirNumbers) {
-  EXPECT_EQ(refusal_with(" count='9'", ""), "a.dae:1: <float_array> has no count");
+  EXPECT_EQ(refusal_with(" count='9'", ""), "a.dae:1: <float_array> has no count, expected a whole number");
   EXPECT_EQ(refusal_with("stride='3'", "stride='4'"), "a.dae:1: <accessor> reaches beyond the 9 numbers of '#pa'");
   EXPECT_EQ(refusal_with("stride='3'", "offset='1' stride='3'"),
             "a.dae:1: <accessor> reaches beyond the 9 numbers of '#pa'");
   EXPECT_EQ(refusal_with("stride='3'", ""), "a.dae:1: <accessor> reaches beyond the 9 numbers of '#pa'");
   EXPECT_EQ(refusal_with("</accessor>", "</accessor><accessor source='#names'/>"),
-            "a.dae:1: <accessor> is not the only one of <source id=\"p\">");
-  const std::string of_numbers = ", expected a <source> of numbers, four at most each";
+            "a.dae:1: <accessor> is the second accessor of <source id=\"p\">, expected one");
+  const std::string of_numbers = ", expected a <source> of numbers with at most four components";
   EXPECT_EQ(refusal_with("source='#pa'", "source='#pb'"), "a.dae:1: <input> has source=\"#p\"" + of_numbers);
   EXPECT_EQ(refusal_with("name='X' type='float'", "name='X' type='float4x4'"),
             "a.dae:1: <input> has source=\"#p\"" + of_numbers);
@@ -283,7 +284,7 @@ TEST(ReadMesh, RefusesDaeInputsWithoutTheirNumbers) {
   EXPECT_EQ(refusal_with("source='#v'", "source='#w'"),
             "a.dae:1: <input> has source=\"#w\", expected the <vertices> above");
   EXPECT_EQ(refusal_with("</source>", "<Name_array id='pa' count='0'/></source>"),
-            "a.dae:1: <Name_array> is the second array with id=\"pa\"");
+            "a.dae:1: <Name_array> is the second array with id=\"pa\", expected one");
 }
 
 // assimp reads past the end of the indices, or silently drops what it does not support.
@@ -304,12 +305,15 @@ TEST(ReadMesh, RefusesDaePrimitivesWithoutTheirVertices) {
 
   EXPECT_EQ(with("triangles count='1'", "", "<p>0 1 2</p>"),
             "a.dae:1: <p> has no <input> with semantic=\"VERTEX\" above it");
-  EXPECT_EQ(with("triangles count='1'", vertex + vertex, "<p>0 1 2</p>"), "a.dae:1: <input> is a second VERTEX");
+  EXPECT_EQ(with("triangles count='1'", vertex + vertex, "<p>0 1 2</p>"),
+            "a.dae:1: <input> is the second VERTEX of one element, expected one");
   EXPECT_EQ(with("polygons count='1'", vertex + "<input semantic='UV' source='#p' offset='0'/>", "<p>0 1 2</p>"), "");
   EXPECT_EQ(with("polygons count='1'", vertex + "<input semantic='UV' source='#p' offset='1'/>", "<p>0 2 1 2 2 2</p>"),
-            "a.dae:1: <p> has an <input> of an unknown semantic, with the last offset of all");
-  EXPECT_EQ(with("triangles", vertex, "<p>0 1 2</p>"), "a.dae:1: <triangles> has indices, but no count");
-  EXPECT_EQ(with("trifans count='1'", vertex, "<p>0 1 2</p>"), "a.dae:1: <trifans> is not read, write <triangles>");
+            "a.dae:1: <p> has an <input> with an unknown semantic and the largest offset, expected a known semantic");
+  EXPECT_EQ(with("triangles", vertex, "<p>0 1 2</p>"),
+            "a.dae:1: <triangles> has indices, but no count, expected the number of primitives");
+  EXPECT_EQ(with("trifans count='1'", vertex, "<p>0 1 2</p>"),
+            "a.dae:1: <trifans> is not supported, expected <triangles>");
   EXPECT_EQ(with("triangles count='2'", vertex, "<p>0 1 2</p>"),
             "a.dae:1: <p> holds 3 indices, expected 1 for each of 6 vertices");
   EXPECT_EQ(with("tristrips count='1'", vertex, "<p>0 1</p>"),
@@ -322,19 +326,19 @@ TEST(ReadMesh, RefusesDaePrimitivesWithoutTheirVertices) {
   EXPECT_EQ(with("polylist count='1'", vertex, "<vcount>2000000000</vcount><p>0 1 2</p>"),
             "a.dae:1: <p> holds 3 indices, expected 1 for each of 2000000000 vertices");
 
-  EXPECT_EQ(with("triangles count='1'", vertex, "<p>0 1 x</p>"),
-            "a.dae:1: <p> holds 'x', expected whole numbers from 0");
+  EXPECT_EQ(with("triangles count='1'", vertex, "<p>0 1 x</p>"), "a.dae:1: <p> holds 'x', expected whole numbers >= 0");
   EXPECT_EQ(with("triangles count='1'", vertex, "<p>0 1 -1</p>"),
-            "a.dae:1: <p> holds '-1', expected whole numbers from 0");
+            "a.dae:1: <p> holds '-1', expected whole numbers >= 0");
   EXPECT_EQ(with("triangles count='1'", vertex, "<p><q/>x</p>"),
-            "a.dae:1: <p> holds more than one row of whole numbers");
+            "a.dae:1: <p> holds more than one text, expected one list of whole numbers");
   EXPECT_EQ(with("triangles count='1'", vertex, "<p>0 1 <!-- not read: --> 2</p>"),
-            "a.dae:1: <p> holds more than one row of whole numbers");
+            "a.dae:1: <p> holds more than one text, expected one list of whole numbers");
 }
 
 TEST(ReadMesh, RefusesDaeVerticesAndInstancesThatWouldBeLeftOut) {
   const std::string position = "<input semantic='POSITION' source='#p'/>";
-  EXPECT_EQ(refusal_with(position, position + position), "a.dae:1: <input> is a second POSITION of one <mesh>");
+  EXPECT_EQ(refusal_with(position, position + position),
+            "a.dae:1: <input> is the second POSITION of one <mesh>, expected one");
   EXPECT_EQ(refusal_with("'POSITION'", "'NORMAL'"), "a.dae:1: <p> has no <vertices> with a POSITION above it");
   EXPECT_EQ(refusal_with("url='#g'", "url='#h'"),
             "a.dae:1: <instance_geometry> has url=\"#h\", expected a <geometry> of this file");
@@ -343,7 +347,7 @@ TEST(ReadMesh, RefusesDaeVerticesAndInstancesThatWouldBeLeftOut) {
   EXPECT_EQ(refusal_with("<instance_geometry url='#g'", "<instance_node url='#q'"),
             "a.dae:1: <instance_node> has url=\"#q\", expected a <node> of this file");
   EXPECT_EQ(refusal_with("instance_geometry", "instance_controller"),
-            "a.dae:1: <instance_controller> bends or blends a mesh, expected <instance_geometry>");
+            "a.dae:1: <instance_controller> deforms or blends a mesh, expected <instance_geometry>");
   // Elements that are no shapes, such as cameras and lights, are not read.
   EXPECT_EQ(refusal_with("<instance_geometry url='#g'",
                          "<instance_camera url='#cam'/><instance_light url='#lamp'/>"
@@ -367,9 +371,9 @@ TEST(ReadMesh, RefusesPlyElementsThatAreMisread) {
   };
   EXPECT_EQ(refusal("a.ply", ply("element face 1\r\n")), "");
   EXPECT_EQ(refusal("a.ply", ply("element 4294967295face 1\n")),
-            "a.ply:7: element has the name '4294967295face', expected one that begins with a letter");
+            "a.ply:7: element has the name '4294967295face', expected a name that begins with a letter");
   EXPECT_EQ(refusal("a.ply", ply("element face 1\relement 4294967295face 1\n")),
-            "a.ply:7: a carriage return within the line, expected \\n or \\r\\n at its end");
+            "a.ply:7: the line holds a carriage return, expected \\n or \\r\\n at its end");
 }
 
 // assimp does not check vertex indices of faces, and sets missing coordinates to 0.
@@ -379,19 +383,20 @@ TEST(ReadMesh, RefusesPlyFacesAndVerticesThatLackSomething) {
            "\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n" + face + "\n";
   };
   EXPECT_EQ(refusal("a.ply", ply("float z", "3 0 1 2")), "");
-  EXPECT_EQ(refusal("a.ply", ply("float z", "3 0 1 3")), "a.ply: face 0 (from 0): names vertex 3 (from 0) of 3");
+  EXPECT_EQ(refusal("a.ply", ply("float z", "3 0 1 3")),
+            "a.ply: face 0 (from 0): it uses vertex 3 (from 0), but the mesh has 3 vertices");
   EXPECT_EQ(refusal("a.ply", ply("float z", "3 0 1 -1")),
-            "a.ply: face 0 (from 0): names vertex 4294967295 (from 0) of 3");
+            "a.ply: face 0 (from 0): it uses vertex 4294967295 (from 0), but the mesh has 3 vertices");
   EXPECT_EQ(refusal("a.ply", ply("float ", "3 0 1 2")), "a.ply:6: property has no name");
   EXPECT_EQ(refusal("a.ply", ply("list uchar float", "3 0 1 2")), "a.ply:6: property has no name");
   EXPECT_EQ(refusal("a.ply", ply("half z", "3 0 1 2")),
-            "a.ply:6: property has the type 'half', which is none of PLY's");
+            "a.ply:6: property has the type 'half', expected a type of the PLY format");
   EXPECT_EQ(refusal("a.ply", ply("list uchar float z", "3 0 1 2")), "a.ply:3: element vertex has no property z");
   EXPECT_EQ(refusal("a.ply", ply("float w", "3 0 1 2")), "a.ply:3: element vertex has no property z");
 }
 
 TEST(ReadMesh, RefusesOtherFormatsAndRubbish) {
-  EXPECT_EQ(refusal("a.step", "x"), "a.step: a mesh of format '.step', expected .stl, .obj, .dae or .ply");
+  EXPECT_EQ(refusal("a.step", "x"), "a.step: the mesh format is '.step', expected .stl, .obj, .dae or .ply");
   EXPECT_EQ(refusal("a.obj", ""), "a.obj: has no triangles");
   for (const char* name : {"a.obj", "a.dae", "a.ply"}) EXPECT_NE(refusal(name, "rubbish\n"), "") << name;
   EXPECT_NE(refusal("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"), "");

@@ -70,11 +70,12 @@ TEST(ReadSrdf, RefusesUnknownLinksUnlessTheyAreToBeNoted) {
   const std::string body = "<disable_collisions link1='l' link2='r'/>\n<disable_collisions link1='l' link2='ghost'/>\n";
   EXPECT_EQ(refusal(body),
             "r.srdf:3: <disable_collisions> names link 'ghost', which robot 'hand robot' does not have"
-            "; --note-unknown-links passes over such pairs");
+            "; --note-unknown-links skips such pairs");
   const Srdf srdf = read(body, UnknownLinks::noted);
   EXPECT_EQ(srdf.disabled.size(), 1U);
-  EXPECT_EQ(srdf.notes, (std::vector<std::string>{
-                            "r.srdf: 1 pairs name links the robot does not have; the first is line 3, link 'ghost'"}));
+  EXPECT_EQ(srdf.notes,
+            (std::vector<std::string>{
+                "r.srdf: 1 pairs name links that the robot does not have; the first is line 3, link 'ghost'"}));
 }
 
 TEST(ReadSrdf, ResolvesGroupsToJoints) {
@@ -124,15 +125,15 @@ TEST(ReadSrdf, RefusesWhatItCannotResolve) {
   EXPECT_EQ(refusal("<group_state name='s' group='g'>\n<joint name='turn' value='nan'/></group_state>\n"),
             "r.srdf:3: joint 'turn' has value \"nan\", expected one finite number of at most 1e15");
   EXPECT_EQ(refusal("<disable_collisions link1='l'/>\n"), "r.srdf:2: <disable_collisions> has no attribute 'link2'");
-  EXPECT_EQ(refusal("<group>\n"), "r.srdf:2: is no XML: XML_ERROR_MISMATCHED_ELEMENT");
+  EXPECT_EQ(refusal("<group>\n"), "r.srdf:2: is not XML: XML_ERROR_MISMATCHED_ELEMENT");
 }
 
 // No verdict depends on groups. SRDF files for several variants of a robot name links that some variants lack.
 TEST(ReadSrdf, NotesWhatGroupsAndStatesDoNotFind) {
   const Srdf chain = read("<group name='g'><chain base_link='x' tip_link='t'/><joint name='turn'/></group>\n");
   EXPECT_EQ(chain.groups.at(0).joints, (std::vector<std::size_t>{0}));
-  EXPECT_EQ(chain.notes, (std::vector<std::string>{"r.srdf:2: link 'x': unknown, left out of groups, with the chains "
-                                                   "it is an end of"}));
+  EXPECT_EQ(chain.notes, (std::vector<std::string>{"r.srdf:2: link 'x': unknown, left out of groups, together with "
+                                                   "the chains that end at it"}));
   const Srdf subgroup = read("<group name='g'><group name='h'/><joint name='turn'/></group>\n");
   EXPECT_EQ(subgroup.groups.at(0).joints, (std::vector<std::size_t>{0}));
   EXPECT_EQ(subgroup.notes, (std::vector<std::string>{"r.srdf:2: subgroup 'h': unknown, left out of groups"}));
@@ -155,7 +156,7 @@ TEST(ReadSrdf, TakesTheLastOfTwoValuesWithANote) {
   srdf.configurations.at(0).apply(q);
   EXPECT_EQ(q[0], 2.0);
   EXPECT_EQ(srdf.notes,
-            (std::vector<std::string>{"r.srdf:3: joint 'turn': given twice by a state, the last value counts"}));
+            (std::vector<std::string>{"r.srdf:3: joint 'turn': given twice in a state, the last value is used"}));
 }
 
 TEST(ReadSrdf, SaysOneCauseOnce) {
@@ -173,7 +174,8 @@ TEST(ReadSrdf, NotesAnotherRobotsName) {
   const test::TemporaryFolder folder;
   const Srdf srdf = read_srdf(folder.write("r.srdf", "<robot name='foot'/>"), hand());
   ASSERT_EQ(srdf.notes.size(), 1U);
-  EXPECT_TRUE(srdf.notes[0].ends_with("r.srdf: is made for robot 'foot', this one is 'hand robot'")) << srdf.notes[0];
+  EXPECT_TRUE(srdf.notes[0].ends_with("r.srdf: the file is for robot 'foot', but the robot is 'hand robot'"))
+      << srdf.notes[0];
 }
 
 TEST(ReadLinkPairs, AddsTwoNamesALine) {
@@ -184,7 +186,7 @@ TEST(ReadLinkPairs, AddsTwoNamesALine) {
   EXPECT_EQ(pairs.size(), 2U);
   const auto bad = folder.write("bad.txt", "l r\nl ghost\n");
   EXPECT_EQ(test::refusal(folder, [&] { read_link_pairs(bad, robot, pairs); }),
-            "bad.txt:2: link 'ghost' is none of robot 'hand robot'");
+            "bad.txt:2: no link 'ghost' in robot 'hand robot'");
   const auto three = folder.write("three.txt", "l r t\n");
   EXPECT_EQ(test::refusal(folder, [&] { read_link_pairs(three, robot, pairs); }), "three.txt:1: 3 names, expected two");
 }

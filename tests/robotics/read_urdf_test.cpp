@@ -166,7 +166,7 @@ TEST(ReadUrdf, RefusesCapsulesThatAreNone) {
 
 TEST(ReadUrdf, RefusesWhatIsNoUrdf) {
   EXPECT_EQ(refusal(""), "r.urdf: is empty, expected XML with root element <robot>");
-  EXPECT_EQ(refusal("<robot name='r'>\n<link name='a'></robot>"), "r.urdf:2: is no XML: XML_ERROR_MISMATCHED_ELEMENT");
+  EXPECT_EQ(refusal("<robot name='r'>\n<link name='a'></robot>"), "r.urdf:2: is not XML: XML_ERROR_MISMATCHED_ELEMENT");
   EXPECT_EQ(refusal("<sdf/>"), "r.urdf:1: root element is <sdf>, expected <robot>");
   EXPECT_EQ(refusal("<robot name='r'/>"), "r.urdf: the robot has no links");
   const test::TemporaryFolder folder;
@@ -193,7 +193,7 @@ TEST(ReadUrdf, SendsXacroInputToXacro) {
 TEST(ReadUrdf, RefusesNamesThatAreMissingTakenOrUnknown) {
   EXPECT_EQ(refusal(robot_of("<link/>\n")), "r.urdf:3: <link> has no attribute 'name'");
   EXPECT_EQ(refusal(robot_of("<link name='a'/>\n<link name='a'/>\n")),
-            "r.urdf:4: link 'a': the name is taken, see line 3");
+            "r.urdf:4: link 'a': the name is already used in line 3");
   EXPECT_EQ(
       refusal(robot_of("<link name='b'/>\n<joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>")),
       "r.urdf:4: joint 'j': its parent link 'a' does not exist");
@@ -208,17 +208,17 @@ TEST(ReadUrdf, RefusesWhatIsNoTree) {
   const std::string k = "<joint name='k' type='fixed'><parent link='b'/><child link='a'/></joint>\n";
   const std::string back = "<joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>\n" + k;
   EXPECT_EQ(refusal(robot_of("<link name='a'/>\n<link name='b'/>\n")),
-            "r.urdf:4: link 'b': has no joint to a parent, but so has link 'a'; expected one root");
+            "r.urdf:4: links 'a' and 'b' both have no parent; expected one root");
   EXPECT_EQ(refusal(robot_of("<link name='a'/>\n<link name='b'/>\n" + back)),
-            "r.urdf:3: link 'a': its joints lead in a circle, expected a tree");
+            "r.urdf:3: link 'a': its joints form a cycle, expected a tree");
   // urdfdom ignores a cycle that is not connected to the tree.
   EXPECT_EQ(refusal(robot_of("<link name='c'/>\n<link name='a'/>\n<link name='b'/>\n" + back)),
-            "r.urdf:5: link 'b': its joints lead in a circle, expected a tree");
+            "r.urdf:5: link 'b': its joints form a cycle, expected a tree");
   EXPECT_EQ(
       refusal(robot_of("<link name='a'/>\n<link name='b'/>\n<joint name='j' type='fixed'><parent link='a'/>"
                        "<child link='b'/></joint>\n<joint name='k' type='fixed'><parent link='a'/><child link='b'/>"
                        "</joint>\n")),
-      "r.urdf:6: joint 'k': its child link 'b' is the child of joint 'j' already");
+      "r.urdf:6: joint 'k': its child link 'b' is already the child of joint 'j'");
 }
 
 TEST(ReadUrdf, RefusesJointsItCannotMove) {
@@ -227,7 +227,7 @@ TEST(ReadUrdf, RefusesJointsItCannotMove) {
                                "<link name='b'/>\n<joint name='j' type='" +
                                type + "'><parent link='a'/><child link='b'/></joint>\n")),
               "r.urdf:4: joint 'j' is " + type +
-                  ", expected fixed, revolute, continuous or prismatic (or all the geometry below it)");
+                  ", expected fixed, revolute, continuous or prismatic (or a joint above all geometry)");
   EXPECT_NE(refusal(two_links("ball", "")).find("r.urdf:5: Joint [j] has no known type [ball]"), std::string::npos);
   EXPECT_EQ(refusal(two_links("continuous", "<axis xyz='0 0 0'/>")),
             "r.urdf:5: joint 'j': its axis is 0 0 0, expected a finite direction other than 0 0 0");
@@ -267,8 +267,8 @@ TEST(ReadUrdf, RefusesShapesThatAreNone) {
   for (const std::string shape : {"plane", "cdf", "cone"})
     EXPECT_EQ(refusal(one_shape("<" + shape + " normal='0 0 1'/>")),
               "r.urdf:4: link 'a': shape <" + shape +
-                  ">, expected <box>, <sphere>, <cylinder>, <capsule> or <mesh>; --missing-meshes skip goes on "
-                  "without it");
+                  ">, expected <box>, <sphere>, <cylinder>, <capsule> or <mesh>; --missing-meshes skip leaves "
+                  "it out");
   EXPECT_NE(refusal(one_shape("<mesh filename='a.stl' scale='1 1 1 1'/>")).find("found 4 elements but 3 expected"),
             std::string::npos);
   EXPECT_NE(refusal(robot_of("<link name='a'>\n<collision/>\n</link>\n")), "");
@@ -277,16 +277,14 @@ TEST(ReadUrdf, RefusesShapesThatAreNone) {
 TEST(ReadUrdf, RefusesMeshesThatAreMissingOrBad) {
   const auto with_mesh = [](const std::string& attributes) { return one_shape("<mesh " + attributes + "/>"); };
   EXPECT_EQ(refusal(with_mesh("filename='no.stl'")),
-            "r.urdf:4: link 'a': mesh 'no.stl': there is no file no.stl; --missing-meshes skip goes on without it");
-  EXPECT_EQ(
-      refusal(with_mesh("filename='package://arm/a.stl'")),
-      "r.urdf:4: link 'a': mesh 'package://arm/a.stl': not found in any package folder, none was given or around the "
-      "URDF file; --package-path names the folder that holds package 'arm'; --missing-meshes skip goes on without "
-      "it");
-  EXPECT_EQ(
-      refusal(with_mesh("filename='package://arm/a.stl'"), {{"/one", "/two"}}),
-      "r.urdf:4: link 'a': mesh 'package://arm/a.stl': not found in the package folders /one, /two or around the URDF "
-      "file; --package-path names the folder that holds package 'arm'; --missing-meshes skip goes on without it");
+            "r.urdf:4: link 'a': mesh 'no.stl': there is no file no.stl; --missing-meshes skip leaves it out");
+  EXPECT_EQ(refusal(with_mesh("filename='package://arm/a.stl'")),
+            "r.urdf:4: link 'a': mesh 'package://arm/a.stl': not found near the URDF file, and no package folder is "
+            "given; give the folder that holds package 'arm' with --package-path; --missing-meshes skip leaves it out");
+  EXPECT_EQ(refusal(with_mesh("filename='package://arm/a.stl'"), {{"/one", "/two"}}),
+            "r.urdf:4: link 'a': mesh 'package://arm/a.stl': not found near the URDF file or in the package "
+            "folders /one, /two; give the folder that holds package 'arm' with --package-path; --missing-meshes skip "
+            "leaves it out");
   EXPECT_EQ(refusal(with_mesh("filename='model://arm/a.stl'")),
             "r.urdf:4: link 'a': mesh 'model://arm/a.stl': expected a path, file:// or package://");
   for (const std::string name : {"a.wrl", "a.vtk"}) {
@@ -294,8 +292,8 @@ TEST(ReadUrdf, RefusesMeshesThatAreMissingOrBad) {
     other.write(name, "#VRML");
     const auto urdf = other.write("r.urdf", with_mesh("filename='" + name + "'"));
     EXPECT_EQ(test::refusal(other, [&] { read_urdf(urdf); }),
-              "r.urdf:4: link 'a': " + name + ": a mesh of format '" + name.substr(1) +
-                  "', expected .stl, .obj, .dae or .ply; --missing-meshes skip goes on without it");
+              "r.urdf:4: link 'a': " + name + ": the mesh format is '" + name.substr(1) +
+                  "', expected .stl, .obj, .dae or .ply; --missing-meshes skip leaves it out");
   }
   EXPECT_NE(refusal(with_mesh("filename=''")).find("r.urdf:4: link 'a': mesh '': expected a path"), std::string::npos);
   EXPECT_NE(refusal(with_mesh("")).find("Mesh must contain a filename attribute"), std::string::npos);
@@ -307,11 +305,11 @@ TEST(ReadUrdf, RefusesMeshesThatAreMissingOrBad) {
             "r.urdf:4: link 'a': mesh 'a.stl': scale 1 0 1, expected finite factors other than 0");
   EXPECT_EQ(test::refusal(
                 folder, [&] { read_urdf(folder.write("far.urdf", with_mesh("filename='a.stl' scale='1 1e307 1'"))); }),
-            "far.urdf:4: link 'a': mesh 'a.stl': scale 1 1e+307 1 takes a vertex of triangle 0 beyond 2^1000");
+            "far.urdf:4: link 'a': mesh 'a.stl': scale 1 1e+307 1 moves a vertex of triangle 0 beyond 2^1000");
   folder.write("a.stl", one_facet.substr(0, 80));
-  EXPECT_EQ(
-      test::refusal(folder, [&] { read_urdf(file); }),
-      "r.urdf:4: link 'a': a.stl: text STL with 1 facets, 0 of them ended, and no endsolid: cut short or damaged");
+  EXPECT_EQ(test::refusal(folder, [&] { read_urdf(file); }),
+            "r.urdf:4: link 'a': a.stl: text STL with 1 facets, of which 0 have an endfacet, and no endsolid: the file "
+            "is cut short or damaged");
 }
 
 /// Returns the parsed file; notes are without the folder's path.
@@ -341,9 +339,10 @@ TEST(ReadUrdfNotes, TakesSizesOfZeroOncePerLink) {
            {"<cylinder radius='0' length='1'/>", "cylinder of radius 0 and length 1"},
            {"<cylinder radius='0.5' length='0'/>", "cylinder of radius 0.5 and length 0"},
            {"<capsule radius='0' length='1'/>", "capsule of radius 0"}})
-    EXPECT_EQ(notes_of(one_shape(shape)), (Notes{"r.urdf:4: link 'a': 1 of 1 <collision> without volume, taken as "
-                                                 "point, segment or flat solid: " +
-                                                 what}));
+    EXPECT_EQ(notes_of(one_shape(shape)),
+              (Notes{"r.urdf:4: link 'a': 1 of 1 <collision> have no volume and are treated as "
+                     "point, segment or flat solid: " +
+                     what}));
   EXPECT_TRUE(notes_of(one_shape("<capsule radius='1' length='0'/>")).empty());  // a sphere
   const std::string point = "<collision><geometry><sphere radius='0'/></geometry></collision>\n";
   EXPECT_EQ(notes_of(robot_of("<link name='foot'>\n" + point + point + point + "</link>\n")).size(), 1U);
@@ -352,8 +351,7 @@ TEST(ReadUrdfNotes, TakesSizesOfZeroOncePerLink) {
 /// urdfdom ignores these elements too.
 TEST(ReadUrdfNotes, PassesOverXacroThatCarriesNoGeometry) {
   const std::string sensors = "<link name='a'/>\n<xacro:imu port='1'/>\n";
-  EXPECT_EQ(notes_of(robot_of(sensors)),
-            (Notes{"r.urdf:4: <xacro:imu>, which xacro should have replaced, is left out"}));
+  EXPECT_EQ(notes_of(robot_of(sensors)), (Notes{"r.urdf:4: <xacro:imu> is left out, it was not expanded by xacro"}));
   EXPECT_EQ(notes_of(robot_of("<xacro:property name='p' value='1'/>\n<link name='a'/>\n")).size(), 1U);
   // Visuals, inertias and extensions are not read.
   EXPECT_TRUE(notes_of(robot_of("<link name='a'><visual><xacro:grey/><origin xyz='${x}'/></visual></link>"
@@ -371,7 +369,8 @@ TEST(ReadUrdfNotes, FixesAFloatingBase) {
     EXPECT_EQ(robot.joints.at(0).type, JointType::fixed);
     EXPECT_EQ(robot.joints[0].origin.translation, Vec3(1, 2, 3));
     EXPECT_EQ(robot.floating_base, "j");
-    EXPECT_EQ(robot.notes, (Notes{"r.urdf:5: joint 'j' is " + type + " and carries all the geometry: taken as fixed"}));
+    EXPECT_EQ(robot.notes,
+              (Notes{"r.urdf:5: joint 'j' is " + type + " and carries all geometry, so it is treated as fixed"}));
   }
 }
 
@@ -380,7 +379,7 @@ TEST(ReadUrdfNotes, TakesJointsWithoutLimitsForContinuous) {
   const RobotDescription robot =
       read_in(folder, two_links("revolute", "<limit lower='-1.79769e+308' upper='1.79769e+308' effort='1'/>"));
   EXPECT_EQ(robot.joints.at(0).type, JointType::continuous);
-  EXPECT_EQ(robot.notes, (Notes{"r.urdf:5: joint 'j' has limits of 1e15 rad or more: taken as continuous"}));
+  EXPECT_EQ(robot.notes, (Notes{"r.urdf:5: joint 'j' has limits of 1e15 rad or more, so it is treated as continuous"}));
   EXPECT_EQ(Robot(robot).upper()[0], 3.141592653589793);
 }
 
@@ -390,14 +389,14 @@ TEST(ReadUrdfNotes, TakesTheFirstOfSeveralShapes) {
   ASSERT_EQ(robot.links.at(0).geometry.size(), 1U);
   EXPECT_TRUE(std::holds_alternative<BoxShape>(robot.links[0].geometry[0].shape));
   EXPECT_EQ(robot.notes,
-            (Notes{"r.urdf:4: link 'a': a <geometry> of several shapes, of which the first, <box>, is read"}));
+            (Notes{"r.urdf:4: link 'a': a <geometry> has several shapes, only the first, <box>, is read"}));
 }
 
 TEST(ReadUrdfNotes, CallsANamelessRobotByItsFile) {
   const test::TemporaryFolder folder;
   const RobotDescription robot = read_in(folder, "<robot version='2.0'><link name='a'/></robot>");
   EXPECT_EQ(robot.name, "r");
-  EXPECT_EQ(robot.notes, (Notes{"r.urdf: the robot has no name, it is called by its file: 'r'"}));
+  EXPECT_EQ(robot.notes, (Notes{"r.urdf: the robot has no name, it is named after its file: 'r'"}));
 }
 
 // urdfdom rejects or drops some of these, but none of them can change a verdict.
@@ -463,7 +462,7 @@ TEST(ReadUrdf, RefusesMimicsOfNothing) {
   EXPECT_EQ(refusal(two_links("continuous", "<mimic joint='ghost'/>")),
             "r.urdf:5: joint 'j': mimics joint 'ghost', which does not exist");
   EXPECT_EQ(refusal(two_links("continuous", "<mimic joint='j'/>")),
-            "r.urdf:5: joint 'j': mimics joint 'j', which leads back to it");
+            "r.urdf:5: joint 'j': mimics joint 'j', which depends on this joint in turn");
   EXPECT_NE(
       refusal(two_links("continuous", "<mimic joint='j' multiplier='x'/>")).find("r.urdf:5: multiplier value (x)"),
       std::string::npos);

@@ -136,17 +136,18 @@ TEST(RobocdFiles, ConfigurationsAreCheckedBeforeTheFirstByte) {
   with_row("0,-1e15");
   for (const char* command : {"check --json --csv-in", "check --csv --csv-in", "path --waypoints"})
     EXPECT_EQ(refusal(command + csv + folder.file("far.urdf"), 3),
-              "robocd: q.csv:500: column 2: joint 'elbow' is -1e+15, which takes its follower 'follower' to -inf, "
+              "robocd: q.csv:500: column 2: joint 'elbow' is -1e+15, which moves the mimic joint 'follower' to -inf, "
               "expected at most 1e+15\n");
-  EXPECT_EQ(refusal("path" + folder.file("far.urdf") + " --from zero --to 0,1", 2),
-            "robocd: --to '0,1': joint 'elbow' is 1, which takes its follower 'follower' to 1e+300, expected at most "
-            "1e+15\n");
+  EXPECT_EQ(
+      refusal("path" + folder.file("far.urdf") + " --from zero --to 0,1", 2),
+      "robocd: --to '0,1': joint 'elbow' is 1, which moves the mimic joint 'follower' to 1e+300, expected at most "
+      "1e+15\n");
   EXPECT_EQ(
       refusal("check" + folder.file("far.urdf") + " --json --random 5", 3),
-      "robocd: far.urdf: no samples can be taken up to this limit: joint 'elbow' is -1.5, which takes its follower "
+      "robocd: far.urdf: a joint limit is too large for sampling: joint 'elbow' is -1.5, which moves the mimic joint "
       "'follower' to -1.5e+300, expected at most 1e+15\n");
   EXPECT_EQ(refusal("check --json --state slide/in" + folder.file("far.urdf") + " --srdf" + folder.file("arm.srdf"), 2),
-            "robocd: --state 'slide/in': joint 'elbow' is -1.4, which takes its follower 'follower' to -1.4e+300, "
+            "robocd: --state 'slide/in': joint 'elbow' is -1.4, which moves the mimic joint 'follower' to -1.4e+300, "
             "expected at most 1e+15\n");
   std::string srdf = test::arm_srdf;
   folder.write("far.srdf", srdf.replace(srdf.find("-1.4"), 4, "1e308"));
@@ -157,9 +158,11 @@ TEST(RobocdFiles, ConfigurationsAreCheckedBeforeTheFirstByte) {
     folder.write("wide.urdf", urdf.replace(urdf.find(limit[0] == '-' ? "-1.5\" upper" : "1\" effort"),
                                            limit[0] == '-' ? 4 : 1, limit));
     EXPECT_EQ(refusal("check" + folder.file("wide.urdf") + " --json --random 5", 3),
-              std::string("robocd: wide.urdf: no samples can be taken up to this limit: joint 'elbow' is ") +
+              std::string("robocd: wide.urdf: a joint limit is too large for sampling: joint 'elbow' is ") +
                   (limit[0] == '-' ? "-1e+300" : "1e+300") + ", expected at most 1e+15\n");
-    EXPECT_EQ(refusal("matrix" + folder.file("wide.urdf"), 3).find("robocd: wide.urdf: no samples can be taken"), 0U);
+    EXPECT_EQ(refusal("matrix" + folder.file("wide.urdf"), 3)
+                  .find("robocd: wide.urdf: a joint limit is too large for sampling"),
+              0U);
     EXPECT_EQ(run_robocd("check" + folder.file("wide.urdf") + " --zero").status, 0);
   }
 }
@@ -198,7 +201,8 @@ TEST(RobocdFiles, MayBePipes) {
   // Meshes must be regular files, because their readers seek.
   std::string urdf = test::arm_urdf;
   folder.write("arm.urdf", urdf.replace(urdf.find("cube.stl"), 8, "/dev/zero"));
-  EXPECT_NE(run_robocd("info" + folder.urdf() + " 2>&1").out.find("/dev/zero is no regular file"), std::string::npos);
+  EXPECT_NE(run_robocd("info" + folder.urdf() + " 2>&1").out.find("/dev/zero is not a regular file"),
+            std::string::npos);
 }
 
 TEST(RobocdFiles, NamesNeedNotBeText) {

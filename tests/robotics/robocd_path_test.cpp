@@ -45,7 +45,7 @@ TEST(RobocdPath, ExitsWithTheVerdict) {
   EXPECT_EQ(run_robocd(path(arm, "--from zero --to state:all/turned")).status, 0);
   const Said sampled = run_robocd(path(arm, "--from zero --to 0,-1.3 --sampled 0.01"));
   EXPECT_EQ(sampled.status, 0);
-  EXPECT_NE(sampled.out.find("what lies between them was not looked at"), std::string::npos);
+  EXPECT_NE(sampled.out.find("the states between them were not tested"), std::string::npos);
   // The path ends where the fore link touches a face of the base: touching collides, so the path is colliding.
   EXPECT_EQ(run_robocd(path(arm, "--from zero --to 0,-1.3125")).status, 1);
   EXPECT_EQ(run_robocd(path(arm, "--from zero --to 0,-1.3 --clearance 0.5")).status, 1);
@@ -110,7 +110,7 @@ TEST(RobocdPath, TakesEndsFromFilesAndStates) {
   EXPECT_EQ(run_robocd(path(arm, "--from zero --to '" + one + "'")).status, 0);
   EXPECT_EQ(
       refused(arm, "--from zero --to '" + q + "'"),
-      "2: robocd: --to '" + q + "': " + q.substr(1) + " has 2 rows, expected one of " + q + ":0 to " + q + ":1\n");
+      "2: robocd: --to '" + q + "': " + q.substr(1) + " has 2 rows, expected a row from " + q + ":0 to " + q + ":1\n");
   EXPECT_EQ(refused(arm, "--from zero --to '" + q + ":2'").substr(0, 2), "2:");
   EXPECT_EQ(refused(arm, "--from zero --to '@" + (arm.path() / "no.csv").string() + "'").substr(0, 2), "3:");
 }

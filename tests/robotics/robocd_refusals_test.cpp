@@ -37,17 +37,18 @@ std::string csv_refusal(const std::string& text) {
 
 TEST(RobocdCsv, IsRefusedWithLineAndColumn) {
   EXPECT_EQ(csv_refusal(""), "q.csv: is empty, expected a header of joint names");
-  EXPECT_EQ(csv_refusal("shoulder,elbow\n"), "q.csv: holds no configurations, only a header");
+  EXPECT_EQ(csv_refusal("shoulder,elbow\n"), "q.csv: holds only a header, expected configurations below it");
   EXPECT_EQ(csv_refusal("shoulder\n0\n"), "q.csv:1: has no column for joint 'elbow'");
   EXPECT_EQ(csv_refusal("shoulder,elbwo,time\n0,0,0\n"),
-            "q.csv:1: has no column for joint 'elbow'; columns that name no joint: 'elbwo', 'time'");
+            "q.csv:1: has no column for joint 'elbow'; columns without a known joint: 'elbwo', 'time'");
   EXPECT_EQ(csv_refusal("mount,elbow\n0,0\n"), "q.csv:1: column 1: joint 'mount' is fixed and takes no value");
   EXPECT_EQ(csv_refusal("shoulder,elbow,follower\n0,0,0\n"),
-            "q.csv:1: column 3: joint 'follower' follows joint 'elbow' and takes no value of its own");
-  EXPECT_EQ(csv_refusal("elbow,elbow\n0,0\n"), "q.csv:1: column 2: joint 'elbow' is there twice");
+            "q.csv:1: column 3: joint 'follower' mimics joint 'elbow' and takes no value");
+  EXPECT_EQ(csv_refusal("elbow,elbow\n0,0\n"), "q.csv:1: column 2: joint 'elbow' occurs twice");
   EXPECT_EQ(csv_refusal("elbow,shoulder\n0,0\n1,2,3\n"), "q.csv:3: 3 columns, expected 2");
   EXPECT_EQ(csv_refusal("elbow,shoulder\n0\n"), "q.csv:2: 1 columns, expected 2");
-  EXPECT_EQ(csv_refusal("elbow,shoulder\n0,0\n\n0,0\n"), "q.csv:3: is blank, but lines follow it");
+  EXPECT_EQ(csv_refusal("elbow,shoulder\n0,0\n\n0,0\n"),
+            "q.csv:3: the line is blank, expected blank lines only at the end of the file");
   for (const char* value : {"nan", "inf", "", "1e999", "0x10", "1 2", "1.5x", "--1", "+-1"})
     EXPECT_EQ(
         csv_refusal(std::string("elbow,shoulder\n0,0\n0,") + value + "\n"),
@@ -82,7 +83,7 @@ TEST(RobocdCsv, MayHaveQuotesAndOtherColumns) {
   const std::string command = "check" + arm.urdf() + " --csv --csv-in";
   EXPECT_EQ(run_robocd(command + arm.file("q.csv")).out, run_robocd(command + arm.file("plain.csv")).out);
   const std::string note = run_robocd(command + arm.file("q.csv") + " 2>&1 >/dev/null").out;
-  EXPECT_TRUE(note.ends_with("q.csv: columns that name no joint are left out: '', 'time'\n")) << note;
+  EXPECT_TRUE(note.ends_with("q.csv: columns without a known joint are left out: '', 'time'\n")) << note;
 }
 
 /// Returns the refusal of the arm after one replacement in its URDF.
@@ -104,19 +105,20 @@ void expect_words(const std::string& text, const std::vector<std::string>& words
 TEST(RobocdUrdf, IsRefusedNamingLineAndElement) {
   const std::string mesh = "<mesh filename=\"cube.stl\"/>";
   expect_words(urdf_refusal("cube.stl", "gone.stl"), {"arm.urdf:2: ", "'base'", "gone.stl", "there is no file"});
-  expect_words(urdf_refusal("cube.stl", "package://there/cube.stl"), {"arm.urdf:2: ", "package", "none was given"});
+  expect_words(urdf_refusal("cube.stl", "package://there/cube.stl"),
+               {"arm.urdf:2: ", "package", "no package folder is given"});
   expect_words(urdf_refusal(mesh, "<mesh filename=\"cube.stl\" scale=\"1 0 1\"/>"),
                {"arm.urdf:2: ", "'base'", "scale 1 0 1"});
   expect_words(urdf_refusal("lower=\"-1.5\"", "lower=\"nan\""), {"arm.urdf:8: ", "[elbow]", "nan"});
   expect_words(
       urdf_refusal("<parent link=\"base\"/><child link=\"upper\"/>", "<parent link=\"fore\"/><child link=\"upper\"/>"),
-      {"arm.urdf:4: ", "'fore'", "circle"});
+      {"arm.urdf:4: ", "'fore'", "form a cycle"});
   expect_words(urdf_refusal("<child link=\"mast\"/>", "<child link=\"fore\"/>"),
                {"arm.urdf:11: ", "'follower'", "'fore'"});
   expect_words(urdf_refusal("<child link=\"mast\"/>", "<child link=\"mars\"/>"), {"arm.urdf:11: ", "'mars'"});
   expect_words(urdf_refusal("radius=\"0.0625\"", "radius=\"-1\""), {"arm.urdf:5: ", "'camera'", "radius -1"});
   expect_words(urdf_refusal("joint=\"elbow\" mult", "joint=\"knee\" mult"), {"arm.urdf:11: ", "'follower'", "'knee'"});
-  expect_words(urdf_refusal("</robot>", ""), {"arm.urdf:", "is no XML"});
+  expect_words(urdf_refusal("</robot>", ""), {"arm.urdf:", "is not XML"});
   expect_words(urdf_refusal("type=\"continuous\"", "type=\"floating\""), {"arm.urdf:7: ", "'shoulder'", "floating"});
 }
 
@@ -146,7 +148,8 @@ TEST(RobocdFiles, ThatAreMissingOrDamagedAreRefused) {
   expect_words(refusal(arm, info + " --srdf" + arm.file("bad.srdf")), {"bad.srdf:2: ", "'nobody'"});
   const Said noted = run_robocd(info + " --note-unknown-links --srdf" + arm.file("bad.srdf") + " 2>&1 >/dev/null");
   EXPECT_EQ(noted.status, 0);
-  expect_words(noted.out, {"note: ", "bad.srdf: 1 pairs name links the robot does not have", "line 2, link 'nobody'"});
+  expect_words(noted.out,
+               {"note: ", "bad.srdf: 1 pairs name links that the robot does not have", "line 2, link 'nobody'"});
 
   const std::string cube = test::cube_stl(Vec3::Zero(), 0.125);
   for (const auto& [bytes, words] : std::vector<std::pair<std::string, std::vector<std::string>>>{
@@ -172,7 +175,7 @@ TEST(RobocdFiles, ThatAreMissingMayBeSkippedAndAreSaidToBe) {
   expect_words(said.out, {"note: ", "link 'base': 1 of 1 <collision> left out: mesh 'gone.stl'",
                           "configuration 0: free (incomplete model: 1 link lacks geometry)",
                           "0 of 1 configurations collide (incomplete model: 1 link lacks geometry)",
-                          "note: incomplete model: geometry is missing, and was not tested, of base"});
+                          "note: incomplete model: geometry is missing and was not tested for: base"});
   expect_words(run_robocd("check" + skip + " --zero --json").out, {"\"incomplete_links\": [\n   \"base\"\n  ]"});
   expect_words(run_robocd("path" + skip + " --from zero --to zero").out, {"(incomplete model: 1 link lacks geometry)"});
   expect_words(run_robocd("matrix" + skip + " --samples 1 --cells 0").out,
@@ -189,7 +192,7 @@ TEST(RobocdUrdf, AsksWhereAFloatingBaseStandsInAnEnvironment) {
   const std::string zero = "check" + arm.urdf() + " --zero";
   const Said self = run_robocd(zero + " 2>&1 >/dev/null");
   EXPECT_EQ(self.status, 0) << self.out;
-  expect_words(self.out, {"note: ", "joint 'free' is floating and carries all the geometry: taken as fixed"});
+  expect_words(self.out, {"note: ", "joint 'free' is floating and carries all geometry, so it is treated as fixed"});
   const std::string env = zero + " --env" + arm.file("cube.stl");
   const Said asked = run_robocd(env + " 2>&1");
   EXPECT_EQ(asked.status, 2);

@@ -258,7 +258,7 @@ TEST(Robocd, LeavesOutAllowedPairsOfLinkAndBody) {
   EXPECT_EQ(standing.status, 1);
   EXPECT_EQ(standing.out,
             "note: link 'base' never moves and collides with body 'table' in every configuration; --allow 'base' "
-            "'table' leaves the two out\n");
+            "'table' leaves this pair out\n");
   const Said noted = run_robocd(zero + table + " 2>/dev/null");
   EXPECT_EQ(Json::parse(noted.out)["notes"].size(), 1U);
   EXPECT_EQ(Json::parse(noted.out)["environment"], Json({"table"}));
@@ -380,11 +380,11 @@ TEST(Robocd, AddsAMatrixToTheSrdfThatThereIs) {
   const Said merged = run_robocd(command + " 2>/dev/null");
   ASSERT_EQ(merged.status, 0);
   EXPECT_TRUE(merged.out.starts_with(meeting.substr(0, meeting.find("</robot>")))) << merged.out;
-  EXPECT_NE(merged.out.find("<!-- disabled above, although seen to collide: base and fore: in "), std::string::npos);
+  EXPECT_NE(merged.out.find("<!-- disabled above, but seen in collision: base and fore: in "), std::string::npos);
   const std::string notes = run_robocd(command + " 2>&1 >/dev/null").out;
   EXPECT_NE(notes.find("     2 pairs disabled by "), std::string::npos) << notes;
   EXPECT_NE(notes.find("note: "), std::string::npos) << notes;
-  EXPECT_NE(notes.find("disables were seen to collide sometimes: 1;"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("disables, but that collide in some configurations: 1;"), std::string::npos) << notes;
   arm.write("merged.srdf", merged.out);
   const Json json = Json::parse(run_robocd("info --json" + arm.urdf() + " --srdf" + arm.file("merged.srdf")).out);
   EXPECT_EQ(pairs(json.at("tested_pairs")), "camera mast;");

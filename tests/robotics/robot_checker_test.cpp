@@ -338,7 +338,7 @@ TEST(RobotChecker, KeepsItsStateWhenAConfigurationIsRefused) {
               "joint 'slide' is nan, expected a finite number");
     EXPECT_TRUE(hinge::test::refusal<Error>([&] {
                   checker.update(std::vector<double>{0.0, 1e301});
-                }).starts_with("joint 'slide' comes to"));
+                }).starts_with("joint 'slide' takes the value"));
     EXPECT_THROW(checker.update(std::vector<double>{0.0, nan}), ConfigurationError);
     Pose bad = checker.base();
     bad.rotation *= 1.01;
@@ -369,7 +369,7 @@ TEST(RobotChecker, RefusesWhatDoesNotBelongTogether) {
   EXPECT_NE(hinge::test::refusal<Error>([&] { checker.collides(checker); }), "");
   RobotChecker brute(other, tested_pairs(*other), LinkMargins(*other), {"brute"});
   EXPECT_EQ(hinge::test::refusal<Error>([&] { checker.collides(brute); }),
-            "a query between two models: expected both to use the same engine");
+            "a query between two models: they use different engines, expected one engine for both");
 }
 
 TEST(RobotChecker, HasNoClosestPairWhenNoneIsTested) {

@@ -279,10 +279,10 @@ TEST(Tiers, RefuseWhatTheyCannotDo) {
   };
   Tiers tiers = all(Tier::hull);
   tiers.links = {{"c", Tier::capsule}};
-  EXPECT_EQ(refusal(robot, tiers), "tier 'capsule' for link 'c', which does not exist");
+  EXPECT_EQ(refusal(robot, tiers), "tier 'capsule' is given for link 'c', which does not exist");
   tiers = all(Tier::spheres);
   tiers.most_spheres = 0;
-  EXPECT_EQ(refusal(robot, tiers), "at most 0 spheres a link, expected 1 or more");
+  EXPECT_EQ(refusal(robot, tiers), "at most 0 spheres per link, expected at least 1");
   tiers = all(Tier::hull);
   tiers.tolerance = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(refusal(robot, tiers).find("link 'a': tessellation tolerance nan"), std::string::npos);

@@ -126,8 +126,8 @@ TEST(MergeSrdf, KeepsWhatTheFileHasAndAddsTheRest) {
     merge_srdf(path, before, robot, every_kind(), out, unseen);
     EXPECT_TRUE(out.str().starts_with(file));
     EXPECT_TRUE(out.str().ends_with(end));
-    EXPECT_EQ(count(out.str(), "<!-- disabled above, although seen to collide: a and &quot;g&quot;: in 3 of 100"), 1U);
-    EXPECT_EQ(count(out.str(), "<!-- tested, as enabled above: a and &lt;d&gt;: Always, in 1 of 100 samples"), 1U);
+    EXPECT_EQ(count(out.str(), "<!-- disabled above, but seen in collision: a and &quot;g&quot;: in 3 of 100"), 1U);
+    EXPECT_EQ(count(out.str(), "<!-- tested, because enabled above: a and &lt;d&gt;: Always, in 1 of 100 samples"), 1U);
     EXPECT_EQ(count(out.str(), "a and h-"), 0U);
     const Srdf after = read_srdf(folder.write("merged.srdf", out.str()), robot);
     LinkPairs expected = disabled_pairs(robot, every_kind(), unseen);

@@ -41,7 +41,8 @@ auto with_same_engine(AnyHierarchy& mine, AnyHierarchy& theirs, const Ask& ask) 
       [&](auto& first) {
         using H = std::remove_reference_t<decltype(first)>;
         H* const second = std::get_if<H>(&theirs);
-        if (second == nullptr) throw ModelError("a query between two models: expected both to use the same engine");
+        if (second == nullptr)
+          throw ModelError("a query between two models: they use different engines, expected one engine for both");
         if (second == &first) throw ModelError("a query between a robot and itself: expected two robots");
         return ask(first, *second);
       },

@@ -204,7 +204,7 @@ std::vector<Triangle> convex_hull(std::span<const Vec3> points) {
   const Points padded = spanning(cubes_around(corners.empty() ? once : corners));
   hull = hull_around(padded, once, 0x1p-60);
   if (hull.empty())
-    throw ModelError("no convex hull around " + std::to_string(once.size()) +
+    throw ModelError("no convex hull of " + std::to_string(once.size()) +
                      " points was found: their coordinates are too large or too far apart");
   return hull;
 }

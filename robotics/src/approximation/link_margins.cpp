@@ -58,9 +58,9 @@ LinkMargins::LinkMargins(const Robot& robot, double clearance, std::span<const P
       const std::string who = pair_text(robot, pair);
       if (!is_margin(pair.clearance))
         throw ModelError(who + " is " + number_text(pair.clearance) + ": expected a finite length >= 0");
-      if (pair.link1 == pair.link2) throw ModelError(who + ": a link is not tested with itself");
+      if (pair.link1 == pair.link2) throw ModelError(who + ": expected two different links");
       const std::size_t a = index(pair.link1), b = index(pair.link2);
-      if (named[a * data.link_count + b]) throw ModelError(who + " is named twice");
+      if (named[a * data.link_count + b]) throw ModelError(who + " is given twice");
       for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
         named[from * data.link_count + to] = true;
         data.table[from * data.link_count + to] = pair.clearance;

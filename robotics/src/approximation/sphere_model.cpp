@@ -32,7 +32,7 @@ Model<Sphere> spheres_of(const Robot& robot) {
       const auto* sphere = std::get_if<SphereShape>(&placed.shape);
       if (sphere == nullptr)
         throw ModelError("link '" + robot.link_name(link) + "' of robot '" + robot.name() +
-                         "' has a shape that is no sphere");
+                         "' has a shape that is not a sphere, expected only spheres");
       builder.add_primitive(link, {placed.origin.translation, sphere->radius});
     }
   }

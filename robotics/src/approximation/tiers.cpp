@@ -52,12 +52,12 @@ std::vector<PlacedShape> fitted(const std::vector<Triangle>& triangles, Tier tie
 
 void check(const RobotDescription& robot, const Tiers& tiers) {
   if (const auto problem = first_problem(robot)) throw ModelError(problem->what);
-  if (tiers.most_spheres == 0) throw ModelError("at most 0 spheres a link, expected 1 or more");
+  if (tiers.most_spheres == 0) throw ModelError("at most 0 spheres per link, expected at least 1");
   std::set<std::string_view> known;
   for (const LinkDescription& link : robot.links) known.insert(link.name);
   for (const auto& [link, tier] : tiers.links)
     if (!known.contains(link))
-      throw ModelError("tier '" + std::string(name(tier)) + "' for link '" + link + "', which does not exist");
+      throw ModelError("tier '" + std::string(name(tier)) + "' is given for link '" + link + "', which does not exist");
 }
 
 }  // namespace

@@ -111,8 +111,9 @@ void Environment::set_pose(BodyId body, const Pose& pose) {
   Body& moved = at(body);
   const std::string label = who(static_cast<std::size_t>(body), moved.name);
   if (moved.attachment)
-    throw ConfigurationError(label + " hangs on link '" + moved.attachment->robot->link_name(moved.attachment->link) +
-                             "' of robot '" + moved.attachment->robot->name() + "': expected it to be detached first");
+    throw ConfigurationError(label + " is attached to link '" +
+                             moved.attachment->robot->link_name(moved.attachment->link) + "' of robot '" +
+                             moved.attachment->robot->name() + "', expected a detached body");
   if (!is_rigid(pose)) throw ConfigurationError(label + ": its pose is " + std::string(not_rigid));
   place(moved, pose);
 }
@@ -174,8 +175,9 @@ Environment::Body& Environment::at(BodyId body) {
 const Environment::Body& Environment::at(BodyId body) const {
   const auto k = static_cast<std::size_t>(body);
   if (k >= bodies_.size() || !bodies_[k])
-    throw ModelError("body " + std::to_string(k) +
-                     (k < bodies_.size() ? " was removed" : ": the environment never had it"));
+    throw ModelError(
+        "body " + std::to_string(k) +
+        (k < bodies_.size() ? " was removed from the environment" : " was never added to the environment"));
   return *bodies_[k];
 }
 

@@ -68,7 +68,7 @@ void RobotChecker::expand(std::span<const double> independent, std::span<double>
   for (std::size_t d = 0; d < full.size(); ++d)
     if (!(std::abs(full[d]) <= largest_value))
       throw ConfigurationError("joint '" + robot_->description().joints[robot_->joint_of(id<DofId>(d))].name +
-                               "' comes to be " + number_text(full[d]) + ", expected a finite number of at most 1e300");
+                               "' takes the value " + number_text(full[d]) + ", expected a finite number of at most 1e300");
 }
 
 void RobotChecker::update(std::span<const double> independent) {
@@ -124,7 +124,7 @@ void RobotChecker::place(AnyHierarchy& hierarchy, const Pose& base, detail::Pose
 Pose RobotChecker::link_pose(LinkId link) {
   if (index(link) >= robot_->link_count())
     throw ModelError("link " + std::to_string(index(link)) + ": robot '" + robot_->name() + "' and the world have " +
-                     std::to_string(robot_->link_count()));
+                     std::to_string(robot_->link_count()) + " links");
   return std::visit([&](auto& hierarchy) { return hierarchy.link_pose(link); }, *hierarchy_);
 }
 

@@ -34,8 +34,8 @@ std::span<const Aabb> RobotChecker::link_boxes() {
 /// Moves held bodies to their links, then returns the pairs whose boxes do not exclude d - M <= margin.
 std::vector<RobotChecker::BodyPair> RobotChecker::body_pairs(Environment& environment, double margin) {
   if (environment.engine() != engine_)
-    throw ModelError("the environment was made for engine '" + environment.engine() + "', the robot uses '" + engine_ +
-                     "'");
+    throw ModelError("the environment uses engine '" + environment.engine() + "', the robot uses engine '" + engine_ +
+                     "', expected one engine for both");
   std::vector<BodyPair> bodies;
   for (const BodyId name : environment.bodies()) {
     Environment::Body& body = environment.at(name);

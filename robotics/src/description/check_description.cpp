@@ -41,7 +41,8 @@ Found index_names(const Elements& elements, Index& index) {
     const auto [first, is_new] = index.emplace(element.name, k);
     const int line = elements[first->second].line;
     if (!is_new)
-      return at(element, ": the name is taken" + (line > 0 ? ", see line " + std::to_string(line) : std::string()));
+      return at(element,
+                ": the name is already used" + (line > 0 ? " in line " + std::to_string(line) : std::string()));
   }
   return {};
 }
@@ -54,7 +55,7 @@ Found check_tree(const RobotDescription& robot, const Index& links) {
         return at(joint, ": its " + std::string(role) + " link " + in_quotes(*name) + " does not exist");
     const JointDescription*& other = above[links.at(joint.child)];
     if (other != nullptr)
-      return at(joint, ": its child link " + in_quotes(joint.child) + " is the child of " + of(*other) + " already");
+      return at(joint, ": its child link " + in_quotes(joint.child) + " is already the child of " + of(*other));
     other = &joint;
   }
   const auto root = std::find(above.begin(), above.end(), nullptr);
@@ -62,9 +63,9 @@ Found check_tree(const RobotDescription& robot, const Index& links) {
     const auto second = std::find(root + 1, above.end(), nullptr);
     if (second != above.end()) {
       const LinkDescription& link = robot.links[static_cast<std::size_t>(second - above.begin())];
-      return at(link, ": has no joint to a parent, but so has link " +
-                          in_quotes(robot.links[static_cast<std::size_t>(root - above.begin())].name) +
-                          "; expected one root");
+      const LinkDescription& first = robot.links[static_cast<std::size_t>(root - above.begin())];
+      return Problem{link.line, "links " + in_quotes(first.name) + " and " + in_quotes(link.name) +
+                                    " both have no parent; expected one root"};
     }
   }
   // Every link but the root has one parent, so a link that is not below the root is on a cycle or below one. Marked
@@ -75,7 +76,7 @@ Found check_tree(const RobotDescription& robot, const Index& links) {
     while (!from_root[here] && above[here] != nullptr && steps++ < robot.links.size())
       here = links.at(above[here]->parent);
     if (!from_root[here] && above[here] != nullptr)
-      return at(robot.links[here], ": its joints lead in a circle, expected a tree");
+      return at(robot.links[here], ": its joints form a cycle, expected a tree");
     const std::size_t known = here;
     for (here = l; here != known; here = links.at(above[here]->parent)) from_root[here] = true;
     from_root[known] = true;
@@ -117,7 +118,8 @@ Found check_mimics(const RobotDescription& robot) {
     const JointDescription* here = &joint;
     std::size_t steps = 0;
     while (here->mimic && steps++ < robot.joints.size()) here = &robot.joints[joints.at(here->mimic->joint)];
-    if (here->mimic) return at(*here, ": mimics joint " + in_quotes(here->mimic->joint) + ", which leads back to it");
+    if (here->mimic)
+      return at(*here, ": mimics joint " + in_quotes(here->mimic->joint) + ", which depends on this joint in turn");
   }
   return {};
 }
@@ -156,10 +158,11 @@ struct ShapeProblem {
     for (std::size_t t = 0; t < shape.mesh->triangles.size(); ++t) {
       const Triangle& triangle = shape.mesh->triangles[t];
       if (!is_finite(triangle.a) || !is_finite(triangle.b) || !is_finite(triangle.c))
-        return who + ": triangle " + std::to_string(t) + " has a vertex that is not finite";
+        return who + ": triangle " + std::to_string(t) +
+               " has a vertex that is not finite, expected finite coordinates";
       for (const Vec3* vertex : {&triangle.a, &triangle.b, &triangle.c})
         if (!is_length(Vec3(vertex->cwiseProduct(shape.scale))))
-          return who + ": scale " + text(shape.scale) + " takes a vertex of triangle " + std::to_string(t) +
+          return who + ": scale " + text(shape.scale) + " moves a vertex of triangle " + std::to_string(t) +
                  " beyond 2^1000";
     }
     return "";

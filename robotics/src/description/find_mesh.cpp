@@ -68,10 +68,9 @@ fs::path find_in_packages(const std::string& name, std::string_view rest, const 
   }
   fs::path around = find_around(urdf_folder, package, inside);
   if (!around.empty()) return around;
-  throw MissingMesh("mesh '" + name + "': not found in " +
-                    (looked.empty() ? "any package folder, none was given" : "the package folders " + looked) +
-                    " or around the URDF file; --package-path names the folder that holds package '" +
-                    std::string(package) + "'");
+  throw MissingMesh("mesh '" + name + "': not found near the URDF file" +
+                    (looked.empty() ? ", and no package folder is given" : " or in the package folders " + looked) +
+                    "; give the folder that holds package '" + std::string(package) + "' with --package-path");
 }
 
 /// Returns the folders in an environment variable, separated by colons.
@@ -99,9 +98,9 @@ fs::path find_mesh(const std::string& name, const fs::path& folder, const UrdfOp
   fs::path found = folder / rest;  // an absolute path replaces `folder`
   std::error_code ignored;
   if (!is_file(found))
-    throw MissingMesh(
-        "mesh '" + name + "': " +
-        (fs::exists(found, ignored) ? found.string() + " is no regular file" : "there is no file " + found.string()));
+    throw MissingMesh("mesh '" + name + "': " +
+                      (fs::exists(found, ignored) ? found.string() + " is not a regular file"
+                                                  : "there is no file " + found.string()));
   return found;
 }
 

@@ -123,7 +123,7 @@ XMLElement* first_shape(const XmlFile& file, XMLElement& collision, const std::s
   if (shape == nullptr) return nullptr;
   if (shape->NextSiblingElement() != nullptr)
     outline.notes.push_back(file.at(geometry->GetLineNum()) + "link '" + link +
-                            "': a <geometry> of several shapes, of which the first, " + tag(*shape) + ", is read");
+                            "': a <geometry> has several shapes, only the first, " + tag(*shape) + ", is read");
   while (XMLElement* other = shape->NextSiblingElement()) geometry->DeleteChild(other);
   if (is_xacro_element(*shape)) file.refuse_xacro(*shape);
   tidy_numbers(*shape, {"size", "radius", "length", "scale"});
@@ -156,8 +156,7 @@ void note_xacro(const XmlFile& file, const XMLElement& element, UrdfOutline& out
                           "xacro:call", "xacro:element"})
     if (name == own) file.refuse_xacro(element);
   if (element.FirstChildElement() != nullptr) file.refuse_xacro(element);
-  outline.notes.push_back(file.at(element.GetLineNum()) + tag(element) +
-                          ", which xacro should have replaced, is left out");
+  outline.notes.push_back(file.at(element.GetLineNum()) + tag(element) + " is left out, it was not expanded by xacro");
 }
 
 }  // namespace
@@ -167,7 +166,7 @@ UrdfOutline outline_urdf(const std::filesystem::path& path) {
   UrdfOutline outline;
   if (text_of(file.root(), "name").empty()) {
     file.root().SetAttribute("name", path.stem().string().c_str());
-    outline.notes.push_back(file.at(0) + "the robot has no name, it is called by its file: '" + path.stem().string() +
+    outline.notes.push_back(file.at(0) + "the robot has no name, it is named after its file: '" + path.stem().string() +
                             "'");
   }
   file.root().DeleteAttribute("version");

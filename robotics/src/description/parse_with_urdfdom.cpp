@@ -43,7 +43,7 @@ Parsed parse_with_urdfdom(const std::string& text) {
   console_bridge::restorePreviousOutputHandler();
   console_bridge::setLogLevel(level);
   parsed.complaint = complaints.text();
-  if (!parsed.model && parsed.complaint.empty()) parsed.complaint = "urdfdom refuses it without a word";
+  if (!parsed.model && parsed.complaint.empty()) parsed.complaint = "urdfdom refuses the file without a message";
   return parsed;
 }
 

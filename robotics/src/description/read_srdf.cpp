@@ -41,7 +41,8 @@ class SrdfReader {
     srdf_.enabled = LinkPairs(robot_.link_count());
     const std::string name = text_of(file_.root(), "name");
     if (!name.empty() && name != robot_.name())
-      srdf_.notes.push_back(file_.at(0) + "is made for robot '" + name + "', this one is '" + robot_.name() + "'");
+      srdf_.notes.push_back(file_.at(0) + "the file is for robot '" + name + "', but the robot is '" + robot_.name() +
+                            "'");
     read_disabled();
     for_each(file_.root(), "virtual_joint", [&](const XMLElement& joint) { virtual_.insert(text_of(joint, "name")); });
     for_each(file_.root(), "group", [&](const XMLElement& group) { groups_[name_of(group)] = &group; });
@@ -53,12 +54,12 @@ class SrdfReader {
     });
     for_each(file_.root(), "group_state", [&](const XMLElement& state) { read_configuration(state); });
     note(unknown_joints_, "joint", "left out of groups and states");
-    note(unknown_links_, "link", "left out of groups, with the chains it is an end of");
+    note(unknown_links_, "link", "left out of groups, together with the chains that end at it");
     note(unknown_groups_, "subgroup", "left out of groups");
-    note(twice_, "joint", "given twice by a state, the last value counts");
+    note(twice_, "joint", "given twice in a state, the last value is used");
     if (skipped_pairs_ > 0)
       srdf_.notes.push_back(file_.at(0) + std::to_string(skipped_pairs_) +
-                            " pairs name links the robot does not have; the first is " + first_skipped_);
+                            " pairs name links that the robot does not have; the first is " + first_skipped_);
     return std::move(srdf_);
   }
 
@@ -93,8 +94,8 @@ class SrdfReader {
     if (found) return found;
     const std::string what = tag(element) + " names link '" + name + "'";
     if (unknown_ == UnknownLinks::refused)
-      file_.refuse(element.GetLineNum(), what + ", which robot '" + robot_.name() +
-                                             "' does not have; --note-unknown-links passes over such pairs");
+      file_.refuse(element.GetLineNum(),
+                   what + ", which robot '" + robot_.name() + "' does not have; --note-unknown-links skips such pairs");
     if (first_skipped_.empty())
       first_skipped_ = "line " + std::to_string(element.GetLineNum()) + ", link '" + name + "'";
     return {};
@@ -244,7 +245,7 @@ void read_link_pairs(const std::filesystem::path& path, const Robot& robot, Link
     const auto link = [&](const std::string& name) {
       const auto found = robot.find_link(name);
       if (!found)
-        throw LoadError(path.string() + ":" + std::to_string(pair.line) + ": link '" + name + "' is none of robot '" +
+        throw LoadError(path.string() + ":" + std::to_string(pair.line) + ": no link '" + name + "' in robot '" +
                         robot.name() + "'");
       return *found;
     };

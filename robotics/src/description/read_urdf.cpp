@@ -97,19 +97,19 @@ class UrdfReader {
     LinkDescription description{outlined.name, {}, outlined.line};
     if (link.collision_array.size() != outlined.collisions.size())
       refuse(outlined.line, "link '" + outlined.name + "': " + std::to_string(outlined.collisions.size()) +
-                                " <collision>, urdfdom understands " + std::to_string(link.collision_array.size()));
+                                " <collision>, but urdfdom reads " + std::to_string(link.collision_array.size()));
     const std::string who = "link '" + outlined.name + "': ";
     Counted missing, flat;
     for (std::size_t k = 0; k < outlined.collisions.size(); ++k) {
       const OutlinedCollision& collision = outlined.collisions[k];
-      if (!link.collision_array[k]->geometry) refuse(collision.line, who + "a <collision> without geometry");
+      if (!link.collision_array[k]->geometry) refuse(collision.line, who + "a <collision> has no geometry");
       try {
         description.geometry.push_back(
             {collision.capsule ? *collision.capsule : read_shape(*link.collision_array[k]->geometry, collision),
              collision.origin});
       } catch (const MissingMesh& error) {
         if (!options_.skip_missing_meshes)
-          refuse(collision.line, who + error.what() + "; --missing-meshes skip goes on without it");
+          refuse(collision.line, who + error.what() + "; --missing-meshes skip leaves it out");
         missing.add(collision.line, error.what());
         continue;
       } catch (const LoadError& error) {
@@ -127,7 +127,7 @@ class UrdfReader {
     }
     if (flat.count > 0)
       notes_.push_back(at(flat.line) + who + std::to_string(flat.count) + of_all +
-                       "without volume, taken as point, segment or flat solid: " + flat.first);
+                       "have no volume and are treated as point, segment or flat solid: " + flat.first);
     return description;
   }
 
@@ -184,10 +184,10 @@ class UrdfReader {
   void fix(const OutlinedJoint& joint, const std::string& type) {
     if (!carries_all_geometry(joint))
       refuse(joint.line, "joint '" + joint.name + "' is " + type +
-                             ", expected fixed, revolute, continuous or prismatic (or all the geometry below it)");
+                             ", expected fixed, revolute, continuous or prismatic (or a joint above all geometry)");
     if (floating_base_.empty()) floating_base_ = joint.name;
     notes_.push_back(at(joint.line) + "joint '" + joint.name + "' is " + type +
-                     " and carries all the geometry: taken as fixed");
+                     " and carries all geometry, so it is treated as fixed");
   }
 
   JointDescription read_joint(const OutlinedJoint& outlined, const urdf::Joint& joint) {
@@ -205,7 +205,9 @@ class UrdfReader {
       case urdf::Joint::PRISMATIC: description.type = JointType::prismatic; break;
       case urdf::Joint::FLOATING: fix(outlined, "floating"); break;
       case urdf::Joint::PLANAR: fix(outlined, "planar"); break;
-      default: refuse(outlined.line, "joint '" + outlined.name + "' is of unknown type");
+      default:
+        refuse(outlined.line,
+               "joint '" + outlined.name + "' has an unknown type, expected fixed, revolute, continuous or prismatic");
     }
     if (joint.limits) {
       description.lower = joint.limits->lower;
@@ -216,7 +218,7 @@ class UrdfReader {
         description.upper >= largest_joint_value) {
       description.type = JointType::continuous;
       notes_.push_back(at(outlined.line) + "joint '" + outlined.name +
-                       "' has limits of 1e15 rad or more: taken as continuous");
+                       "' has limits of 1e15 rad or more, so it is treated as continuous");
     }
     if (joint.mimic) description.mimic = Mimic{joint.mimic->joint_name, joint.mimic->multiplier, joint.mimic->offset};
     return description;

@@ -50,7 +50,7 @@ XmlFile::XmlFile(const std::filesystem::path& path, const char* root_name) : pat
   }
   if (document_.Error())
     refuse(document_.ErrorLineNum(),
-           "is no XML: " + std::string(tinyxml2::XMLDocument::ErrorIDToName(document_.ErrorID())));
+           "is not XML: " + std::string(tinyxml2::XMLDocument::ErrorIDToName(document_.ErrorID())));
   if (document_.RootElement() == nullptr) refuse(0, "holds no XML element");
   const tinyxml2::XMLElement& top = root();
   if (top.Name() != std::string_view(root_name))

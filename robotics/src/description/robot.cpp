@@ -106,13 +106,13 @@ void Robot::build() {
       const Surface surface = tessellate(placed.shape, tessellation_);
       if (!std::holds_alternative<MeshShape>(placed.shape)) tessellated += surface.triangles.size();
       if (tessellated > most_tessellated)
-        throw ModelError("link '" + link.name + "': with it the shapes take more than " +
+        throw ModelError("link '" + link.name + "': up to this link the shapes need more than " +
                          std::to_string(most_tessellated) +
-                         " triangles; allow a larger error of tessellation, or give meshes");
+                         " triangles; increase the tessellation tolerance or use meshes");
       if (is_solid(placed.shape, surface)) {
         const bool is_mesh = std::holds_alternative<MeshShape>(placed.shape);
         if (const auto open = is_mesh ? open_edge(surface.triangles) : std::nullopt)
-          throw ModelError("link '" + link.name + "': a mesh that is to be solid is not closed: " + open->text());
+          throw ModelError("link '" + link.name + "': a solid mesh is not closed: " + open->text());
         solids.push_back(solid_of(added, triangle_count, surface, placed.origin));
       }
       triangle_count += surface.triangles.size();
@@ -159,7 +159,8 @@ void Robot::find_drives() {
     }
     drive.independent = position.at(joint->name);
     if (!is_finite(drive.multiplier) || !is_finite(drive.offset))
-      throw ModelError("joint '" + description_.joints[k].name + "': its chain of mimics is not finite");
+      throw ModelError("joint '" + description_.joints[k].name +
+                       "': its chain of mimic joints gives a multiplier or offset that is not finite");
     drives_.push_back(drive);
   }
 }
@@ -182,7 +183,7 @@ void Robot::expand(std::span<const double> independent, std::span<double> full) 
     throw ConfigurationError("configuration has " + std::to_string(independent.size()) + " values, expected " +
                              std::to_string(independent_.size()) + ", one for each independent joint");
   if (full.size() != drives_.size())
-    throw ConfigurationError("full configuration has " + std::to_string(full.size()) + " places, expected " +
+    throw ConfigurationError("full configuration has " + std::to_string(full.size()) + " values, expected " +
                              std::to_string(drives_.size()) + ", one for each movable joint");
   for (std::size_t k = 0; k < independent.size(); ++k)
     if (!is_finite(independent[k]))

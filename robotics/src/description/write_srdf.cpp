@@ -89,10 +89,10 @@ void write_entries(const Robot& robot, const CollisionMatrix& matrix, std::ostre
     const bool disable = is_disabled(entry.kind, unseen);
     if (file != nullptr && file->disabled.contains(entry.link1, entry.link2)) {
       if (entry.kind != PairKind::sometimes) continue;
-      out << "  <!-- disabled above, although seen to collide: " << both << what << " -->";
+      out << "  <!-- disabled above, but seen in collision: " << both << what << " -->";
     } else if (disable && file != nullptr && file->enabled.contains(entry.link1, entry.link2)) {
-      out << "  <!-- tested, as enabled above: " << both << reason(entry.kind) << (what.empty() ? "" : ", ") << what
-          << " -->";
+      out << "  <!-- tested, because enabled above: " << both << reason(entry.kind) << (what.empty() ? "" : ", ")
+          << what << " -->";
     } else if (disable) {
       out << "  <disable_collisions link1=\"" << escaped(a) << "\" link2=\"" << escaped(b) << "\" reason=\""
           << reason(entry.kind) << "\"/>";

@@ -142,7 +142,7 @@ CollisionMatrix find_collision_matrix(const Robot& robot, const MatrixOptions& o
                      " of the collision matrix: expected a finite "
                      "length >= 0");
   if (options.settled.size() > 0 && options.settled.link_count() != robot.link_count())
-    throw ModelError("settled pairs of the collision matrix are those of " +
+    throw ModelError("settled pairs of the collision matrix: got pairs of " +
                      std::to_string(options.settled.link_count()) + " links, expected " +
                      std::to_string(robot.link_count()));
   const LinkPairs tested = tested_pairs(robot);

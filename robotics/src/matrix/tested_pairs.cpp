@@ -15,8 +15,8 @@ namespace {
 
 void check_size(const LinkPairs& pairs, const Robot& robot) {
   if (pairs.link_count() != robot.link_count())
-    throw ModelError("pairs of " + std::to_string(pairs.link_count()) + " links, but robot '" + robot.name() +
-                     "' and the world have " + std::to_string(robot.link_count()));
+    throw ModelError("the list of pairs is for " + std::to_string(pairs.link_count()) + " links, but robot '" +
+                     robot.name() + "' and the world have " + std::to_string(robot.link_count()));
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ class DaeCheck {
       const char* text = element.Attribute(attribute);
       if (text != nullptr && !is_whole_number(text, bytes_))
         file_.refuse(element.GetLineNum(), tag(element) + " has " + attribute + "=\"" + text +
-                                               "\", expected a whole number the file has room for");
+                                               "\", expected a whole number that fits the size of the file");
     }
     if (name == "float_array" || name == "IDREF_array" || name == "Name_array") add_array(element);
     if (name == "accessor") accessors_.emplace_back(source_around(element), &element);
@@ -79,7 +79,7 @@ class DaeCheck {
     if (name == "visual_scene") scenes_.push_back(&element);
     if (name == "instance_geometry") instances_.push_back(&element);
     if (name == "instance_controller")
-      file_.refuse(element.GetLineNum(), tag(element) + " bends or blends a mesh, expected <instance_geometry>");
+      file_.refuse(element.GetLineNum(), tag(element) + " deforms or blends a mesh, expected <instance_geometry>");
     for (const auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement())
       check_below(*child);
   }
@@ -96,15 +96,16 @@ class DaeCheck {
 
   void add_array(const XMLElement& element) {
     const std::int64_t count = element.Int64Attribute("count", -1);
-    if (count < 0) file_.refuse(element.GetLineNum(), tag(element) + " has no count");
+    if (count < 0) file_.refuse(element.GetLineNum(), tag(element) + " has no count, expected a whole number");
     const bool of_numbers = std::string_view(element.Name()) == "float_array";
     if (!arrays_.emplace(text_of(element, "id"), of_numbers ? count : 0).second)
       file_.refuse(element.GetLineNum(),
-                   tag(element) + " is the second array with id=\"" + text_of(element, "id") + "\"");
+                   tag(element) + " is the second array with id=\"" + text_of(element, "id") + "\", expected one");
   }
   void check_accessor(const std::string& source, const XMLElement& accessor) {
     if (!read_.insert(source).second)
-      file_.refuse(accessor.GetLineNum(), tag(accessor) + " is not the only one of <source id=\"" + source + "\">");
+      file_.refuse(accessor.GetLineNum(),
+                   tag(accessor) + " is the second accessor of <source id=\"" + source + "\">, expected one");
     const auto array = arrays_.find(named_by(accessor, "source"));
     if (array == arrays_.end()) return;  // no such array: check_dae_mesh() refuses any use of the source
     const std::int64_t count = accessor.Int64Attribute("count", 0), offset = accessor.Int64Attribute("offset", 0),
@@ -136,7 +137,8 @@ class DaeCheck {
     const auto known = extents_.find(&element);
     Extent extent = known != extents_.end() ? known->second : Extent{};
     if (depth + extent.height > deepest)
-      file_.refuse(element.GetLineNum(), tag(element) + ": nodes contain themselves, or are deeper than 500");
+      file_.refuse(element.GetLineNum(),
+                   tag(element) + ": its nodes contain themselves or are nested more than 500 levels deep");
     if (known != extents_.end()) return extent;
     for (const auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
       const std::string_view name = child->Name();
@@ -149,7 +151,7 @@ class DaeCheck {
       extent.nodes += inner.nodes;
       extent.height = std::max(extent.height, inner.height + 1);
       if (extent.nodes > most_nodes)
-        file_.refuse(element.GetLineNum(), tag(element) + ": unfolds to more than 10^6 nodes");
+        file_.refuse(element.GetLineNum(), tag(element) + ": it expands to more than 10^6 nodes");
     }
     extents_[&element] = extent;
     return extent;

@@ -51,15 +51,15 @@ class MeshCheck {
       const bool has_xyz = source_of(*input);
       if (text_of(*input, "semantic") != "POSITION") continue;
       if (!has_xyz) refuse(*input, " has source=\"" + text_of(*input, "source") + "\", which has no X, Y and Z");
-      if (++positions_ > 1) refuse(*input, " is a second POSITION of one <mesh>");
+      if (++positions_ > 1) refuse(*input, " is the second POSITION of one <mesh>, expected one");
     }
   }
 
   bool source_of(const XMLElement& input) const {
     const auto source = sources_.find(named_by(input, "source"));
     if (source == sources_.end())
-      refuse(input,
-             " has source=\"" + text_of(input, "source") + "\", expected a <source> of numbers, four at most each");
+      refuse(input, " has source=\"" + text_of(input, "source") +
+                        "\", expected a <source> of numbers with at most four components");
     return source->second;
   }
 
@@ -94,14 +94,14 @@ class MeshCheck {
       source_of(input);
       return;
     }
-    if (layout.has_vertex) refuse(input, " is a second VERTEX");
+    if (layout.has_vertex) refuse(input, " is the second VERTEX of one element, expected one");
     layout.has_vertex = true;
     if (named_by(input, "source") != vertices_)
       refuse(input, " has source=\"" + text_of(input, "source") + "\", expected the <vertices> above");
   }
 
   void take_vcount(const XMLElement& vcount, Layout& layout) const {
-    if (layout.corners >= 0) refuse(vcount, " is a second one");
+    if (layout.corners >= 0) refuse(vcount, " is the second <vcount> of one element, expected one");
     layout.corners = 0;
     std::int64_t polygons = 0;
     for_each_number(vcount, [&](std::int64_t number) {
@@ -117,12 +117,12 @@ class MeshCheck {
     std::int64_t indices = 0;
     for_each_number(p, [&](std::int64_t) { ++indices; });
     if (indices == 0 && count == 0) return;
-    if (count == 0) refuse(element, " has indices, but no count");
-    if (kind == "trifans") refuse(element, " is not read, write <triangles>");
+    if (count == 0) refuse(element, " has indices, but no count, expected the number of primitives");
+    if (kind == "trifans") refuse(element, " is not supported, expected <triangles>");
     if (positions_ == 0) refuse(p, " has no <vertices> with a POSITION above it");
     if (!layout.has_vertex) refuse(p, " has no <input> with semantic=\"VERTEX\" above it");
     if (layout.others > offsets)  // assimp ignores this input and misreads its indices
-      refuse(p, " has an <input> of an unknown semantic, with the last offset of all");
+      refuse(p, " has an <input> with an unknown semantic and the largest offset, expected a known semantic");
     if (kind == "polylist" && corners < 0) refuse(p, " has no <vcount> above it");
     const auto expect = [&](bool right, const std::string& what) {
       if (!right)
@@ -147,7 +147,7 @@ class MeshCheck {
     for (const auto* child = element.FirstChild(); child != nullptr; child = child->NextSibling()) {
       if (child->ToComment() != nullptr) continue;
       if (child->ToText() == nullptr || !text.empty())  // assimp reads the first text only
-        refuse(element, " holds more than one row of whole numbers");
+        refuse(element, " holds more than one text, expected one list of whole numbers");
       text = child->Value();
     }
     for (std::size_t start = text.find_first_not_of(blanks); start != std::string_view::npos;
@@ -158,7 +158,7 @@ class MeshCheck {
       std::int64_t number = 0;
       const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
       if (error != std::errc{} || end != word.data() + word.size() || number < 0 || number > INT32_MAX)
-        refuse(element, " holds '" + std::string(word) + "', expected whole numbers from 0");
+        refuse(element, " holds '" + std::string(word) + "', expected whole numbers >= 0");
       visit(number);
     }
   }

@@ -29,7 +29,7 @@ void check_type(std::string_view type, const std::string& where) {
                                                    "ushort", "uint16",  "int",    "int32",  "uint",  "uint32",
                                                    "float",  "float32", "double", "float64"};
   if (std::find(known.begin(), known.end(), type) == known.end())
-    throw LoadError(where + "property has the type '" + std::string(type) + "', which is none of PLY's");
+    throw LoadError(where + "property has the type '" + std::string(type) + "', expected a type of the PLY format");
 }
 
 /// Returns the property's name from the text after the word "property", or "" for a list.
@@ -61,7 +61,7 @@ void check_ply(const std::string& bytes, const std::string& path) {
     const std::string where = path + ":" + std::to_string(++number) + ": ";
     if (line.ends_with('\r')) line.remove_suffix(1);
     if (line.find('\r') != std::string_view::npos)
-      throw LoadError(where + "a carriage return within the line, expected \\n or \\r\\n at its end");
+      throw LoadError(where + "the line holds a carriage return, expected \\n or \\r\\n at its end");
     const std::string_view word = next_word(line);
     if (number == 1) {
       if (word != "ply") throw LoadError(where + "expected the word ply");
@@ -74,7 +74,7 @@ void check_ply(const std::string& bytes, const std::string& path) {
       return;
     }
     if (std::find(known.begin(), known.end(), word) == known.end())
-      throw LoadError(where + "is no line of a PLY header, and there was no end_header");
+      throw LoadError(where + "not a line of a PLY header, expected end_header before it");
     if (word == "property") {
       const std::string_view name = scalar_property(line, where);
       if (of_vertex && name.size() == 1) std::erase(missing, name.front());
@@ -89,12 +89,12 @@ void check_ply(const std::string& bytes, const std::string& path) {
     // assimp would take the digits for the count.
     if (!name.empty() && name.front() >= '0' && name.front() <= '9')
       throw LoadError(where + "element has the name '" + std::string(name) +
-                      "', expected one that begins with a letter");
+                      "', expected a name that begins with a letter");
     std::size_t count = 0;
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), count);
     if (error != std::errc{} || stop != text.data() + text.size() || count > bytes.size())
       throw LoadError(where + "element " + std::string(name) + " has count '" + std::string(text) +
-                      "', expected a whole number that " + std::to_string(bytes.size()) + " bytes have room for");
+                      "', expected a whole number that fits a file of " + std::to_string(bytes.size()) + " bytes");
   }
   throw LoadError(path + ": PLY header without end_header, the file may be cut short");
 }

@@ -50,17 +50,17 @@ std::size_t check_stl(const std::string& bytes, const std::string& path) {
     // "solid" alone is no evidence: many binary files begin with it.
     if (count.facets > 0 || count.is_closed) {
       if (count.facets != count.ends || !count.is_closed)
-        throw LoadError(path + ": text STL with " + std::to_string(count.facets) + " facets, " +
-                        std::to_string(count.ends) + " of them ended" + (count.is_closed ? "" : ", and no endsolid") +
-                        ": cut short or damaged");
+        throw LoadError(path + ": text STL with " + std::to_string(count.facets) + " facets, of which " +
+                        std::to_string(count.ends) + " have an endfacet" +
+                        (count.is_closed ? "" : ", and no endsolid") + ": the file is cut short or damaged");
       return count.facets;
     }
   }
   if (bytes.size() < header_size)
     throw LoadError(path + ": " + std::to_string(bytes.size()) + " bytes, expected at least the 84 of a binary STL");
-  throw LoadError(path + ": binary STL announces " + std::to_string(announced) + " triangles, which take " +
-                  std::to_string(header_size + facet_size * announced) + " bytes; the file has " +
-                  std::to_string(bytes.size()));
+  throw LoadError(path + ": the header of the binary STL gives " + std::to_string(announced) +
+                  " triangles, which need " + std::to_string(header_size + facet_size * announced) +
+                  " bytes; the file has " + std::to_string(bytes.size()));
 }
 
 }  // namespace hinge::robotics

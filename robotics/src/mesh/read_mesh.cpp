@@ -98,8 +98,9 @@ class TriangleCollector {
     for (unsigned k = 0; k < face.mNumIndices; ++k) {
       const unsigned index = face.mIndices[k];
       if (index >= mesh.mNumVertices || mesh.mVertices == nullptr)  // not all readers of assimp check this
-        throw LoadError(path_ + ": face " + std::to_string(faces_) + " (from 0): names vertex " +
-                        std::to_string(index) + " (from 0) of " + std::to_string(mesh.mNumVertices));
+        throw LoadError(path_ + ": face " + std::to_string(faces_) + " (from 0): it uses vertex " +
+                        std::to_string(index) + " (from 0), but the mesh has " + std::to_string(mesh.mNumVertices) +
+                        " vertices");
       const Vec3 vertex = transform(mesh.mVertices[index]);
       if (!is_finite(vertex))
         throw LoadError(path_ + ": face " + std::to_string(faces_) + " (from 0): vertex " + std::to_string(k) + " is " +
@@ -127,7 +128,7 @@ class TriangleCollector {
 TriangleMesh read_mesh(const std::filesystem::path& path, std::vector<std::string>* notes) {
   const std::string name = path.string(), extension = lower_case_extension(path);
   if (extension != ".stl" && extension != ".obj" && extension != ".dae" && extension != ".ply")
-    throw MissingMesh(name + ": a mesh of format '" + extension + "', expected .stl, .obj, .dae or .ply");
+    throw MissingMesh(name + ": the mesh format is '" + extension + "', expected .stl, .obj, .dae or .ply");
   std::string bytes = read_file(path);
   const std::size_t announced = extension == ".stl" ? check_stl(bytes, name) : 0;
   if (extension == ".ply") check_ply(bytes, name);
@@ -143,7 +144,7 @@ TriangleMesh read_mesh(const std::filesystem::path& path, std::vector<std::strin
   if (scene == nullptr || scene->mRootNode == nullptr) {
     std::string why = importer.GetErrorString();
     std::replace(why.begin(), why.end(), '\n', ' ');
-    throw LoadError(name + ": " + (why.empty() ? "is no mesh that assimp understands" : why));
+    throw LoadError(name + ": " + (why.empty() ? "assimp cannot read this mesh" : why));
   }
   TriangleCollector collector(name);
   for_each_face(*scene, *scene->mRootNode, {}, [&](const aiMesh& mesh, const aiFace& face, const Transform& transform) {
@@ -155,9 +156,9 @@ TriangleMesh read_mesh(const std::filesystem::path& path, std::vector<std::strin
     throw MissingMesh(name + ": has no triangles" +
                       (collector.lines_and_points() > 0 ? ", only " + left_out : std::string()));
   if (collector.lines_and_points() > 0 && notes != nullptr)
-    notes->push_back(name + ": " + left_out + " are left out, they are no surface");
+    notes->push_back(name + ": " + left_out + " are left out, because they have no surface");
   if (extension == ".stl" && mesh.triangles.size() != announced)
-    throw LoadError(name + ": " + std::to_string(announced) + " facets, of which " +
+    throw LoadError(name + ": the file has " + std::to_string(announced) + " facets, but only " +
                     std::to_string(mesh.triangles.size()) + " could be read");
   return mesh;
 }

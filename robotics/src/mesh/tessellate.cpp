@@ -29,7 +29,7 @@ constexpr std::size_t most_triangles = 1'000'000;
 
 [[noreturn]] void refuse_tolerance(double tolerance) {
   throw ModelError("tessellation tolerance " + number_text(tolerance) +
-                   " m: expected a finite length above 0 that takes at most 10^6 triangles");
+                   " m: expected a finite length above 0 that needs at most 10^6 triangles");
 }
 
 // Shapes without volume get the fewest triangles: a point or a segment is one triangle without area.
