@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
+#include "hinge/detail/batch/configuration_count.hpp"
 #include "hinge/hierarchy.hpp"
 
 namespace hinge {
@@ -97,11 +98,8 @@ class Ensemble {
 template <class H>
 std::vector<std::uint8_t> self_collides(const H& hierarchy, std::span<const double> configurations, unsigned threads) {
   const std::size_t dof = hierarchy.dof_count();
-  if (dof == 0 ? !configurations.empty() : configurations.size() % dof != 0)
-    throw ConfigurationError(std::to_string(configurations.size()) + " values for configurations of " +
-                             std::to_string(dof));
+  const std::size_t count = detail::configuration_count(configurations, dof);
   std::vector<std::uint8_t> verdicts;
-  const std::size_t count = dof == 0 ? 0 : configurations.size() / dof;
   verdicts.reserve(count);
   Ensemble<H>(hierarchy, threads)
       .run(

@@ -16,6 +16,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/detail/batch/configuration_block.hpp"
+#include "hinge/detail/batch/configuration_count.hpp"
 #include "hinge/detail/batch/lane_kinematics.hpp"
 #include "hinge/detail/batch/sphere_bodies.hpp"
 #include "hinge/detail/simd/lanes.hpp"
@@ -228,9 +229,7 @@ inline detail::simd::Bits SphereBatch::test_pair(detail::simd::Bits lanes, Primi
 
 inline void SphereBatch::learn(std::span<const double> configurations) {
   const std::size_t dof = dof_count();
-  if (dof == 0 ? !configurations.empty() : configurations.size() % dof != 0)
-    throw ConfigurationError(std::to_string(configurations.size()) + " values for configurations of " +
-                             std::to_string(dof));
+  detail::configuration_count(configurations, dof);  // checks the number of values
   const auto pairs = bodies_.pairs();
   std::vector<std::pair<std::int64_t, detail::BodyPair>> ranked;
   for (const detail::BodyPair& pair : pairs) ranked.emplace_back(0, pair);

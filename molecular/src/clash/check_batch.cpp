@@ -4,21 +4,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "hinge/batch/state_batch.hpp"
-#include "hinge/core/error.hpp"
+#include "hinge/detail/batch/configuration_count.hpp"
 #include "hinge/molecular/checker.hpp"
 
 namespace hinge::molecular {
 
 std::vector<std::uint8_t> Checker::check_batch(std::span<const double> conformations) {
   const std::size_t values = dof_count();
-  if (values == 0 ? !conformations.empty() : conformations.size() % values != 0)
-    throw ConfigurationError(std::to_string(conformations.size()) + " values for conformations of " +
-                             std::to_string(values));
-  const std::size_t count = values == 0 ? 0 : conformations.size() / values;
+  const std::size_t count = detail::configuration_count(conformations, values);
   std::vector<std::uint8_t> verdicts(count);
   const auto update = [&](auto& hierarchy, std::size_t k) {
     hierarchy.update(conformations.subspan(k * values, values));

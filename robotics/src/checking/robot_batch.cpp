@@ -9,6 +9,7 @@
 
 #include "hinge/batch/sphere_batch.hpp"
 #include "hinge/core/error.hpp"
+#include "hinge/detail/batch/configuration_count.hpp"
 #include "hinge/robotics/robot_checker.hpp"
 #include "hinge/robotics/sphere_model.hpp"
 
@@ -31,10 +32,7 @@ bool RobotChecker::answers_by_spheres() const {
 
 std::vector<std::uint8_t> RobotChecker::check_batch(std::span<const double> configurations) {
   const std::size_t values = robot_->independent_joints().size();
-  if (values == 0 ? !configurations.empty() : configurations.size() % values != 0)
-    throw ConfigurationError(std::to_string(configurations.size()) + " values for configurations of " +
-                             std::to_string(values));
-  const std::size_t count = values == 0 ? 0 : configurations.size() / values;
+  const std::size_t count = detail::configuration_count(configurations, values);
   const auto at = [&](std::size_t k) { return configurations.subspan(k * values, values); };
   const auto naming = [&](std::size_t k, const auto& work) {
     try {
