@@ -68,7 +68,8 @@ void RobotChecker::expand(std::span<const double> independent, std::span<double>
   for (std::size_t d = 0; d < full.size(); ++d)
     if (!(std::abs(full[d]) <= largest_value))
       throw ConfigurationError("joint '" + robot_->description().joints[robot_->joint_of(id<DofId>(d))].name +
-                               "' takes the value " + number_text(full[d]) + ", expected a finite number of at most 1e300");
+                               "' takes the value " + number_text(full[d]) +
+                               ", expected a finite number of at most 1e300");
 }
 
 void RobotChecker::update(std::span<const double> independent) {

@@ -4,11 +4,11 @@
 
 #include "hinge/core/id.hpp"
 #include "hinge/detail/engine/simd/pair_test.hpp"
-#include "hinge/query/pair_rules.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/policy/distance_matrix.hpp"
 #include "hinge/policy/pair_filter.hpp"
 #include "hinge/policy/primitive.hpp"
+#include "hinge/query/pair_rules.hpp"
 
 namespace hinge::detail {
 
