@@ -196,7 +196,7 @@ void check_bounds(const char* what, const Make& make) {
           const double d = distance(m.primitive(i), m.primitive(first + lane)) * scale;
           const auto limit = [&](double x) {
             const float f = detail::float_above(x);
-            return detail::Limit16{f, f * f};
+            return detail::simd::Float16(Batch::squared_limits ? f * f : f);
           };
           const double band = m.side.state().band(d);
           // A pair at exactly its threshold is never ruled out.

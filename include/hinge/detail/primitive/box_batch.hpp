@@ -26,17 +26,13 @@ namespace hinge::detail {
   return axis(0) & axis(1) & axis(2);
 }
 
-/// Distances that sixteen pairs are compared with, and their squares.
-struct Limit16 {
-  simd::Float16 distance, squared;
-};
-
 /// Sixteen primitives in world coordinates, stored in `floats` numbers that the engine owns; the first `coordinates` of
 /// them move with the primitive. This version serves every primitive: it stores boxes, and the gap of two boxes bounds
 /// the distance from below. HullBatch, for primitives with a small hull, has the same members.
 template <Primitive P>
 struct Batch {
   static constexpr std::size_t coordinates = 6 * simd::width, floats = coordinates;
+  static constexpr bool squared_limits = true;  ///< near() compares with the square of a distance
   static constexpr double slack = 0.0;  ///< error that float_filter.md does not count for boxes, in 2^-24 of the extent
 
   /// Stores the primitive in a lane. A coordinate x is stored as (x - origin) * scale.
@@ -110,7 +106,7 @@ struct Batch {
       }
     }
     /// Returns the lanes that may be within the limit, up to rounding.
-    [[gnu::always_inline]] simd::Bits near(const float* to, const Limit16& limit) const noexcept {
+    [[gnu::always_inline]] simd::Bits near(const float* to, const simd::Float16& limit) const noexcept {
       using simd::Float16;
       Float16 sum(0.0F);
       for (std::size_t k = 0; k < 3; ++k) {
@@ -120,7 +116,7 @@ struct Batch {
         sum = sum + gap * gap;
       }
       // Negated on purpose: overflow and NaN must remain.
-      return ~less(limit.squared, sum);
+      return ~less(limit, sum);
     }
 
    private:

@@ -34,6 +34,7 @@ struct Batch<P> {
   static constexpr std::size_t coordinates = 3 * points * simd::width;
   static constexpr std::size_t floats = coordinates + (has_radius ? simd::width : 0);
   static constexpr bool measures = points == 1 && !has_radius;
+  static constexpr bool squared_limits = !has_radius;
   static constexpr double slack = measures ? 0.0 : 32.0;
 
   static void set(float* at, std::size_t lane, const P& p, const Vec3& origin, double scale) noexcept {
@@ -135,13 +136,13 @@ struct Batch<P> {
       radius_ *= scale;
     }
 
-    [[gnu::always_inline]] simd::Bits near(const float* to, const Limit16& limit) const noexcept {
+    [[gnu::always_inline]] simd::Bits near(const float* to, const simd::Float16& limit) const noexcept {
       // Negated on purpose: overflow and NaN must remain.
       if constexpr (has_radius) {
-        const simd::Float16 within = limit.distance + (simd::Float16(radius_) + simd::Float16(to + coordinates));
+        const simd::Float16 within = limit + (simd::Float16(radius_) + simd::Float16(to + coordinates));
         return ~less(within * within, squared_distances(to));
       } else {
-        return ~less(limit.squared, squared_distances(to));
+        return ~less(limit, squared_distances(to));
       }
     }
 

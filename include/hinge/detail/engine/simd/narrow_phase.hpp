@@ -54,7 +54,8 @@ void narrow_phase(CandidateList& candidates, const Side& one, const Side& sixtee
   const std::uint8_t *single_class = one.position_class(), *classes = sixteen.position_class();
   const std::uint32_t *ones = candidates.ones(), *sixteens = candidates.sixteens();
   const simd::Bits* masks = candidates.masks();
-  const auto near = [&](std::size_t t, const Limit16& limit) __attribute__((always_inline)) {
+  constexpr bool squared = Batch<P>::squared_limits;
+  const auto near = [&](std::size_t t, const simd::Float16& limit) __attribute__((always_inline)) {
     return convert(single + ones[t]).near(packed + sixteens[t], limit);
   };
   const auto extra = [&](std::size_t t) __attribute__((always_inline)) {
@@ -81,21 +82,19 @@ void narrow_phase(CandidateList& candidates, const Side& one, const Side& sixtee
   if (has_extra) {
     rule_out([&](std::size_t t) {
       const float distance = thresholds.largest_plain()[single_class[ones[t]]] + extra(t);
-      return Limit16{distance, distance * distance};
+      return simd::Float16(squared ? distance * distance : distance);
     });
   } else {
-    rule_out([ plain = thresholds.largest_plain(), squares = thresholds.largest_squares(), ones,
-               single_class ](std::size_t t) __attribute__((always_inline)) {
-      return Limit16{plain[single_class[ones[t]]], squares[single_class[ones[t]]]};
-    });
+    rule_out([ limits = squared ? thresholds.largest_squares() : thresholds.largest_plain(), ones, single_class ](
+        std::size_t t) __attribute__((always_inline)) { return simd::Float16(limits[single_class[ones[t]]]); });
   }
   for (std::size_t k = 0; k < left_count; ++k) {
     const std::size_t t = left[k].candidate, row = single_class[ones[t]] * simd::width;
     const simd::Index16 index(classes + sixteens[t]);
-    Limit16 limit{look_up(thresholds.plain() + row, index), look_up(thresholds.squares() + row, index)};
+    simd::Float16 limit = look_up((squared && !has_extra ? thresholds.squares() : thresholds.plain()) + row, index);
     if (has_extra) {
-      limit.distance = limit.distance + simd::Float16(extra(t));
-      limit.squared = limit.distance * limit.distance;
+      limit = limit + simd::Float16(extra(t));
+      if (squared) limit = limit * limit;
     }
     const simd::Bits bits = left[k].lanes & near(t, limit);
     if (bits != 0 && !visit(ones[t], sixteens[t], bits)) return;
