@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sphere models: sixteen configurations at once against one at a time, kinematics included, on independent samples
-// and on short segments. Times are nanoseconds of thread time per configuration; answers are compared.
+// and on short segments. Capsule models: one at a time. Times are nanoseconds of thread time per configuration; answers
+// are compared.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -18,6 +19,7 @@
 #include "hinge/detail/simd/instruction_set.hpp"
 #include "hinge/engine/brute.hpp"
 #include "hinge/hierarchy.hpp"
+#include "hinge/primitive/capsule.hpp"
 #include "hinge/robotics/read_srdf.hpp"
 #include "hinge/robotics/read_urdf.hpp"
 #include "hinge/robotics/robot.hpp"
@@ -158,6 +160,56 @@ int compare(const char* name, const Subject& robot, SphereBatch& batch, const Co
   return wrong;
 }
 
+/// Capsules of an arm whose neighbouring links are not tested.
+struct NotNeighbours {
+  std::vector<LinkId> links;
+  bool admits(PrimitiveId i, PrimitiveId j) const noexcept {
+    const std::size_t a = index(links[index(i)]), b = index(links[index(j)]);
+    return std::max(a, b) - std::min(a, b) > 1;
+  }
+};
+
+/// Nine links of 0.3 m with `per_link` capsules each. Returns the number of wrong answers.
+int time_capsules(std::size_t per_link) {
+  constexpr std::size_t links = 9, states = 2000;
+  ModelBuilder<Capsule> build;
+  LinkId parent = world;
+  for (std::size_t l = 0; l < links; ++l) {
+    std::vector<Capsule> capsules;
+    for (std::size_t k = 0; k < per_link; ++k) {
+      const auto from = 0.3 * static_cast<double>(k) / static_cast<double>(per_link),
+                 to = 0.3 * static_cast<double>(k + 1) / static_cast<double>(per_link);
+      capsules.push_back({Vec3(0, 0, from), Vec3(0.01, 0, to), 0.05});
+    }
+    Pose origin;
+    if (l > 0) origin.translation = Vec3(0, 0, 0.33);
+    parent = build.add_link(parent, Revolute{l % 2 == 0 ? Vec3::UnitY() : Vec3::UnitX(), Vec3::Zero(), origin, {}},
+                            std::move(capsules));
+  }
+  const Model<Capsule> model = build.finish();
+  const NotNeighbours filter{{model.links().begin(), model.links().end()}};
+  Hierarchy<Capsule, NotNeighbours, UniformClearance> simd(model, filter, UniformClearance{0.0});
+  Hierarchy<Capsule, NotNeighbours, UniformClearance, Brute> brute(model, filter, UniformClearance{0.0});
+  SampleStream stream(seed, 4);
+  std::vector<double> all(states * links);
+  for (double& value : all) value = 2.4 * (2 * stream.uniform() - 1);
+  std::vector<std::uint8_t> verdicts[2] = {std::vector<std::uint8_t>(states), std::vector<std::uint8_t>(states)};
+  const auto one_by_one = [&](auto& hierarchy, std::vector<std::uint8_t>& to) {
+    return [&](std::size_t b) {
+      for (std::size_t k = b * SphereBatch::size; k < (b + 1) * SphereBatch::size; ++k) {
+        hierarchy.update(std::span(all).subspan(k * links, links));
+        to[k] = hierarchy.self_collides() ? 1 : 0;
+      }
+    };
+  };
+  const double simd_ns = time(states / SphereBatch::size, passes, one_by_one(simd, verdicts[0]));
+  const double brute_ns = time(states / SphereBatch::size, 3, one_by_one(brute, verdicts[1]));
+  const auto hits = std::count(verdicts[1].begin(), verdicts[1].end(), 1);
+  std::printf("%zu capsules, %.1f %% of %zu states collide; one at a time: simd %.1f  brute %.1f\n", model.size(),
+              100.0 * static_cast<double>(hits) / states, states, simd_ns, brute_ns);
+  return verdicts[0] == verdicts[1] ? 0 : 1;
+}
+
 }  // namespace
 
 int main() {
@@ -171,5 +223,6 @@ int main() {
   int wrong = compare("independent", robot, batch, independent(robot.robot, 3));
   wrong += compare("edges", robot, batch, edges(robot.robot));
   std::printf("decided in double: %llu pairs\n", static_cast<unsigned long long>(batch.decided_count()));
+  for (const std::size_t per_link : {1U, 3U, 7U}) wrong += time_capsules(per_link);
   return wrong == 0 ? 0 : 1;
 }
