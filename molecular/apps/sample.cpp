@@ -78,7 +78,9 @@ template <class Takes>
 std::vector<Sample> draw_block(Worker& worker, const Job& job, const Sampling& sampling, std::uint64_t first,
                                std::uint64_t last, const Takes& takes) {
   std::vector<Sample> samples;
+  samples.reserve(static_cast<std::size_t>(last - first));
   std::vector<double> all;
+  all.reserve(samples.capacity() * job.checker.dof_count());
   for (std::uint64_t k = first; k < last; ++k) {
     const std::vector<double> q = sample_configuration(sampling, k, *job.molecule, job.checker.selection(), job.ranges);
     all.insert(all.end(), q.begin(), q.end());

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "hinge/batch/state_batch.hpp"
+#include "hinge/detail/batch/faster_way.hpp"
 #include "hinge/engine/brute.hpp"
 #include "hinge/engine/lazy.hpp"
 #include "hinge/engine/simd.hpp"
@@ -98,9 +99,10 @@ class Checker {
   /// reference. Throws ConfigurationError if their number is wrong or a value is not finite.
   Verdict check(std::span<const double> q, const Mode& mode);
   /// Returns one verdict per conformation: 1 if it collides, otherwise 0, as check() in mode any. conformations: one
-  /// after the other, dof_count() values each; the last one becomes the state. The SIMD engine tests sixteen at a time
-  /// (see StateBatch), which is faster if they are near each other, as samples around one conformation are. Throws
-  /// ConfigurationError if the number of values is wrong or a value is not finite.
+  /// after the other, dof_count() values each; the last one becomes the state. The SIMD engine tests them one by one or
+  /// sixteen at a time (see StateBatch), whichever took less time lately. Sixteen at a time is faster for conformations
+  /// that are near each other and mostly free. Throws ConfigurationError if the number of values is wrong or a value is
+  /// not finite.
   std::vector<std::uint8_t> check_batch(std::span<const double> conformations);
   /// Tests given coordinates. positions: angstrom, one per atom. Every admitted pair is tested, independent of the
   /// selection. Distances of atoms whose coordinates have at most three decimals, as in files, are compared in exact
@@ -121,6 +123,8 @@ class Checker {
   MinBonds min_bonds_{4};
   std::optional<AnyHierarchy> hierarchy_;
   std::optional<StateBatch<Point, BondExclusions, TypedThresholds>> batch_;  // made by the first check_batch()
+  hinge::detail::FasterWay faster_;                                          // 0: one by one, 1: batch_
+  bool mostly_collide_ = true;  // the last block of check_batch(); true at first: blocks have to earn their use
 };
 
 }  // namespace hinge::molecular
