@@ -45,7 +45,7 @@ class Simd {
     if constexpr (detail::UsesStaticBvh<P>)
       trees_.emplace(std::make_shared<const detail::TreeParts<P>>(model, filter_, matrix_));
     else
-      sides_.make(model, filter_, matrix_, false, true);
+      sides_.side(model, filter_, matrix_, false, true);
   }
 
   /// Hands the admitted pairs i < j within the cutoff to `collector` (see Collector), until it is done.
@@ -224,7 +224,7 @@ class Simd {
   }
 
   Side& present_side(const Placement<P>& placement, bool without_margin) {
-    return sides_.make(placement.model(), filter_, matrix_, placement.groups_may_deform(), without_margin);
+    return sides_.side(placement.model(), filter_, matrix_, placement.groups_may_deform(), without_margin);
   }
 
   /// The margin covers the cutoff and the float error: no pair with d - M <= cutoff is lost. Clearances are added per

@@ -70,10 +70,7 @@ class MoveBlocks {
     constexpr std::size_t n = Batch<P>::floats;
     for (std::size_t place = 0; place < box_.size(); ++place) {
       std::copy_n(simd_parts_->position_class.data() + place / 2 * n, n, class_.data() + place * n);
-      for (std::size_t k = 0; k < simd::width; ++k)
-        Batch<P>::set(floats_.data() + place * n, k,
-                      model.primitives()[layout().primitive[place / 2 * simd::width + k]], layout().origin,
-                      layout().scale);
+      set_radii<P>(floats_.data() + place * n, layout().members(place / 2), model.primitives(), layout().scale);
     }
     for (std::uint32_t b = 0; b < layout().block_count(); ++b) {
       at_.push_back(2 * b);

@@ -4,13 +4,26 @@
 
 #include <array>
 #include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 
+#include "hinge/core/vec3.hpp"
 #include "hinge/detail/bounds/float_box.hpp"
 #include "hinge/detail/primitive/box_batch.hpp"
 #include "hinge/detail/primitive/hull_batch.hpp"
 #include "hinge/detail/simd/lanes.hpp"
+#include "hinge/policy/primitive.hpp"
 
 namespace hinge::detail {
+
+/// Stores what Batch<P>::place() keeps, the radii, of the sixteen primitives `members` in the block at `at`.
+template <Primitive P>
+void set_radii([[maybe_unused]] float* at, [[maybe_unused]] std::span<const std::uint32_t> members,
+               [[maybe_unused]] std::span<const P> primitives, [[maybe_unused]] double scale) noexcept {
+  if constexpr (Batch<P>::floats > Batch<P>::coordinates)
+    for (std::size_t k = 0; k < simd::width; ++k) Batch<P>::set(at, k, primitives[members[k]], Vec3::Zero(), scale);
+}
 
 /// Optional: a batch of one rigid group is transformed in float, without access to the primitives.
 template <class P>

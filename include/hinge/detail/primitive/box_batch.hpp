@@ -28,12 +28,13 @@ namespace hinge::detail {
 
 /// Sixteen primitives in world coordinates, stored in `floats` numbers that the engine owns; the first `coordinates` of
 /// them move with the primitive. This version serves every primitive: it stores boxes, and the gap of two boxes bounds
-/// the distance from below. HullBatch, for primitives with a small hull, has the same members.
+/// the distance from below. hull_batch.hpp has a version for primitives with a small hull, with the same members.
 template <Primitive P>
 struct Batch {
   static constexpr std::size_t coordinates = 6 * simd::width, floats = coordinates;
   static constexpr bool squared_limits = true;  ///< near() compares with the square of a distance
-  static constexpr double slack = 0.0;  ///< error that float_filter.md does not count for boxes, in 2^-24 of the extent
+  /// Float error beyond that of points and boxes (docs/explanation/float_filter.md), in units of 2^-24 of the extent.
+  static constexpr double slack = 0.0;
 
   /// Stores the primitive in a lane. A coordinate x is stored as (x - origin) * scale.
   static void set(float* at, std::size_t lane, const P& p, const Vec3& origin, double scale) noexcept {

@@ -51,6 +51,10 @@ struct BlockLayout {
   static BlockLayout by_index(const SelectedModel<P>& model, std::span<const std::uint8_t> left_out = {});
 
   std::size_t block_count() const noexcept { return blocks.size(); }
+  /// The sixteen primitives of a block.
+  std::span<const std::uint32_t> members(std::size_t block) const noexcept {
+    return std::span(primitive).subspan(block * simd::width, simd::width);
+  }
   std::span<const GroupId> groups_of(const Block& block) const noexcept {
     return std::span(groups).subspan(block.first_group, block.group_count);
   }

@@ -44,18 +44,18 @@ class SimdSides {
   /// Returns a side, made at its first use. deform: rigid groups may deform. without_margin: skip primitives that never
   /// collide.
   template <PairFilter F, DistanceMatrix D>
-  SimdSide<P>& make(const SelectedModel<P>& model, const F& filter, const D& matrix, bool deform, bool without_margin) {
+  SimdSide<P>& side(const SelectedModel<P>& model, const F& filter, const D& matrix, bool deform, bool without_margin) {
     const bool fewer = without_margin && !never_collides_.empty();
-    std::optional<SimdSide<P>>& side = sides_[2 * std::size_t{deform} + std::size_t{fewer}];
-    if (!side) {
+    std::optional<SimdSide<P>>& chosen = sides_[2 * std::size_t{deform} + std::size_t{fewer}];
+    if (!chosen) {
       const std::span<const std::uint8_t> left_out =
           fewer ? std::span(never_collides_) : std::span<const std::uint8_t>();
-      side.emplace(std::make_shared<const SimdParts<P>>(
-                       deform ? BlockLayout::by_index(model, left_out) : BlockLayout::by_groups(model, left_out),
-                       ThresholdClasses(matrix, model.size()), model),
-                   model, filter, deform);
+      chosen.emplace(std::make_shared<const SimdParts<P>>(
+                         deform ? BlockLayout::by_index(model, left_out) : BlockLayout::by_groups(model, left_out),
+                         ThresholdClasses(matrix, model.size()), model),
+                     model, filter, deform);
     }
-    return *side;
+    return *chosen;
   }
 
  private:

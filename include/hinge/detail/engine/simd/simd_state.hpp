@@ -40,11 +40,10 @@ class SimdState {
         tree_rows_(parts_->rigid.rows.size()),
         row_at_(parts_->rigid.rows.size(), 0),
         origin_(parts_->layout.origin) {
-    for (std::size_t slot = 0; slot < parts_->layout.primitive.size(); ++slot) {
-      exact_.push_back(model.primitives()[parts_->layout.primitive[slot]]);
-      Batch<P>::set(packed_.data() + slot / simd::width * Batch<P>::floats, slot % simd::width, exact_.back(), origin_,
-                    parts_->layout.scale);
-    }
+    for (const std::uint32_t i : parts_->layout.primitive) exact_.push_back(model.primitives()[i]);
+    for (std::size_t b = 0; b < parts_->layout.block_count(); ++b)
+      set_radii<P>(packed_.data() + b * Batch<P>::floats, parts_->layout.members(b), model.primitives(),
+                   parts_->layout.scale);
   }
 
   const SimdParts<P>& parts() const noexcept { return *parts_; }
@@ -238,8 +237,7 @@ class SimdState {
     const Block& block = parts_->layout.blocks[b];
     if (!is_current(block, exact_at_[b], placement)) {
       if (block.rigid && !given_)
-        placement.place(parts_->layout.groups_of(block).front(),
-                        std::span(parts_->layout.primitive).subspan(b * simd::width, simd::width),
+        placement.place(parts_->layout.groups_of(block).front(), parts_->layout.members(b),
                         exact_.data() + b * simd::width);
       else
         place_exact(b, simd::all_bits, placement);
