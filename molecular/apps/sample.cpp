@@ -48,25 +48,34 @@ struct Worker {
   std::optional<ClosedSampler> closed;
 };
 
+/// A sample with the outputs that depend on q only.
+Sample sample_at(const Job& job, const std::vector<double>& q) {
+  Sample sample;
+  sample.placements = placements_of(job, q);
+  sample.torsions = torsion_values(job, q);
+  return sample;
+}
+
 Sample draw(Worker& worker, const Job& job, const Sampling& sampling, std::uint64_t k, const Mode& mode,
             bool collision_free) {
   if (!worker.closed) {
     const std::vector<double> q = sample_configuration(sampling, k, *job.molecule, job.checker.selection(), job.ranges);
-    Sample sample{worker.checker.check(q, mode), {}};
-    sample.placements = placements_of(job, q);
-    sample.torsions = torsion_values(job, q);
+    Sample sample = sample_at(job, q);
+    sample.verdict = worker.checker.check(q, mode);
     return sample;
   }
   const auto accept = [&](std::span<const double> q) {
     return !collision_free || !worker.checker.check(q, Mode::parse("any")).collides;
   };
   const ClosedSample closed = worker.closed->sample(k, accept);
-  Sample sample{{}, {}, closed.found(), closed.unclosed, closed.refused};
+  Sample sample;
   if (closed.found()) {
+    sample = sample_at(job, closed.q);
     sample.verdict = worker.checker.check(closed.q, mode);
-    sample.placements = placements_of(job, closed.q);
-    sample.torsions = torsion_values(job, closed.q);
   }
+  sample.found = closed.found();
+  sample.unclosed = closed.unclosed;
+  sample.refused = closed.refused;
   return sample;
 }
 
@@ -84,9 +93,7 @@ std::vector<Sample> draw_block(Worker& worker, const Job& job, const Sampling& s
   for (std::uint64_t k = first; k < last; ++k) {
     const std::vector<double> q = sample_configuration(sampling, k, *job.molecule, job.checker.selection(), job.ranges);
     all.insert(all.end(), q.begin(), q.end());
-    samples.push_back({});
-    samples.back().placements = placements_of(job, q);
-    samples.back().torsions = torsion_values(job, q);
+    samples.push_back(sample_at(job, q));
   }
   const std::vector<std::uint8_t> verdicts = worker.checker.check_batch(all);
   for (std::size_t k = 0; k < verdicts.size(); ++k) {
@@ -218,7 +225,7 @@ Exit run_sample(const Options& options) {
     torsions.add(sample.torsions);
     file.add(sample.positions, static_cast<int>(k) + 1, sample.verdict.collides);
   };
-  // Yes or no is all that blocks tell.
+  // check_batch() answers yes or no only, and does not measure closures.
   const bool in_blocks =
       mode.kind == Mode::Kind::any && !closed && closure_names(job).empty() && job.checker.dof_count() > 0;
   const auto count = static_cast<std::size_t>(end - begin);
