@@ -38,7 +38,7 @@ struct SelfRules {
            (!options.moved_only || placement.moved_apart(model.group_of(i), model.group_of(j)));
   }
   /// Passes the pair i < j of primitives p and q, in world coordinates, to the collector if it counts and lies within
-  /// the cutoff. Every engine decides pairs here.
+  /// the cutoff. The engines of the library decide pairs by the same function, detail::test_pair.
   template <Collector C>
   void test(C& collector, PrimitiveId i, PrimitiveId j, const P& p, const P& q) const {
     if (options.counts != nullptr) ++options.counts->pairs_tested;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FasterWay: chooses between two ways to compute the same answers, by the time that each one took lately.
+// FasterWay: chooses between two ways to compute the same answers, by the times that they took recently.
 #pragma once
 
 #include <algorithm>
@@ -8,9 +8,9 @@
 
 namespace hinge::detail {
 
-/// The work comes in pieces of similar size. The faster way does most of them. The other way is tried again after 4, 8,
-/// 16 ... pieces, at most 4096, so a way that is a hundred times slower costs little. A trial is two pieces long and
-/// counts the faster one: the first piece may have to make what later pieces reuse.
+/// The work comes in pieces of similar size, and most pieces use the faster way. The other way is tried again after 4,
+/// 8, 16 ... pieces, at most 4096, so the trials cost little even if that way is much slower. A trial is two pieces
+/// long, and its result is the shorter of the two times: the first piece may compute data that later pieces reuse.
 class FasterWay {
  public:
   /// Returns the way for the next piece, 0 or 1.
