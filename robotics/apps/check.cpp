@@ -136,7 +136,7 @@ Exit run_check(const Options& options) {
     file.check();
     bar.show(k + 1);
   };
-  // Yes or no about the robot alone is answered for many configurations at once.
+  // check_batch() answers yes or no only, for the robot without bodies.
   const bool in_blocks = mode.kind == Mode::Kind::any && !worker.environment && !options.contained;
   const auto judge_block = [&](Worker& own, std::size_t b) {
     std::vector<double> block;
@@ -146,7 +146,7 @@ Exit run_check(const Options& options) {
     }
     try {
       return own.checker.check_batch(block);
-    } catch (const hinge::ConfigurationError&) {  // names the configuration by its place in the block
+    } catch (const hinge::ConfigurationError&) {  // it names the configuration by its place in the block: ask again
       for (std::size_t k = b * block_size; k < std::min((b + 1) * block_size, configurations.count); ++k) judge(own, k);
       throw;
     }

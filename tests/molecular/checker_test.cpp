@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -96,6 +97,14 @@ TEST(CheckBatch, GivesTheVerdictsOfSingleChecks) {
         EXPECT_EQ(checker.positions(), single.positions());
       }
       EXPECT_TRUE(checker.check_batch({}).empty());
+      std::vector<double> bad = many_conformations(checker, 0.001, 203);
+      bad[150 * checker.dof_count()] = std::numeric_limits<double>::quiet_NaN();
+      try {
+        checker.check_batch(bad);
+        ADD_FAILURE() << "NaN was accepted";
+      } catch (const ConfigurationError& error) {
+        EXPECT_EQ(std::string(error.what()).rfind("configuration 150: ", 0), 0U) << error.what();
+      }
       const std::vector<double> one_too_many(2 * checker.dof_count() + 1);
       EXPECT_THROW(checker.check_batch(one_too_many), ConfigurationError);
     }

@@ -140,6 +140,7 @@ TEST(CheckBatch, GivesTheVerdictsOfSingleChecks) {
                         Case{"a base", false, 0.0, "simd", true}}) {
     SCOPED_TRACE(c.name);
     const auto robot = std::make_shared<const Robot>(chain_of_spheres(c.with_box));
+    EXPECT_EQ(has_only_spheres(*robot), !c.with_box);
     RobotChecker batch(robot, tested_pairs(*robot), LinkMargins(*robot, c.clearance), CheckOptions{c.engine});
     if (c.moved_base) batch.set_base(Pose{rotation_about(Vec3::UnitX(), 0.3), Vec3(1, 2, 3)});
     RobotChecker single = batch;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hinge/batch/state_batch.hpp"
+#include "hinge/core/error.hpp"
 #include "hinge/detail/batch/configuration_count.hpp"
 #include "hinge/molecular/checker.hpp"
 
@@ -16,10 +17,10 @@ namespace hinge::molecular {
 
 std::vector<std::uint8_t> Checker::check_batch(std::span<const double> conformations) {
   const std::size_t values = dof_count();
-  const std::size_t count = detail::configuration_count(conformations, values);
+  const std::size_t count = hinge::detail::configuration_count(conformations, values);
   std::vector<std::uint8_t> verdicts(count);
   const auto update = [&](auto& hierarchy, std::size_t k) {
-    hierarchy.update(conformations.subspan(k * values, values));
+    hinge::detail::naming_configuration(k, [&] { hierarchy.update(conformations.subspan(k * values, values)); });
   };
   const auto one_by_one = [&](auto& hierarchy, std::size_t first, std::size_t end) {
     for (std::size_t k = first; k < end; ++k) {
@@ -27,8 +28,17 @@ std::vector<std::uint8_t> Checker::check_batch(std::span<const double> conformat
       verdicts[k] = hierarchy.self_collides() ? 1 : 0;
     }
   };
+  const auto together = [&](MolecularHierarchy<Simd>& hierarchy, std::size_t first, std::size_t end) {
+    if (!batch_) batch_.emplace(molecule_->model(), hierarchy.model().selection(), *exclusions_, thresholds_->matrix);
+    try {
+      return batch_->collides(conformations.subspan(first * values, (end - first) * values));
+    } catch (const ConfigurationError&) {
+      one_by_one(hierarchy, first, end);  // throws the error that names the configuration
+      throw;
+    }
+  };
   // Which way is faster depends on the conformations. One by one, a clash near the root ends the work early, so blocks
-  // are not even tried while most conformations collide.
+  // are not tried while most conformations collide.
   const auto in_blocks = [&](MolecularHierarchy<Simd>& hierarchy) {
     using Batch = StateBatch<Point, BondExclusions, TypedThresholds>;
     using Clock = std::chrono::steady_clock;
@@ -39,9 +49,7 @@ std::vector<std::uint8_t> Checker::check_batch(std::span<const double> conformat
       if (alone) {
         one_by_one(hierarchy, first, end);
       } else {
-        if (!batch_)
-          batch_.emplace(molecule_->model(), hierarchy.model().selection(), *exclusions_, thresholds_->matrix);
-        const std::uint32_t hits = batch_->collides(conformations.subspan(first * values, (end - first) * values));
+        const std::uint32_t hits = together(hierarchy, first, end);
         for (std::size_t k = first; k < end; ++k) verdicts[k] = hits >> (k - first) & 1U;
       }
       if (!mostly_collide_) faster_.took(std::chrono::duration<double>(Clock::now() - start).count());

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "hinge/batch/sphere_batch.hpp"
@@ -22,8 +21,8 @@ constexpr std::size_t learned = 256;
 
 }  // namespace
 
-bool RobotChecker::answers_by_spheres() const {
-  if (engine_ != "simd" || kinematics_) return false;
+bool RobotChecker::fits_sphere_batch() const {
+  if (engine_ != "simd" || robot_->model().size() == 0) return false;
   if (robot_->tessellation().manner != Tessellation::Manner::rounded || !has_only_spheres(*robot_)) return false;
   const auto pairs = filter_.tested().list();
   return std::ranges::all_of(pairs,
@@ -34,17 +33,10 @@ std::vector<std::uint8_t> RobotChecker::check_batch(std::span<const double> conf
   const std::size_t values = robot_->independent_joints().size();
   const std::size_t count = detail::configuration_count(configurations, values);
   const auto at = [&](std::size_t k) { return configurations.subspan(k * values, values); };
-  const auto naming = [&](std::size_t k, const auto& work) {
-    try {
-      work();
-    } catch (const ConfigurationError& error) {
-      throw ConfigurationError("configuration " + std::to_string(k) + ": " + error.what());
-    }
-  };
   std::vector<std::uint8_t> verdicts(count);
-  if (count < 2 || !answers_by_spheres()) {
+  if (count < 2 || !fits_sphere_batch_ || kinematics_) {
     for (std::size_t k = 0; k < count; ++k) {
-      naming(k, [&] { update(at(k)); });
+      detail::naming_configuration(k, [&] { update(at(k)); });
       verdicts[k] = collides() ? 1 : 0;
     }
     return verdicts;
@@ -54,7 +46,7 @@ std::vector<std::uint8_t> RobotChecker::check_batch(std::span<const double> conf
   const auto expanded = [&](std::size_t first, std::size_t most) -> std::span<const double> {
     full.resize(std::min(most, count - first) * dof);
     for (std::size_t k = 0; k * dof < full.size(); ++k)
-      naming(first + k, [&] { expand(at(first + k), std::span(full).subspan(k * dof, dof)); });
+      detail::naming_configuration(first + k, [&] { expand(at(first + k), std::span(full).subspan(k * dof, dof)); });
     return full;
   };
   if (!spheres_) {

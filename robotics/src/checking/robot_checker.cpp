@@ -54,6 +54,7 @@ RobotChecker::RobotChecker(std::shared_ptr<const Robot> robot, LinkPairs tested,
       link_hits_(robot_->model().links()),
       local_boxes_(std::make_shared<const std::vector<Aabb>>(local_boxes_of(*robot_, margins_))) {
   find_solid_pairs();
+  fits_sphere_batch_ = fits_sphere_batch();
   update(std::vector<double>(robot_->independent_joints().size(), 0.0));
 }
 

@@ -100,9 +100,9 @@ class Checker {
   Verdict check(std::span<const double> q, const Mode& mode);
   /// Returns one verdict per conformation: 1 if it collides, otherwise 0, as check() in mode any. conformations: one
   /// after the other, dof_count() values each; the last one becomes the state. The SIMD engine tests them one by one or
-  /// sixteen at a time (see StateBatch), whichever took less time lately. Sixteen at a time is faster for conformations
-  /// that are near each other and mostly free. Throws ConfigurationError if the number of values is wrong or a value is
-  /// not finite.
+  /// sixteen at a time (see StateBatch), whichever way was faster recently. Sixteen at a time is faster for
+  /// conformations that are near each other and mostly free. Throws ConfigurationError if the number of values is
+  /// wrong, or as check(), naming the configuration.
   std::vector<std::uint8_t> check_batch(std::span<const double> conformations);
   /// Tests given coordinates. positions: angstrom, one per atom. Every admitted pair is tested, independent of the
   /// selection. Distances of atoms whose coordinates have at most three decimals, as in files, are compared in exact
@@ -124,7 +124,7 @@ class Checker {
   std::optional<AnyHierarchy> hierarchy_;
   std::optional<StateBatch<Point, BondExclusions, TypedThresholds>> batch_;  // made by the first check_batch()
   hinge::detail::FasterWay faster_;                                          // 0: one by one, 1: batch_
-  bool mostly_collide_ = true;  // the last block of check_batch(); true at first: blocks have to earn their use
+  bool mostly_collide_ = true;  // most of the last block of check_batch() collided; at first, one by one
 };
 
 }  // namespace hinge::molecular

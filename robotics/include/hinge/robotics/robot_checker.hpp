@@ -192,8 +192,8 @@ class RobotChecker {
   void find_solid_pairs();
   // Expands the values of the independent joints into `full`. Throws as update().
   void expand(std::span<const double> independent, std::span<double> full) const;
-  // True if spheres_ can answer.
-  bool answers_by_spheres() const;
+  // True if spheres_ can answer while the base is fixed.
+  bool fits_sphere_batch() const;
   std::optional<ClosestLinks> closest_surfaces(AnyHierarchy& hierarchy);
   // True if the coordinates of the result are so large that its distance has lost digits.
   bool is_far(const ClosestLinks& found) const;
@@ -240,6 +240,7 @@ class RobotChecker {
   std::vector<Aabb> link_boxes_;                          // by link, world frame
   bool link_boxes_stand_ = false;                         // link_boxes_ belong to the current state
   std::shared_ptr<const Topology> topology_;
+  bool fits_sphere_batch_ = false;
   std::optional<SphereBatch> spheres_;  // made by the first check_batch() that can use it
 };
 
