@@ -90,18 +90,6 @@ std::string times(const Found& found, bool loops) {
 
 std::string trade(const Found& found) {
   std::string out = "\n";
-  out += header({"precision", "sampling", "yes/no µs", "all µs", "within 1 Å µs", "false accepts", "false rejects",
-                 "pairs", "missed", "added", "undecided", "largest error Å"});
-  for (const Json& row : found.rows("trade precision")) {
-    Strings cells = {Found::text(row, "precision"), Found::text(row, "sampling")};
-    for (const char* key : {"any_us", "all_us", "within_us"}) cells.push_back(number(Found::value(row, key)));
-    for (const char* key : {"false_accepts", "false_rejects", "pairs", "missed", "added", "undecided"})
-      cells.push_back(std::to_string(row[key].get<std::uint64_t>()));
-    char text[32];
-    std::snprintf(text, sizeof text, "%.1g", Found::value(row, "largest_distance_error"));
-    cells.push_back(text);
-    out += line(cells);
-  }
   std::string title;
   for (const Json& row : found.rows("trade trade")) {
     if (Found::text(row, "title") != title) {

@@ -20,7 +20,6 @@
 #include "robots/trade_tiers.hpp"
 #include "scene.hpp"
 #include "timing.hpp"
-#include "trade_precision.hpp"
 
 namespace {
 
@@ -207,7 +206,6 @@ int main(int argc, char** argv) {
 
   const Protein protein = read_protein(heavy, false);
   const DofSelection all = select(protein, "all");
-  trade_precision(protein, all, static_cast<std::size_t>(arguments.number), results);
   run(results, "fewer torsions moved", protein, all,
       {asked_exactly("all residues", protein, all), asked_exactly("35 residues", protein, select(protein, "count:35")),
        asked_exactly("10 residues", protein, select(protein, "count:10"))},

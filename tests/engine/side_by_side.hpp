@@ -5,10 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <optional>
-#include <type_traits>
 #include <vector>
 
-#include "engine/fast_sides.hpp"
 #include "engine/random_mechanism.hpp"
 #include "hinge/engine/brute.hpp"
 #include "hinge/hierarchy.hpp"
@@ -87,12 +85,6 @@ class Pair {
     expect_same(tested.self_closest(options), reference.self_closest(options));
     EXPECT_EQ(tested.self_collides(options), !all.empty());
     EXPECT_EQ(reference.self_collides(options), !all.empty());
-    if (!measures && !random.one_in(8)) return;
-    const auto any = [&](const QueryOptions& o) { return tested.self_collides(o); };
-    const auto list = [&](const QueryOptions& o) { return tested.self_collisions(o); };
-    expect_decided(expect_on_their_sides(options, all, list, any));
-    options.precision = random.one_in(2) ? Precision::never_miss : Precision::never_cry_wolf;
-    expect_same(tested.self_closest(options), reference.self_closest(options));
   }
   void compare_with(Pair& other, Random& random) {
     QueryOptions options;
@@ -104,23 +96,10 @@ class Pair {
     expect_same(tested.closest(other.tested, AdmitAll{}, options),
                 reference.closest(other.reference, AdmitAll{}, options));
     EXPECT_EQ(tested.collides(other.tested, AdmitAll{}, options), !all.empty());
-    if (!measures && !random.one_in(8)) return;
-    const auto any = [&](const QueryOptions& o) { return tested.collides(other.tested, AdmitAll{}, o); };
-    const auto list = [&](const QueryOptions& o) { return tested.collisions(other.tested, AdmitAll{}, o); };
-    expect_decided(expect_on_their_sides(options, all, list, any));
   }
 
   Tested tested;
   Reference reference;
-
- private:
-  /// Only engine/simd measures points in float; every other combination decides all pairs.
-  static constexpr bool measures = std::is_same_v<Tested, Hierarchy<Point, F, TypedThresholds, Simd>>;
-  static void expect_decided(std::uint64_t undecided) {
-    if (!measures) {
-      EXPECT_EQ(undecided, 0U);
-    }
-  }
 };
 
 /// Compares all queries of EngineOf with brute force in several states, set through every kind of update.

@@ -68,48 +68,5 @@ TEST(Simd, KeepsStaticBlocksThroughCoordinatesFromElsewhere) {
   EXPECT_EQ(simd.self_collisions().size(), 2U);
 }
 
-/// The corners of a unit square, each on its own slider along x.
-Model<Point> square() {
-  ModelBuilder<Point> builder;
-  for (const Vec3& x : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)})
-    builder.add_link(world, Prismatic{{1, 0, 0}, {}, {}}, {Point{x}});
-  return builder.finish();
-}
-
-TEST(SimdInFloat, LeavesOpenWhatIsAtItsThresholdAndCountsIt) {
-  const ExcludedPairs one_side({{id<PrimitiveId>(1)}, {id<PrimitiveId>(0)}, {}, {}});
-  // Sides have length 1: above the threshold for types 0 and 1, at it for types 0 and 0. No side has types 1 and 1.
-  const TypedThresholds thresholds({0, 0, 0, 1}, 2, {1.0, 0.5, 0.5, 3.0});
-  Hierarchy simd(square(), one_side, thresholds);
-  const auto ask = [&](Precision precision, double margin) {
-    QueryCounts counts;
-    QueryOptions options;
-    options.precision = precision;
-    options.counts = &counts;
-    return std::pair(simd.self_within(margin, options).size(), counts.undecided);
-  };
-  using Answer = std::pair<std::size_t, std::uint64_t>;
-  EXPECT_EQ(ask(Precision::exact, 0.0), Answer(0, 0));
-  EXPECT_EQ(ask(Precision::never_miss, 0.0), Answer(1, 1));  // points 1 and 2; points 0 and 1 are excluded
-  EXPECT_EQ(ask(Precision::never_cry_wolf, 0.0), Answer(0, 1));
-  EXPECT_EQ(ask(Precision::exact, 0x1p-30), Answer(1, 0));
-  EXPECT_EQ(ask(Precision::never_cry_wolf, 0x1p-30), Answer(0, 1));
-  // A margin far above float resolution puts the sides of types 0 and 1 at their threshold.
-  EXPECT_EQ(ask(Precision::exact, 0.5), Answer(2, 0));
-  EXPECT_EQ(ask(Precision::never_miss, 0.5), Answer(4, 2));
-  EXPECT_EQ(ask(Precision::never_cry_wolf, 0.5), Answer(2, 2));
-}
-
-TEST(SimdInFloat, NeverHitsAtAThresholdOfZero) {
-  Hierarchy simd(square(), AdmitAll{}, TypedThresholds({0, 0, 0, 1}, 2, {0.0, 0.0, 0.0, 1.0}));
-  simd.update_placed(std::vector<Point>(4));
-  QueryCounts counts;
-  QueryOptions options;
-  options.precision = Precision::never_miss;
-  options.counts = &counts;
-  EXPECT_TRUE(simd.self_collisions(options).empty());
-  EXPECT_EQ(counts.undecided, 0U);
-}
-
 }  // namespace simd_test
 }  // namespace hinge

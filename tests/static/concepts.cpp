@@ -145,12 +145,9 @@ struct Plainest : NeverDone {
   int wants(LinkId, LinkId) const noexcept { return 1; }                // not a bool
 };
 static_assert(Collector<Plainest> && !StopsAtFirst<Plainest> && !KeepsSmallest<Plainest>);
-static_assert(!TakesErrors<Plainest> && !RefusesLinks<Plainest>);
+static_assert(!RefusesLinks<Plainest> && !detail::TakesMeasured<Plainest>);
+static_assert(!detail::AddsMeasured<Plainest>);
 static_assert(StopsAtFirst<AnyHit> && KeepsSmallest<Closest> && RefusesLinks<LinkPairHits>);
-struct Measured : Plainest {
-  void add_measured(const Hit&, double) {}
-};
-static_assert(TakesErrors<Measured>);
 
 template <class E, class P>
 concept EngineFor = Engine<E, P, AdmitAll, UniformClearance>;
@@ -183,8 +180,8 @@ static_assert(!AdditiveRadii<TypedThresholds> && !AdditiveRadii<UniformClearance
 static_assert(detail::TransformsBatch<Point> && detail::TransformsBatch<Capsule> && !detail::TransformsBatch<Triangle>);
 static_assert(detail::ComparesTwo<Sphere> && !detail::ComparesTwo<Capsule> && !detail::ComparesTwo<Triangle>);
 static_assert(detail::HasSmallHull<Capsule> && !detail::HasSmallHull<Triangle>);
-static_assert(detail::UsesStaticBvh<Triangle> && !detail::UsesStaticBvh<Capsule>);
 static_assert(detail::MeasuresDistances<Point> && !detail::MeasuresDistances<Sphere>);
+static_assert(detail::UsesStaticBvh<Triangle> && !detail::UsesStaticBvh<Capsule>);
 
 static_assert(Id<PrimitiveId> && !Id<int> && !std::is_convertible_v<LinkId, PrimitiveId>);
 

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -241,10 +240,9 @@ class Simd {
            const detail::ThresholdTable& table, const Convert& convert, const TestPair& test_pair,
            detail::WorkBudget& budget) {
     auto& collector = test_pair.collector;
-    constexpr bool may_measure = detail::MeasuresDistances<P> && !std::remove_reference_t<decltype(collector)>::ranks;
+    constexpr bool may_measure = detail::MeasuresDistances<P> && detail::AddsMeasured<TestPair>;
     detail::Measure measure;
-    if (may_measure && test_pair.rules.options.precision != Precision::exact)
-      measure = detail::Measure(one, sixteen, table, thresholds_, convert, collector.cutoff());
+    if constexpr (may_measure) measure = detail::Measure(one, sixteen, table, thresholds_, convert, collector.cutoff());
     budget.counts.pairs_tested += broad_phase_.candidates.size();
     narrow_phase<P>(
         broad_phase_.candidates, one, sixteen, convert, thresholds_,
@@ -252,16 +250,13 @@ class Simd {
           const std::uint32_t own = detail::slot<P>(at_one), first = detail::slot<P>(at_sixteen);
           const auto i = id<PrimitiveId>(one.layout().primitive[own]);
           const std::uint32_t* const others = sixteen.layout().primitive.data() + first;
-          const auto go_on = [&, before = collector.cutoff()] {
-            if (collector.cutoff() != before) set_thresholds(one, sixteen, table, convert, collector.cutoff());
-            return !collector.done();
-          };
           if constexpr (may_measure)
             if (measure.holds()) {
               const auto squared = convert(one.packed() + at_one).squared_distances(sixteen.packed() + at_sixteen);
-              budget.counts.undecided += measure(i, others, bits, squared, test_pair);
-              return go_on();
+              measure(i, others, bits, squared, test_pair);
+              return !collector.done();
             }
+          const double cutoff = collector.cutoff();
           // The first candidates with hits place only the primitives they need: one of them often answers the query.
           const bool few = visits_ < placed_alone;
           visits_ += few;
@@ -276,7 +271,8 @@ class Simd {
             const int k = std::countr_zero(bits);
             ++(test_pair(i, id<PrimitiveId>(others[k]), p, q[k]) ? budget.hits : budget.misses);
           }
-          return go_on();
+          if (collector.cutoff() != cutoff) set_thresholds(one, sixteen, table, convert, collector.cutoff());
+          return !collector.done();
         });
     broad_phase_.candidates.clear();
   }

@@ -136,7 +136,7 @@ void CertifiedPath<P, F, D, EngineOf>::list(const detail::PathSegment& segment) 
   if (!is_length(largest / rates_.scale())) return leave_undecided(segment, nullptr);
   clearance_.clear();
   for (const double d : displacements_.of_groups()) clearance_.push_back(d / rates_.scale());
-  const QueryOptions options{.clearance = clearance_, .precision = Precision::never_miss};  // extra pairs are safe
+  const QueryOptions options{.clearance = clearance_};
   if constexpr (by_links) {
     near_links_.clear();
     hierarchy_.self_query(near_links_, options);

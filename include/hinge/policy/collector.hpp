@@ -56,13 +56,6 @@ concept KeepsSmallest = Collector<C> && C::ranks && requires {
   requires C::keeps_smallest;
 };
 
-/// Optional refinement: add_measured also receives the error bound of a float distance (QueryOptions::precision), in
-/// the model's length unit.
-template <class C>
-concept TakesErrors = Collector<C> && requires(C& collector, const Hit& hit, double error) {
-  collector.add_measured(hit, error);
-};
-
 /// Optional refinement: wants(a, b) returns false for pairs of links that need no more hits. Within one query a
 /// rejected pair of links must stay rejected.
 template <class C>

@@ -38,7 +38,7 @@ struct StaysApart {
 template <Primitive P, DistanceMatrix D>
 StaysApart(const SelectedModel<P>&, const D&, const GroupRates&, RelativeMotions&, double) -> StaysApart<P, D>;
 
-/// A collector. It calls `stays_apart` for pairs with a measured distance.
+/// A collector. It calls `stays_apart` for pairs with a measured distance (see TakesMeasured).
 template <class Proof>
 class ListedPairs {
  public:

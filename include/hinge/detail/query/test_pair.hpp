@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// test_pair: the leaf kernel. Every engine and query mode decides pairs of primitives here, exactly or from a measured
-// float distance.
+// test_pair: the leaf kernel. Every engine and query mode decides pairs of primitives here, exactly.
 #pragma once
 
 #include "hinge/core/id.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/policy/primitive.hpp"
-#include "hinge/query/query_options.hpp"
 
 namespace hinge::detail {
 
@@ -27,25 +25,6 @@ bool test_pair(C& collector, PrimitiveId i, PrimitiveId j, const P& p, const P& 
     collector.add(Hit{i, j, near > 0.0 ? distance(p, q) : 0.0, m});
   }
   return true;
-}
-
-/// The same for point-like primitives whose distance is within `error` of `measured`. When this interval contains the
-/// threshold, the pair is undecided and `precision` determines the result. Returns 1 for an undecided pair, otherwise
-/// 0.
-template <Collector C, class Admitted>
-unsigned test_measured_pair(C& collector, Precision precision, PrimitiveId i, PrimitiveId j, double measured,
-                            double error, double m, Admitted&& admitted) {
-  const double near = m + collector.cutoff();
-  if (!(near > 0.0) || measured - error >= near) return 0;
-  const bool open = measured + error >= near;
-  if (!admitted()) return 0;
-  if (!open || precision == Precision::never_miss) {
-    if constexpr (TakesErrors<C>)
-      collector.add_measured(Hit{i, j, measured, m}, error);
-    else
-      collector.add(Hit{i, j, measured, m});
-  }
-  return open ? 1 : 0;
 }
 
 }  // namespace hinge::detail

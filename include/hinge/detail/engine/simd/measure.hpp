@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measure: verdicts by float distances, for queries with a precision below exact.
+// Measure: float distances of candidates, for collectors that need no exact decision.
 #pragma once
 
 #include <algorithm>
@@ -40,20 +40,18 @@ class Measure {
   /// True if distances can be measured.
   bool holds() const noexcept { return is_finite(error_); }
 
-  /// Tests primitive i against the lanes of the sixteen `others`, until the collector is done. squared: their squared
-  /// distances in scaled units. Returns the number of undecided pairs.
+  /// Passes primitive i with the lanes of the sixteen `others` to the collector of `test_pair`, until it is done.
+  /// squared: their squared distances in scaled units.
   template <class TestPair>
-  [[gnu::always_inline]] std::uint64_t operator()(PrimitiveId i, const std::uint32_t* others, simd::Bits lanes,
-                                                  const simd::Float16& squared, const TestPair& test_pair) const {
+  [[gnu::always_inline]] void operator()(PrimitiveId i, const std::uint32_t* others, simd::Bits lanes,
+                                         const simd::Float16& squared, const TestPair& test_pair) const {
     alignas(64) std::array<float, simd::width> squares;
     squared.store(squares.data());
-    std::uint64_t undecided = 0;
     for (; lanes != 0 && !test_pair.collector.done(); lanes &= lanes - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(lanes));
       const double distance = static_cast<double>(std::sqrt(squares[k])) * unit_;
-      undecided += test_pair(i, id<PrimitiveId>(others[k]), distance, error_);
+      test_pair.add_measured(i, id<PrimitiveId>(others[k]), distance, error_);
     }
-    return undecided;
   }
 
  private:

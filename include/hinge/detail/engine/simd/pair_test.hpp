@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SelfPairTest and CrossPairTest: decide pairs that floats cannot rule out, exactly or by a measured distance.
+// SelfPairTest and CrossPairTest: decide pairs that floats cannot rule out.
 #pragma once
 
 #include "hinge/core/id.hpp"
@@ -8,6 +8,14 @@
 #include "hinge/policy/primitive.hpp"
 
 namespace hinge::detail {
+
+/// A collector that wants every pair which may lie within the cutoff, without an exact decision. Queries inside one
+/// model pass it points by add_measured(hit, error) instead of add(hit), where floats hold the coordinates: the
+/// distance of the hit has an error of at most `error` (model length unit), and distance - error < M + cutoff.
+template <class C>
+concept TakesMeasured = Collector<C> && !C::ranks && requires(C & collector, const Hit& hit, double error) {
+  collector.add_measured(hit, error);
+};
 
 /// Pairs inside one model, in either order. `admits(i, j)` with i < j tells whether the pair counts.
 template <Collector C, class Rules, class Admits>
@@ -24,11 +32,13 @@ struct SelfPairTest {
     return test_pair(collector, first, second, turned ? q : p, turned ? p : q, rules.threshold(first, second),
                      [&] { return admits(first, second); });
   }
-  /// Decides by a measured distance with error at most `error`. Returns the number of undecided pairs, 0 or 1.
-  [[gnu::always_inline]] unsigned operator()(PrimitiveId i, PrimitiveId j, double measured, double error) const {
+  /// Adds the pair with its measured distance, unless it surely lies outside the cutoff. See TakesMeasured.
+  [[gnu::always_inline]] void add_measured(PrimitiveId i, PrimitiveId j, double measured,
+                                           double error) const requires TakesMeasured<C> {
     const PrimitiveId first = j < i ? j : i, second = j < i ? i : j;
-    return test_measured_pair(collector, rules.options.precision, first, second, measured, error,
-                              rules.threshold(first, second), [&] { return admits(first, second); });
+    const double m = rules.threshold(first, second), near = m + collector.cutoff();
+    if (near > 0.0 && measured - error < near && admits(first, second))
+      collector.add_measured(Hit{first, second, measured, m}, error);
   }
 };
 
@@ -42,10 +52,12 @@ struct CrossPairTest {
   bool operator()(PrimitiveId i, PrimitiveId j, const P& p, const P& q) const {
     return test_pair(collector, i, j, p, q, rules.threshold(i, j), [&] { return rules.admits(i, j); });
   }
-  unsigned operator()(PrimitiveId i, PrimitiveId j, double measured, double error) const {
-    return test_measured_pair(collector, rules.options.precision, i, j, measured, error, rules.threshold(i, j),
-                              [&] { return rules.admits(i, j); });
-  }
+};
+
+/// True if the pairs of a query may be added with measured distances.
+template <class TestPair>
+concept AddsMeasured = requires(const TestPair& test_pair, PrimitiveId i) {
+  test_pair.add_measured(i, i, 0.0, 0.0);
 };
 
 template <Collector C, class Rules, class Admits>

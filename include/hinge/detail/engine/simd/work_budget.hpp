@@ -28,7 +28,6 @@ struct WorkBudget {
     total->boxes_tested += counts.boxes_tested * simd::width + searched.boxes_tested;
     total->nodes_split += searched.nodes_split;
     total->pairs_tested += counts.pairs_tested * simd::width + searched.pairs_tested;
-    total->undecided += counts.undecided;
   }
 
  private:
