@@ -47,7 +47,9 @@ class BondExclusions {
   /// True if the pair is in the scope and not listed by excluded().
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept {
     const auto list = excluded(i);
-    return in_scope(i, j) && !std::binary_search(list.begin(), list.end(), j);
+    // Most pairs that come close are far apart in the file, outside the range of the list.
+    const bool outside = list.empty() || j < list.front() || j > list.back();
+    return in_scope(i, j) && (outside || !std::binary_search(list.begin(), list.end(), j));
   }
   /// True if the pair is in the scope, for any number of bonds.
   bool in_scope(PrimitiveId i, PrimitiveId j) const noexcept { return scope_.holds(i, j); }
