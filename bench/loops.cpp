@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Loops of 1UBQ, closed from random starts by the solver and by cyclic coordinate descent on the same tree, to the
-// tolerance of that paper and to 1e-6 angstrom; and all closures of three pivots. Prints the share of closed starts
-// and the time of a start.
+// tolerance of that paper and to 1e-6 angstrom. Prints the share of closed starts and the time of a start.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,7 +12,6 @@
 #include <vector>
 
 #include "hinge/core/philox.hpp"
-#include "hinge/detail/kinematics/tripeptide_closure.hpp"
 #include "hinge/kinematics/closure_solver.hpp"
 #include "hinge/molecular/closed_sampler.hpp"
 #include "hinge/molecular/loop.hpp"
@@ -129,32 +127,5 @@ int main(int argc, char** argv) {
           starts);
     std::printf("\n");
   }
-  // Pivots like those of residues: bonds in any direction, neighbours 3.8 angstrom apart.
-  SampleStream random(1, 0);
-  const auto direction = [&] {
-    Vec3 v;
-    do v = Vec3(random.normal(), random.normal(), random.normal());
-    while (!(norm(v) > 0.1));
-    return Vec3(v / norm(v));
-  };
-  std::vector<double> times;
-  std::size_t solutions = 0;
-  for (std::uint64_t k = 0; k < starts; ++k) {
-    detail::OpenChain chain;
-    Vec3 at = Vec3::Zero();
-    for (detail::Pivot& pivot : chain.pivots) {
-      pivot = {at + 1.46 * direction(), at, at + 1.53 * direction()};
-      at += 3.8 * direction();
-    }
-    chain.end_at = chain.pivots[2].at;
-    chain.end_behind = chain.pivots[2].behind;
-    const double start = thread_microseconds();
-    solutions += solve_tripeptide_closure(chain).size();
-    times.push_back(thread_microseconds() - start);
-  }
-  std::sort(times.begin(), times.end());
-  std::printf("all closures of three pivots: %.2f on average, %.1f us (median), %.1f us (90th percentile)\n",
-              static_cast<double>(solutions) / static_cast<double>(starts), times[times.size() / 2],
-              times[times.size() * 9 / 10]);
   return 0;
 }
