@@ -192,8 +192,7 @@ TEST(BiocdEnsemble, KeepsWhatWasCheckedBeforeAFileBreaksOff) {
 
 TEST(BiocdEnsemble, SaysWhichBondsAndClosuresABrokenConformationHas) {
   // Crambin's disulphides are closures. Moving its second half by 3 angstrom breaks bonds and some of the closures.
-  const auto crambin = test::shared_molecules() / "1crn.pdb";
-  if (!std::filesystem::exists(crambin)) GTEST_SKIP() << "shared data not found";
+  const auto crambin = test::molecule_file("1crn.pdb");
   const Structure s = read_structure(crambin);
   Frame torn = s.models[0];
   for (std::size_t i = 0; i < torn.size(); ++i)

@@ -148,8 +148,7 @@ TEST(BiocdLoop, GivesTheSameBytesEverywhere) {
 }
 
 TEST(BiocdLoop, KeepsDisulphidesAndHydrogenBonds) {
-  const auto pti = test::shared_molecules() / "5pti.pdb";
-  if (!std::filesystem::exists(pti)) GTEST_SKIP() << "shared data not found";
+  const auto pti = test::molecule_file("5pti.pdb");
   const auto run = [&](const std::string& more) {
     return Json::parse(run_biocd("sample " + pti.string() + " -n 10 --sigma 5 --json " + more + " 2>/dev/null").out);
   };

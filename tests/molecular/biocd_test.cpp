@@ -191,13 +191,12 @@ TEST(Biocd, LeavesNothingHalfWritten) {
   EXPECT_FALSE(std::filesystem::exists("/nonexistent/x.pdb.partial"));
 }
 
-TEST(Biocd, InformsAboutOrRefusesEverySharedFile) {
-  if (!std::filesystem::exists(test::shared_molecules())) GTEST_SKIP() << "shared data not found";
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(test::shared_molecules())) {
-    const std::string extension = entry.path().extension().string();
-    if (!entry.is_regular_file() || extension == ".md" || extension == ".dcd" || extension == ".xtc") continue;
-    SCOPED_TRACE(entry.path().string());
-    const Outcome outcome = biocd("info " + entry.path().string() + " --free none 2>&1 >/dev/null");
+TEST(Biocd, InformsAboutOrRefusesEveryFile) {
+  for (const std::filesystem::path& file : test::molecule_files()) {
+    const std::string extension = file.extension().string();
+    if (extension == ".md" || extension == ".dcd" || extension == ".xtc") continue;
+    SCOPED_TRACE(file.string());
+    const Outcome outcome = biocd("info " + file.string() + " --free none 2>&1 >/dev/null");
     if (outcome.status == 3) {
       EXPECT_TRUE(outcome.out.starts_with("biocd: ")) << outcome.out;
       EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 1) << outcome.out;

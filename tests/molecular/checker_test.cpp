@@ -135,7 +135,7 @@ struct Case {
 class SharedProteins : public testing::TestWithParam<Case> {};
 
 TEST_P(SharedProteins, GiveEqualAnswersOnAllEngines) {
-  const auto file = test::shared_molecules() / GetParam().file;
+  const auto file = test::molecule_file(GetParam().file);
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
   ReadOptions options;
   options.keep_hydrogens = GetParam().hydrogens;
@@ -174,28 +174,25 @@ TEST(NativeContacts, OfUbiquitinAreOne) {
 }
 
 TEST(NativeContacts, AgreeWithIndependentCounts) {
-  const auto folder = test::shared_molecules();
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "shared data not found";
   const CheckOptions rules;
   for (const auto& [file, expected] : {std::pair("1ejg.pdb", 0U), std::pair("1crn.pdb", 0U), std::pair("5pti.pdb", 0U),
                                        std::pair("paper/1be0.cif", 0U), std::pair("paper/1mbo.pdb", 0U),
                                        std::pair("paper/2d0f.pdb", 1U), std::pair("paper/1mbn.pdb", 20U)})
-    EXPECT_EQ(native_contacts(folder / file, false, rules), expected) << file;
+    EXPECT_EQ(native_contacts(test::molecule_file(file), false, rules), expected) << file;
   // 4HHB has 10 contacts with template bonds. Bonds by distance alone would give 257, because 127 covalent bonds of
   // this old refinement are longer than radii + 0.4 angstrom (docs/explanation/native_contacts.md).
-  EXPECT_EQ(native_contacts(folder / "4hhb.pdb.gz", false, rules), 10U);
+  EXPECT_EQ(native_contacts(test::molecule_file("4hhb.pdb.gz"), false, rules), 10U);
 }
 
 TEST(NativeContacts, WithHydrogensNeedTheHydrogenBondRule) {
-  const auto folder = test::shared_molecules();
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "shared data not found";
+  const auto crambin = test::molecule_file("1ejg.pdb"), cage = test::molecule_file("1l2y.pdb");
   CheckOptions rules;
   rules.thresholds.rules = "biocd";
-  EXPECT_EQ(native_contacts(folder / "1ejg.pdb", true, rules), 3U);
-  EXPECT_EQ(native_contacts(folder / "1l2y.pdb", true, rules), 1U);
+  EXPECT_EQ(native_contacts(crambin, true, rules), 3U);
+  EXPECT_EQ(native_contacts(cage, true, rules), 1U);
   rules.thresholds.hydrogen_bonds = false;
-  EXPECT_EQ(native_contacts(folder / "1ejg.pdb", true, rules), 33U);
-  EXPECT_EQ(native_contacts(folder / "1l2y.pdb", true, rules), 10U);
+  EXPECT_EQ(native_contacts(crambin, true, rules), 33U);
+  EXPECT_EQ(native_contacts(cage, true, rules), 10U);
 }
 
 /// Returns how many conformations of a file or trajectory are free.
@@ -213,18 +210,17 @@ std::size_t free_conformations(const std::string& arguments, std::size_t expecte
 }
 
 TEST(NativeContacts, LeaveDepositedStructuresWithHydrogensFreeByDefault) {
-  const auto folder = test::shared_molecules();
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "shared data not found";
-  const std::string at = folder.string() + "/";
-  EXPECT_EQ(free_conformations(at + "adk_closed.pdb " + at + "adk_dims.dcd", 98), 96U);
-  EXPECT_EQ(free_conformations(at + "1l2y.pdb", 38), 38U);
-  EXPECT_EQ(free_conformations(at + "paper/nmr_neopetrosiamide.pdb", 24), 24U);
+  const auto file = [](const char* name) { return test::molecule_file(name).string(); };
+  EXPECT_EQ(free_conformations(file("1l2y.pdb"), 38), 38U);
+  EXPECT_EQ(free_conformations(file("nmr_neopetrosiamide.pdb"), 24), 24U);
+  EXPECT_EQ(free_conformations(file("1ejg.pdb"), 1), 1U);
+  if (!std::filesystem::exists(test::shared_molecules())) return;
+  EXPECT_EQ(free_conformations(file("adk_closed.pdb") + " " + file("adk_dims.dcd"), 98), 96U);
   // The models of 2AXD differ in one atom, so each is read alone.
   for (const char* model : {"1", "2", "12"})
-    EXPECT_EQ(free_conformations(at + "paper/2axd.pdb.gz --model " + model, 1), 1U);
-  EXPECT_EQ(free_conformations(at + "1ejg.pdb", 1), 1U);
+    EXPECT_EQ(free_conformations(file("paper/2axd.pdb.gz") + " --model " + model, 1), 1U);
   // The rings of Phe47 and Phe51 overlap by 0.94 angstrom in each frame.
-  EXPECT_EQ(free_conformations(at + "paper/1vii_3frames.pdb", 3), 0U);
+  EXPECT_EQ(free_conformations(file("paper/1vii_3frames.pdb"), 3), 0U);
 }
 
 TEST(Thresholds, AreSevereByDefaultWhereHydrogensAre) {
@@ -246,8 +242,7 @@ TEST(Thresholds, AreSevereByDefaultWhereHydrogensAre) {
 }
 
 TEST(NativeContacts, OfEveryRadiiSetStayFewOnCrambin) {
-  const auto file = test::shared_molecules() / "1ejg.pdb";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
+  const auto file = test::molecule_file("1ejg.pdb");
   CheckOptions rules;
   for (const auto& [set, expected] : {std::pair("bondi", 0U), std::pair("probe", 0U), std::pair("amber", 2U)}) {
     rules.thresholds.radii = set;

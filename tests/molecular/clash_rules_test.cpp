@@ -339,8 +339,7 @@ TEST(ClashRules, AreWhatEveryEngineAnswersWithoutHydrogens) {
 }
 
 TEST(ClashRules, AreWhatEveryEngineAnswersWithHydrogens) {
-  const auto file = test::shared_molecules() / "1l2y.pdb";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
+  const auto file = test::molecule_file("1l2y.pdb");
   ReadOptions first;
   first.model = 1;
   const auto molecule = std::make_shared<const Molecule>(read_structure(file, first));

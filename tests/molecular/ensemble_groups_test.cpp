@@ -188,7 +188,7 @@ TEST(EnsembleGroups, RefuseWhatIsNoEnsemble) {
 }
 
 TEST(EnsembleGroups, OfAdenylateKinaseAreItsDomains) {
-  const auto topology = test::shared_molecules() / "adk_closed.pdb", frames = test::shared_molecules() / "adk_dims.dcd";
+  const auto topology = test::molecule_file("adk_closed.pdb"), frames = test::molecule_file("adk_dims.dcd");
   if (!std::filesystem::exists(frames)) GTEST_SKIP() << "shared data not found";
   const Molecule m(read_structure(topology));
   const Trajectory trajectory(frames, m.structure());

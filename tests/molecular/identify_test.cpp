@@ -137,8 +137,7 @@ TEST(Bonds, JoinNoTwoCopiesOfAnAtom) {
 }
 
 TEST(Bonds, CloseABackboneRing) {
-  const auto file = test::shared_molecules() / "1sfi.cif";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
+  const auto file = test::molecule_file("1sfi.cif");
   const Structure s = read_structure(file);
   EXPECT_TRUE(bonded(s, "I:GLY1:N", "I:ASP14:C"));
   EXPECT_EQ(
@@ -148,8 +147,8 @@ TEST(Bonds, CloseABackboneRing) {
 
 TEST(Bonds, GiveEveryHydrogenExactlyOne) {
   for (const char* name : {"1ejg.pdb", "5pti_old.pdb", "adk_closed.pdb", "paper/1vii_3frames.pdb"}) {
-    const auto file = test::shared_molecules() / name;
-    if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
+    const auto file = test::molecule_file(name);
+    if (!std::filesystem::exists(file)) continue;
     const Structure s = read_structure(file);
     const auto neighbours = bonded_neighbours(s);
     for (std::uint32_t i = 0; i < s.atoms.size(); ++i)
@@ -160,7 +159,7 @@ TEST(Bonds, GiveEveryHydrogenExactlyOne) {
 }
 
 TEST(Models, ThatDifferShareTheirCommonAtoms) {
-  const auto file = test::shared_molecules() / "paper/2axd.pdb.gz";
+  const auto file = test::molecule_file("paper/2axd.pdb.gz");
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
   const Structure s = read_structure(file);
   EXPECT_EQ(s.models.size(), 12U);

@@ -86,7 +86,7 @@ Molecule shared(const std::string& name, const std::filesystem::path& dictionary
   ReadOptions options;
   options.hetero = true;
   options.dictionary = dictionary;
-  return Molecule(read_structure(test::shared_molecules() / name, options));
+  return Molecule(read_structure(test::molecule_file(name), options));
 }
 
 Counts bonds_that_turn(const Molecule& m) {
@@ -322,8 +322,7 @@ TEST(Hydrogens, OfAminoAcidsAreBondedByTheirNames) {
 }
 
 TEST(ModifiedResidues, KeepTheirOxygensFromTheBackbone) {
-  const auto file = test::shared_molecules() / "1a4w.cif";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
+  const auto file = test::molecule_file("1a4w.cif");
   // O1 and O2 in the sulphate of sulphotyrosine are also GROMOS' names of terminal oxygens.
   const Structure s = read_structure(file);
   for (const Bond& bond : s.bonds)
@@ -364,13 +363,11 @@ TEST(Metals, AreBondedToWhatTheFileSaysAndClashWithNone) {
 }
 
 TEST(AlternativeLocations, ThatAreLeftOutAreCounted) {
-  const auto file = test::shared_molecules() / "1ejg.pdb";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
+  const auto file = test::molecule_file("1ejg.pdb");
   EXPECT_TRUE(has_note(read_structure(file), "alternative locations: "));
 }
 
 TEST(Ligands, OfRealStructuresTurnAsCountedByHand) {
-  if (!std::filesystem::exists(test::shared_molecules())) GTEST_SKIP() << "shared data not found";
   // KNI-272: five rings, four amides and eleven terminal bonds do not rotate; fourteen bonds do.
   const Molecule protease = shared("1hpx.pdb");
   EXPECT_EQ(bonds_that_turn(protease), (Counts{{"bonds of KNI", 14}}));
@@ -386,7 +383,7 @@ TEST(Ligands, OfRealStructuresTurnAsCountedByHand) {
 }
 
 TEST(Ligands, OfAnMmcifFileBringTheirOwnComponents) {
-  const auto file = test::shared_molecules() / "1igy.cif.gz";
+  const auto file = test::molecule_file("1igy.cif.gz");
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
   // Each sugar has the rotatable bond C5-C6, and N-acetyl C2-N2. Two more bonds join it to the next sugar or to
   // asparagine.
@@ -396,11 +393,10 @@ TEST(Ligands, OfAnMmcifFileBringTheirOwnComponents) {
 }
 
 TEST(Ligands, AreTheSameFromEverySource) {
-  const auto file = test::shared_molecules() / "1hpx.pdb";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
+  const auto file = test::molecule_file("1hpx.pdb");
   const Molecule by_conect = shared("1hpx.pdb");
   std::string text, line;
-  std::ifstream in(file);
+  std::istringstream in(test::gunzipped(file));
   while (std::getline(in, line))
     if (!line.starts_with("CONECT")) text += line + "\n";
   const Molecule by_radii(read(text));
@@ -411,31 +407,32 @@ TEST(Ligands, AreTheSameFromEverySource) {
   EXPECT_EQ(source_of(by_dictionary.structure(), "KNI"), test::dictionary.string());
   EXPECT_EQ(names(by_dictionary), names(by_conect));
   // The haems of 4HHB have bonds of 2.3 angstrom, longer than the covalent radii allow; each has eight rotatable bonds.
-  EXPECT_EQ(bonds_that_turn(shared("4hhb.cif.gz", test::dictionary)), (Counts{{"bonds of HEM", 32}}));
+  EXPECT_EQ(bonds_that_turn(shared("4hhb.pdb.gz", test::dictionary)), (Counts{{"bonds of HEM", 32}}));
 }
 
 TEST(NativeContacts, OfEveryKindOfMoleculeAreThoseOfTheDocs) {
-  if (!std::filesystem::exists(test::shared_molecules())) GTEST_SKIP() << "shared data not found";
   for (const auto& [file, expected] :
        {std::pair("1bna.pdb", 0U), std::pair("1ehz.pdb.gz", 4U), std::pair("1d66.pdb", 3U), std::pair("1hpx.pdb", 0U),
         std::pair("1a4w.pdb", 8U), std::pair("2src.pdb", 3U), std::pair("1igy.cif.gz", 19U)}) {
+    if (!std::filesystem::exists(test::molecule_file(file))) continue;
     ReadOptions options = test::heavy_atoms();
     options.hetero = true;
-    const auto m = std::make_shared<const Molecule>(read_structure(test::shared_molecules() / file, options));
+    const auto m = std::make_shared<const Molecule>(read_structure(test::molecule_file(file), options));
     EXPECT_EQ(Checker(m, m->select({}), {}).reference_collisions().size(), expected) << file;
   }
 }
 
 TEST(Ligands, GiveEqualAnswersOnAllEngines) {
-  if (!std::filesystem::exists(test::shared_molecules())) GTEST_SKIP() << "shared data not found";
   for (const auto& [file, spec, count] :
        {std::tuple("1hpx.pdb", "all", 5), std::tuple("1a4w.pdb", "all", 3), std::tuple("2src.pdb", "ligands", 2),
-        std::tuple("4hhb.pdb.gz", "ligands", 1), std::tuple("1igy.cif.gz", "ligands", 1)})
+        std::tuple("4hhb.pdb.gz", "ligands", 1), std::tuple("1igy.cif.gz", "ligands", 1)}) {
+    if (!std::filesystem::exists(test::molecule_file(file))) continue;
     test::expect_engines_agree(std::make_shared<const Molecule>(shared(file)), spec, count);
+  }
 }
 
 TEST(Ligands, InARibosomeGiveEqualAnswersOnSimdAndLazy) {
-  const auto file = test::shared_molecules() / "6zu5.cif.gz";
+  const auto file = test::molecule_file("6zu5.cif.gz");
   if (std::getenv("HINGE_TEST_ALL") == nullptr || !std::filesystem::exists(file))
     GTEST_SKIP() << "shared data and HINGE_TEST_ALL only";
   // 3910 nucleotides in 3 chains with 21 breaks, 10 308 amino acids in 71 chains.

@@ -123,8 +123,7 @@ TEST(Loops, CloseInUbiquitinAlsoWithProlinesAndTwoAtATime) {
 }
 
 TEST(Loops, CloseInMyoglobin) {
-  const auto file = test::shared_molecules() / "paper/1mbn.pdb";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
+  const auto file = test::molecule_file("paper/1mbn.pdb");
   const Structure s = read_structure(file);
   for (const char* loop : {"A:40-52", "A:78-86", "_:40-52"}) {
     if (s.chains.front().name.empty() != (loop[0] == '_')) continue;
@@ -262,7 +261,7 @@ void expect_kept(const Structure& s, const MoleculeOptions& options, const Sampl
 
 TEST(Closures, OfDisulphidesAreKept) {
   for (const char* name : {"5pti.pdb", "1crn.pdb"}) {
-    const auto file = test::shared_molecules() / name;
+    const auto file = test::molecule_file(name);
     if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
     const Structure s = read_structure(file);
     expect_kept(s, {}, {1, {}}, 10);
@@ -271,21 +270,18 @@ TEST(Closures, OfDisulphidesAreKept) {
 }
 
 TEST(Closures, OfACyclicBackboneAreKeptWithItsOmega) {
-  const auto file = test::shared_molecules() / "1sfi.cif";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
+  const auto file = test::molecule_file("1sfi.cif");
   expect_kept(read_structure(file), {}, {1, {}}, 5);
 }
 
 TEST(Loops, CloseWithinACyclicBackbone) {
-  const auto file = test::shared_molecules() / "1sfi.cif";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
+  const auto file = test::molecule_file("1sfi.cif");
   const Structure s = read_structure(file);
   for (const char* loop : {"I:4-8", "I:5-10"}) expect_closed(s, loop, per_loop(10));
 }
 
 TEST(Closures, LeaveADisulphideThatALoopHolds) {
-  const auto file = test::shared_molecules() / "5pti.pdb";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
+  const auto file = test::molecule_file("5pti.pdb");
   const Structure s = read_structure(file);
   const auto m = with_loop(s, "A:12-19");  // contains Cys 14, bonded to Cys 38
   EXPECT_EQ(m->model().tree().closures().size(), 4U);

@@ -35,8 +35,7 @@ TEST(Torsions, OfUbiquitinAreCountedByThePapersConvention) {
 }
 
 TEST(Torsions, OfMyoglobinAreThoseOfThePaper) {
-  const auto file = test::shared_molecules() / "paper/1mbn.pdb";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
+  const auto file = test::molecule_file("paper/1mbn.pdb");
   const Molecule m(read_structure(file));
   EXPECT_EQ(select_torsions(m, "all", true).size(), 743U);
   EXPECT_EQ(select_torsions(m, "all", false).size(), 591U);
@@ -118,8 +117,7 @@ TEST(Molecule, CallsConstantExactlyThePairsThatNeverMove) {
 }
 
 TEST(Molecule, ReportsDisulphidesAsClosures) {
-  const auto file = test::shared_molecules() / "1crn.pdb";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
+  const auto file = test::molecule_file("1crn.pdb");
   auto molecule = std::make_shared<const Molecule>(read_structure(file));
   EXPECT_EQ(molecule->model().tree().closures().size(), 3U);
   const auto all = select_torsions(*molecule, "all", false);

@@ -256,8 +256,7 @@ TEST(NucleicAcid, GivesEqualAnswersOnAllEngines) {
 }
 
 TEST(NucleicAcid, WithModifiedNucleotidesIsOneChain) {
-  const auto file = test::shared_molecules() / "1ehz.pdb.gz";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
+  const auto file = test::molecule_file("1ehz.pdb.gz");
   const auto m = molecule(file, true);
   // One chain of 76 nucleotides; the first has a phosphate. Both 2'-O-methyl groups rotate, and five bonds in the tail
   // of wybutosine: its ester and carbamate bonds are as short as double bonds in these coordinates.
@@ -282,8 +281,7 @@ TEST(NucleicAcid, WithModifiedNucleotidesIsOneChain) {
 }
 
 TEST(NucleicAcid, WithProteinAndMetalsIsCountedByHand) {
-  const auto file = test::shared_molecules() / "1d66.pdb";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "shared data not found";
+  const auto file = test::molecule_file("1d66.pdb");
   const auto m = molecule(file, true);
   // Two strands of 19 nucleotides without 5' phosphates; two proteins of 57 residues, with three prolines besides the
   // first residue.

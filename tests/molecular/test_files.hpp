@@ -6,11 +6,13 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <vector>
 
 #include "hinge/molecular/read_structure.hpp"
 
@@ -21,6 +23,36 @@ inline std::filesystem::path ubiquitin() { return std::filesystem::path(HINGE_SO
 
 /// Returns the folder of shared structures, which may not exist.
 inline std::filesystem::path shared_molecules() { return std::filesystem::path(HINGE_SHARED_DATA) / "molecules"; }
+
+/// Returns the folders of committed structures.
+inline std::vector<std::filesystem::path> committed_molecules() {
+  const std::filesystem::path root = HINGE_SOURCE_DIR;
+  return {root / "tests/molecular/data", root / "molecular/data"};
+}
+
+/// Returns the path of a structure or trajectory: the committed one, otherwise a shared one, which may not exist. name:
+/// relative to the shared folder.
+inline std::filesystem::path molecule_file(const std::filesystem::path& name) {
+  for (const auto& folder : committed_molecules())
+    for (const char* extension : {"", ".gz"}) {
+      const auto committed = folder / (name.filename().string() + extension);
+      if (std::filesystem::exists(committed)) return committed;
+    }
+  return shared_molecules() / name;
+}
+
+/// Returns all committed and shared files, sorted.
+inline std::vector<std::filesystem::path> molecule_files() {
+  std::vector<std::filesystem::path> files;
+  auto folders = committed_molecules();
+  folders.push_back(shared_molecules());
+  for (const auto& folder : folders)
+    if (std::filesystem::exists(folder))
+      for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+        if (entry.is_regular_file()) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
 
 /// A temporary file with this text; the destructor removes it.
 class TemporaryFile {
@@ -51,6 +83,16 @@ inline std::string gzipped(const std::string& text, std::size_t times = 1) {
   std::string all;
   for (std::size_t k = 0; k < times; ++k) all += member;
   return all;
+}
+
+/// Returns the text of a file, compressed or not.
+inline std::string gunzipped(const std::filesystem::path& path) {
+  const gzFile in = gzopen(path.c_str(), "rb");
+  std::string text;
+  char piece[4096];
+  for (int n; (n = gzread(in, piece, sizeof piece)) > 0;) text.append(piece, static_cast<std::size_t>(n));
+  gzclose(in);
+  return text;
 }
 
 /// Returns options that drop hydrogens.

@@ -407,10 +407,9 @@ TEST(PdbModels, RefusesAnotherMoleculeAndBlankCoordinates) {
 }
 
 TEST(Trajectory, ReadsTheSameModelsFromEveryFormat) {
-  const auto folder = test::shared_molecules();
-  if (!std::filesystem::exists(folder / "1l2y.xtc")) GTEST_SKIP() << "no shared data";
-  const Structure s = read_structure(folder / "1l2y.pdb");
-  const Trajectory pdb(folder / "1l2y.pdb", s), dcd(folder / "1l2y.dcd", s), xtc(folder / "1l2y.xtc", s);
+  const auto models = test::molecule_file("1l2y.pdb");
+  const Structure s = read_structure(models);
+  const Trajectory pdb(models, s), dcd(test::molecule_file("1l2y.dcd"), s), xtc(test::molecule_file("1l2y.xtc"), s);
   ASSERT_EQ(pdb.size(), 38U);
   ASSERT_EQ(dcd.size(), 38U);
   ASSERT_EQ(xtc.size(), 38U);
