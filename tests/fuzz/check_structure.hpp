@@ -41,8 +41,8 @@ inline void check_well_formed(const hinge::molecular::Structure& s) {
   require(atom == s.atoms.size(), "atoms of no residue");
   for (const auto& a : s.atoms) require(a.residue < s.residues.size(), "an atom of a residue that is not there");
   for (const auto& bond : s.bonds) require(bond.first < bond.second && bond.second < atom, "a bond of no two atoms");
-  for (const auto& link : s.links)
-    require(link.first < atom && link.second < atom, "a link of an atom that is not there");
+  for (const auto& bond : s.bond_records)
+    require(bond.first < atom && bond.second < atom, "a bond record of an atom that is not there");
   for (const auto& element : s.secondary_structure)
     require(element.first <= element.last && element.last < residue, "a helix or strand of no residues");
 }

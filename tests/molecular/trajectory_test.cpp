@@ -371,7 +371,7 @@ TEST(PdbModels, KnowsTheBondsThatAreListedBehindThem) {
     EXPECT_EQ(first.bonds[0].origin, all.bonds[0].origin);
     EXPECT_EQ(first.bonds[0].order, all.bonds[0].order);
     EXPECT_EQ(first.bonds[0].origin == BondOrigin::record, end != "END\n");
-    EXPECT_EQ(first.links.size(), all.links.size());
+    EXPECT_EQ(first.bond_records.size(), all.bond_records.size());
     EXPECT_EQ(first.atom_records, 2U);
   }
 }

@@ -97,20 +97,20 @@ class Perception {
   void bond_recorded() {
     std::size_t ignored = 0;
     std::string first_ignored;
-    for (const Link& link : s_.links) {
-      if (link.conect && s_.atoms[link.first].residue == s_.atoms[link.second].residue) continue;  // in ResidueBonds
-      const double d = bonds_.distance(link.first, link.second);
-      const bool metal = is_metal(s_.atoms[link.first].element) || is_metal(s_.atoms[link.second].element);
-      const bool holds = link.disulphide ? d <= recorded_disulphide_max
-                                         : bonds_.within_radii(link.first, link.second) ||
-                                               (metal && !link.conect && d <= recorded_coordination_max);
+    for (const BondRecord& bond : s_.bond_records) {
+      if (bond.conect && s_.atoms[bond.first].residue == s_.atoms[bond.second].residue) continue;  // in ResidueBonds
+      const double d = bonds_.distance(bond.first, bond.second);
+      const bool metal = is_metal(s_.atoms[bond.first].element) || is_metal(s_.atoms[bond.second].element);
+      const bool holds = bond.disulphide ? d <= recorded_disulphide_max
+                                         : bonds_.within_radii(bond.first, bond.second) ||
+                                               (metal && !bond.conect && d <= recorded_coordination_max);
       if (!holds) {
         if (++ignored == 1) {
-          first_ignored = label(s_, link.first) + " - " + label(s_, link.second) + " is " + fixed_text(d, 2);
+          first_ignored = label(s_, bond.first) + " - " + label(s_, bond.second) + " is " + fixed_text(d, 2);
         }
         continue;
       }
-      bonds_.add(link.first, link.second, origin_of(link), link.order);
+      bonds_.add(bond.first, bond.second, origin_of(bond), bond.order);
     }
     if (ignored > 0)
       s_.notes.push_back("recorded bonds ignored because they are too long: " + std::to_string(ignored) +
@@ -163,10 +163,10 @@ class Perception {
     return found;
   }
   /// The origin of a recorded bond: a bond that closes a backbone is one of the polymer's.
-  BondOrigin origin_of(const Link& link) const {
-    if (link.disulphide) return BondOrigin::disulphide;
-    for (const Candidate& bond : closing_)
-      if (std::minmax(link.first, link.second) == std::minmax(bond.first, bond.second)) return bond.origin;
+  BondOrigin origin_of(const BondRecord& bond) const {
+    if (bond.disulphide) return BondOrigin::disulphide;
+    for (const Candidate& closing : closing_)
+      if (std::minmax(bond.first, bond.second) == std::minmax(closing.first, closing.second)) return closing.origin;
     return BondOrigin::record;
   }
 

@@ -145,8 +145,8 @@ void take_recorded_bonds(Structure& s, const RecordedBonds& recorded) {
     else
       between.emplace(atoms, bond.order);
   }
-  for (const Link& link : s.links)
-    if (link.disulphide) disulphides.emplace(link.first, link.second);
+  for (const BondRecord& bond : s.bond_records)
+    if (bond.disulphide) disulphides.emplace(bond.first, bond.second);
 
   ComponentLibrary none;
   ResidueBonds by_name(s, list, none);

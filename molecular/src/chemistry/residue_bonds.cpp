@@ -38,9 +38,9 @@ std::string& append(std::string& list, const std::string& word) {
 
 ResidueBonds::ResidueBonds(Structure& structure, BondList& bonds, ComponentLibrary& components)
     : s_(structure), bonds_(bonds), components_(components) {
-  for (const Link& link : s_.links)
-    if (link.conect && s_.atoms[link.first].residue == s_.atoms[link.second].residue) conect_.push_back(link);
-  std::sort(conect_.begin(), conect_.end(), [](const Link& a, const Link& b) { return a.first < b.first; });
+  for (const BondRecord& bond : s_.bond_records)
+    if (bond.conect && s_.atoms[bond.first].residue == s_.atoms[bond.second].residue) conect_.push_back(bond);
+  std::sort(conect_.begin(), conect_.end(), [](const BondRecord& a, const BondRecord& b) { return a.first < b.first; });
 }
 
 template <class Visit>
@@ -96,7 +96,7 @@ const Component* ResidueBonds::fitting_component(std::uint32_t r) {
 
 /// Adds the bonds of CONECT records, if they connect all heavy atoms of the residue.
 bool ResidueBonds::add_conect(const Residue& residue) {
-  const auto before = [](const Link& link, std::uint32_t atom) { return link.first < atom; };
+  const auto before = [](const BondRecord& bond, std::uint32_t atom) { return bond.first < atom; };
   const auto first = std::lower_bound(conect_.begin(), conect_.end(), residue.first_atom, before);
   const auto last = std::lower_bound(first, conect_.end(), residue.last_atom, before);
   std::set<std::uint32_t> joined{residue.first_atom};

@@ -43,7 +43,7 @@ class ResidueBonds {
   Structure& s_;
   BondList& bonds_;
   ComponentLibrary& components_;
-  std::vector<Link> conect_;                                            // links inside residues, sorted by first atom
+  std::vector<BondRecord> conect_;                                      // bonds inside residues, sorted by first atom
   std::map<std::pair<std::string, std::string>, std::size_t> sources_;  // (residue name, source) -> residues
   std::set<std::string> extended_;  // names of residues with atoms that their table or component lacks
 };

@@ -197,10 +197,10 @@ class Assembler {
       return std::nullopt;
     };
     std::size_t dangling = 0;
-    for (const RawLink& link : raw_.links) {
+    for (const RawBondRecord& link : raw_.bond_records) {
       const auto a = atom(link.first), b = atom(link.second);
       if (a && b && *a != *b)
-        s_.links.push_back(
+        s_.bond_records.push_back(
             {std::min(*a, *b), std::max(*a, *b), link.disulphide || joins_sg(s_, *a, *b), false, BondOrder::unknown});
       else
         ++dangling;
@@ -225,13 +225,14 @@ class Assembler {
     for (std::uint32_t i = 0; i < s_.atoms.size(); ++i)
       if (const auto [at, is_new] = atoms.emplace(s_.atoms[i].serial, i); !is_new) at->second = several;
     std::set<std::pair<std::uint32_t, std::uint32_t>> known;
-    for (const Link& link : s_.links) known.emplace(link.first, link.second);
+    for (const BondRecord& link : s_.bond_records) known.emplace(link.first, link.second);
     for (const RawConnection& pair : raw_.conect) {
       const auto a = atoms.find(pair.first), b = atoms.find(pair.second);
       if (a == atoms.end() || b == atoms.end() || a->second == several || b->second == several) continue;
       const auto [i, j] = std::minmax(a->second, b->second);
       if (!known.emplace(i, j).second) continue;
-      s_.links.push_back({i, j, joins_sg(s_, i, j), true, pair.repeated ? BondOrder::multiple : BondOrder::unknown});
+      s_.bond_records.push_back(
+          {i, j, joins_sg(s_, i, j), true, pair.repeated ? BondOrder::multiple : BondOrder::unknown});
     }
   }
 

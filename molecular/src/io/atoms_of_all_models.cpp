@@ -63,10 +63,10 @@ Structure with_atoms(const Structure& all, const std::vector<bool>& keep) {
     s.residues.back().last_atom = here + 1;
     s.chains.back().last_residue = residue_of[r] + 1;
   }
-  std::erase_if(s.links, [&](const Link& l) { return !keep[l.first] || !keep[l.second]; });
-  for (Link& link : s.links) {
-    link.first = atom_of[link.first];
-    link.second = atom_of[link.second];
+  std::erase_if(s.bond_records, [&](const BondRecord& l) { return !keep[l.first] || !keep[l.second]; });
+  for (BondRecord& bond : s.bond_records) {
+    bond.first = atom_of[bond.first];
+    bond.second = atom_of[bond.second];
   }
   std::erase_if(s.secondary_structure, [&](const SecondaryStructure& e) {
     return residue_of[e.first] == not_kept || residue_of[e.last] == not_kept;

@@ -68,10 +68,10 @@ void append(Structure& all, Structure added) {
     chain.last_residue += residues;
     all.chains.push_back(std::move(chain));
   }
-  for (Link link : added.links) {
-    link.first += atoms;
-    link.second += atoms;
-    all.links.push_back(link);
+  for (BondRecord bond : added.bond_records) {
+    bond.first += atoms;
+    bond.second += atoms;
+    all.bond_records.push_back(bond);
   }
   for (Bond bond : added.bonds) {
     bond.first += atoms;

@@ -91,7 +91,7 @@ struct RawAddress {
 };
 
 /// A bond of SSBOND, LINK or struct_conn.
-struct RawLink {
+struct RawBondRecord {
   RawAddress first, second;
   bool disulphide = false;
 };
@@ -112,7 +112,7 @@ struct RawElement {
 struct RawFile {
   std::string name;
   std::vector<RawModel> models;
-  std::vector<RawLink> links;
+  std::vector<RawBondRecord> bond_records;
   std::vector<RawConnection> conect;
   std::vector<Component> components;      ///< of an mmCIF file
   std::optional<RecordedBonds> recorded;  ///< nullopt: the file was not written by Hinge, or its bonds were edited

@@ -287,7 +287,8 @@ RawFile parse_with_gemmi(const std::string& bytes, const std::string& path, bool
   for (const gemmi::Connection& link : st.connections)
     if (link.type == gemmi::Connection::Covale || link.type == gemmi::Connection::Disulf ||
         link.type == gemmi::Connection::MetalC || link.type == gemmi::Connection::Unknown)
-      raw.links.push_back({address(link.partner1), address(link.partner2), link.type == gemmi::Connection::Disulf});
+      raw.bond_records.push_back(
+          {address(link.partner1), address(link.partner2), link.type == gemmi::Connection::Disulf});
   for (const gemmi::Helix& helix : st.helices)
     raw.elements.push_back({SecondaryStructure::Kind::helix, address(helix.start), address(helix.end)});
   for (const gemmi::Sheet& sheet : st.sheets)

@@ -10,8 +10,8 @@
 
 namespace hinge::molecular {
 
-/// Fills structure.bonds (sorted) and structure.bond_sources from names, structure.links and the coordinates of the
-/// first model. Adds a note to structure.notes for each guess: chain breaks, ignored records, residues without a
+/// Fills structure.bonds (sorted) and structure.bond_sources from names, structure.bond_records and the coordinates
+/// of the first model. Adds a note to structure.notes for each guess: chain breaks, ignored records, residues without a
 /// template, and each bond between residues that is known from its distance alone. Time is near-linear in the number of
 /// atoms.
 ///

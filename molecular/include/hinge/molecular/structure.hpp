@@ -73,7 +73,7 @@ struct Bond {
 
 /// A bond that the file records (SSBOND, LINK, struct_conn, CONECT) between two kept atoms: indices in
 /// Structure::atoms, first < second.
-struct Link {
+struct BondRecord {
   std::uint32_t first = 0;
   std::uint32_t second = 0;
   bool disulphide = false;               ///< SSBOND or struct_conn says so, or both atoms are SG
@@ -102,7 +102,7 @@ struct Structure {
   std::vector<Atom> atoms;
   std::vector<Residue> residues;
   std::vector<Chain> chains;
-  std::vector<Link> links;               ///< recorded bonds; `bonds` holds those that were accepted
+  std::vector<BondRecord> bond_records;  ///< `bonds` holds those that were accepted
   std::vector<Bond> bonds;               ///< sorted by atoms, each once
   std::vector<BondSource> bond_sources;  ///< sorted by residue and source
   std::vector<SecondaryStructure> secondary_structure;
