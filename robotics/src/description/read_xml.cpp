@@ -39,8 +39,10 @@ void blank_declarations(std::string& bytes) {
 
 }  // namespace
 
-XmlFile::XmlFile(const std::filesystem::path& path, const char* root_name) : path_(path.string()) {
-  std::string bytes = read_file(path);
+XmlFile::XmlFile(const std::filesystem::path& path, const char* root_name)
+    : XmlFile(path, read_file(path), root_name) {}
+
+XmlFile::XmlFile(const std::filesystem::path& path, std::string bytes, const char* root_name) : path_(path.string()) {
   if (bytes.find_first_not_of(" \t\r\n") == std::string::npos)
     refuse(0, std::string("is empty, expected XML with root element <") + root_name + ">");
   // Some files have a comment above <?xml ...?>. Other readers accept them.
@@ -67,7 +69,11 @@ void XmlFile::refuse_xacro(const tinyxml2::XMLElement& element) const {
 
 void XmlFile::refuse(int line, const std::string& what) const { throw LoadError(at(line) + what); }
 
-std::string XmlFile::at(int line) const { return path_ + (line > 0 ? ":" + std::to_string(line) : "") + ": "; }
+std::string XmlFile::at(int line) const {
+  std::string where = path_;
+  if (line > 0) where.append(":").append(std::to_string(line));
+  return where + ": ";
+}
 
 std::string XmlFile::attribute(const tinyxml2::XMLElement& element, const char* name) const {
   const char* value = element.Attribute(name);

@@ -22,8 +22,10 @@ inline std::string text_of(const tinyxml2::XMLElement& element, const char* attr
 class XmlFile {
  public:
   XmlFile(const std::filesystem::path& path, const char* root);
+  XmlFile(const std::filesystem::path& path, std::string bytes, const char* root);  ///< the bytes of that file
 
   tinyxml2::XMLElement& root() noexcept { return *document_.RootElement(); }
+  const tinyxml2::XMLElement& root() const noexcept { return *document_.RootElement(); }
 
   /// Throws LoadError if the element, or any element or attribute inside it, is input for xacro.
   void refuse_xacro_in(const tinyxml2::XMLElement& element) const;
