@@ -16,6 +16,7 @@
 
 #include "hinge/core/philox.hpp"
 #include "hinge/primitive/triangle.hpp"
+#include "robotics/mesh_files.hpp"
 #include "robotics/robots.hpp"
 
 namespace hinge::robotics {
@@ -39,18 +40,12 @@ std::string binary_stl(const std::vector<Facet>& facets, std::string header = ""
 
 const std::vector<Facet> two_facets = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 0, 0.1F, 1, 0, 0.1F, 0, 1, 0.1F}};
 
-TriangleMesh read(const std::string& name, const std::string& bytes) {
-  const test::TemporaryFolder folder;
-  return read_mesh(folder.write(name, bytes));
-}
+using test::area;
+using test::collada;
+using test::notes_of;
 
-std::string refusal(const std::string& name, const std::string& bytes) {
-  const test::TemporaryFolder folder;
-  const auto file = folder.write(name, bytes);
-  std::string what = test::refusal(folder, [&] { read_mesh(file); });
-  EXPECT_EQ(what.find('\n'), std::string::npos) << what;
-  return what;
-}
+TriangleMesh read(const std::string& name, const std::string& bytes) { return test::read_mesh_from(name, bytes); }
+std::string refusal(const std::string& name, const std::string& bytes) { return test::mesh_refusal(name, bytes); }
 
 TEST(ReadMesh, KeepsTheBitsOfABinaryStl) {
   const TriangleMesh mesh = read("a.STL", binary_stl(two_facets));
@@ -100,12 +95,6 @@ TEST(ReadMesh, RefusesVerticesThatAreNotFinite) {
   EXPECT_NE(refusal("a.stl", binary_stl(facets)).find("-inf"), std::string::npos);
 }
 
-double area(const std::vector<Triangle>& triangles) {
-  double twice = 0.0;
-  for (const Triangle& t : triangles) twice += cross(Vec3(t.b - t.a), Vec3(t.c - t.a)).norm();
-  return twice / 2;
-}
-
 /// A wrong triangulation (overlaps, triangles outside the polygon) has more area than the polygon.
 TEST(ReadMesh, CutsThePolygonsOfAnObj) {
   // An L with area 3 in each coordinate plane, in both orientations and from several first corners.
@@ -149,7 +138,7 @@ TEST(ReadMesh, CutsRandomStars) {
   }
 }
 
-// A shape does not depend on its materials; with them assimp would reject the file.
+// A shape does not depend on its materials, whose file may be missing or damaged.
 TEST(ReadMesh, LooksAtNoMaterialsOfAnObj) {
   const test::TemporaryFolder folder;
   folder.write("a.mtl", "newmtl gold\nKd x");
@@ -158,15 +147,6 @@ TEST(ReadMesh, LooksAtNoMaterialsOfAnObj) {
     EXPECT_EQ(read_mesh(file).triangles.size(), 1U);
   }
   EXPECT_EQ(refusal("a.obj", "mtllib a.mtl"), "a.obj: has no triangles");
-}
-
-/// Returns the notes of a read, without the folder's path.
-std::vector<std::string> notes_of(const std::string& name, const std::string& bytes, std::size_t triangles) {
-  const test::TemporaryFolder folder;
-  std::vector<std::string> notes;
-  EXPECT_EQ(read_mesh(folder.write(name, bytes), &notes).triangles.size(), triangles) << name;
-  for (std::string& note : notes) note.erase(0, folder.path().string().size() + 1);
-  return notes;
 }
 
 // Lines and points are no surface; MoveIt and Coal also drop them. A polygon without area is a surface, cut into
@@ -188,22 +168,7 @@ TEST(ReadMesh, ReadsPly) {
   EXPECT_EQ(mesh.triangles.size(), 2U);
 }
 
-/// One triangle (0 0 0) (1 0 0) (0 1 2), instanced by two nodes. One node is translated by (10 20 30), inside a node
-/// that scales by 2.
-std::string collada(const std::string& unit, const std::string& axis) {
-  return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'><asset>" +
-         unit + "<up_axis>" + axis +
-         "</up_axis></asset><library_geometries><geometry id='g'><mesh><source id='p'><float_array id='pa' count='9'>"
-         "0 0 0 1 0 0 0 1 2</float_array><technique_common><accessor source='#pa' count='3' stride='3'><param name='X' "
-         "type='float'/><param name='Y' type='float'/><param name='Z' type='float'/></accessor></technique_common>"
-         "</source><vertices id='v'><input semantic='POSITION' source='#p'/></vertices><triangles count='1'><input "
-         "semantic='VERTEX' source='#v' offset='0'/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>"
-         "<library_visual_scenes><visual_scene id='s'><node id='n'><instance_geometry url='#g'/></node><node id='m'>"
-         "<scale>2 2 2</scale><node id='k'><translate>10 20 30</translate><instance_geometry url='#g'/></node></node>"
-         "</visual_scene></library_visual_scenes><scene><instance_visual_scene url='#s'/></scene></COLLADA>";
-}
-
-/// Returns the refusal of that file after one replacement.
+/// Returns the refusal of a COLLADA file after one replacement.
 std::string refusal_with(const std::string& from, const std::string& to) {
   std::string text = collada("", "Z_UP");
   return refusal("a.dae", text.replace(text.find(from), from.size(), to));
@@ -219,7 +184,7 @@ TEST(ReadMesh, AppliesNodesAndUnitsOfADaeButNotItsUpAxis) {
   EXPECT_EQ(read("a.dae", collada("", "Y_UP")).triangles.at(1).b, Vec3(22, 40, 60));
 }
 
-// From a scene without triangles assimp would make a mesh of its own, a pyramid per node.
+// Some readers make a mesh of their own from a scene without triangles, a pyramid per node.
 TEST(ReadMesh, InventsNoTrianglesForADaeThatShowsNone) {
   const std::string nothing = "a.dae: has no triangles";
   const std::string shown = "<instance_geometry url='#g'/>";
@@ -267,7 +232,6 @@ TEST(ReadMesh, InventsNoTrianglesForOtherFilesWithoutFaces) {
       (std::vector<std::string>{"a.ply: 1 lines or points are left out, because they have no surface"}));
 }
 
-// assimp would read past the end of the array.
 TEST(ReadMesh, RefusesDaeInputsWithoutTheirNumbers) {
   EXPECT_EQ(refusal_with(" count='9'", ""), "a.dae:1: <float_array> has no count, expected a whole number");
   EXPECT_EQ(refusal_with("stride='3'", "stride='4'"), "a.dae:1: <accessor> reaches beyond the 9 numbers of '#pa'");
@@ -276,18 +240,21 @@ TEST(ReadMesh, RefusesDaeInputsWithoutTheirNumbers) {
   EXPECT_EQ(refusal_with("stride='3'", ""), "a.dae:1: <accessor> reaches beyond the 9 numbers of '#pa'");
   EXPECT_EQ(refusal_with("</accessor>", "</accessor><accessor source='#names'/>"),
             "a.dae:1: <accessor> is the second accessor of <source id=\"p\">, expected one");
-  const std::string of_numbers = ", expected a <source> of numbers with at most four components";
-  EXPECT_EQ(refusal_with("source='#pa'", "source='#pb'"), "a.dae:1: <input> has source=\"#p\"" + of_numbers);
+  EXPECT_EQ(refusal_with("source='#pa'", "source='#pb'"),
+            "a.dae:1: <accessor> has source=\"#pb\", expected a <float_array> of this file");
+  EXPECT_EQ(refusal_with("semantic='POSITION' source='#p'", "semantic='POSITION' source='#q'"),
+            "a.dae:1: <input> has source=\"#q\", expected a <source> of this file");
   EXPECT_EQ(refusal_with("name='X' type='float'", "name='X' type='float4x4'"),
-            "a.dae:1: <input> has source=\"#p\"" + of_numbers);
+            "a.dae:1: <input> has source=\"#p\", which has no X, Y and Z");
   EXPECT_EQ(refusal_with("name='X'", "name='Y'"), "a.dae:1: <input> has source=\"#p\", which has no X, Y and Z");
   EXPECT_EQ(refusal_with("source='#v'", "source='#w'"),
             "a.dae:1: <input> has source=\"#w\", expected the <vertices> above");
-  EXPECT_EQ(refusal_with("</source>", "<Name_array id='pa' count='0'/></source>"),
-            "a.dae:1: <Name_array> is the second array with id=\"pa\", expected one");
+  EXPECT_EQ(refusal_with("</source>", "<float_array id='pa' count='0'/></source>"),
+            "a.dae:1: <accessor> has source=\"#pa\", expected one <float_array>, but several have this id");
+  EXPECT_EQ(refusal_with("0 0 0 1 0 0", "0 0 0 1 0"), "a.dae:1: <float_array> holds 8 numbers, expected 9");
+  EXPECT_EQ(refusal_with("0 0 0 1 0 0", "0 0 0 1 0,0 0"), "a.dae:1: <float_array> holds '0,0', expected numbers");
 }
 
-// assimp reads past the end of the indices, or silently drops what it does not support.
 TEST(ReadMesh, RefusesDaePrimitivesWithoutTheirVertices) {
   const auto with = [](const std::string& kind, const std::string& input, const std::string& indices) {
     std::string text = collada("", "Z_UP");
@@ -309,11 +276,17 @@ TEST(ReadMesh, RefusesDaePrimitivesWithoutTheirVertices) {
             "a.dae:1: <input> is the second VERTEX of one element, expected one");
   EXPECT_EQ(with("polygons count='1'", vertex + "<input semantic='UV' source='#p' offset='0'/>", "<p>0 1 2</p>"), "");
   EXPECT_EQ(with("polygons count='1'", vertex + "<input semantic='UV' source='#p' offset='1'/>", "<p>0 2 1 2 2 2</p>"),
-            "a.dae:1: <p> has an <input> with an unknown semantic and the largest offset, expected a known semantic");
+            "");
+  EXPECT_EQ(with("polygons count='1'", vertex + "<input semantic='POSITION' source='#p'/>", "<p>0 1 2</p>"),
+            "a.dae:1: <input> has semantic=\"POSITION\", expected it in <vertices> only");
   EXPECT_EQ(with("triangles", vertex, "<p>0 1 2</p>"),
             "a.dae:1: <triangles> has indices, but no count, expected the number of primitives");
-  EXPECT_EQ(with("trifans count='1'", vertex, "<p>0 1 2</p>"),
-            "a.dae:1: <trifans> is not supported, expected <triangles>");
+  EXPECT_EQ(with("trifans count='1'", vertex, "<p>0 1 2</p>"), "");
+  EXPECT_EQ(with("polygons count='1'", vertex, "<ph><p>0 1 2</p><h>0 1 2</h></ph>"),
+            "a.dae:1: <ph> is not supported in <polygons>, expected <p>");
+  EXPECT_EQ(with("curves count='1'", vertex, ""), "a.dae:1: <curves> is not supported in <mesh>, expected <triangles>");
+  EXPECT_EQ(with("triangles count='1'", vertex, "<p>0 1 3</p>"),
+            "a.dae:1: <p> uses vertex 3 (from 0), but there are 3");
   EXPECT_EQ(with("triangles count='2'", vertex, "<p>0 1 2</p>"),
             "a.dae:1: <p> holds 3 indices, expected 1 for each of 6 vertices");
   EXPECT_EQ(with("tristrips count='1'", vertex, "<p>0 1</p>"),
@@ -363,7 +336,6 @@ TEST(ReadMesh, RefusesDaeVerticesAndInstancesThatWouldBeLeftOut) {
             "");
 }
 
-// assimp would allocate as many elements as the digits in a name say, and treats every carriage return as a new line.
 TEST(ReadMesh, RefusesPlyElementsThatAreMisread) {
   const auto ply = [](const std::string& element) {
     return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n" + element +
@@ -376,7 +348,6 @@ TEST(ReadMesh, RefusesPlyElementsThatAreMisread) {
             "a.ply:7: the line holds a carriage return, expected \\n or \\r\\n at its end");
 }
 
-// assimp does not check vertex indices of faces, and sets missing coordinates to 0.
 TEST(ReadMesh, RefusesPlyFacesAndVerticesThatLackSomething) {
   const auto ply = [](const std::string& z, const std::string& face) {
     return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty " + z +
@@ -386,7 +357,7 @@ TEST(ReadMesh, RefusesPlyFacesAndVerticesThatLackSomething) {
   EXPECT_EQ(refusal("a.ply", ply("float z", "3 0 1 3")),
             "a.ply: face 0 (from 0): it uses vertex 3 (from 0), but the mesh has 3 vertices");
   EXPECT_EQ(refusal("a.ply", ply("float z", "3 0 1 -1")),
-            "a.ply: face 0 (from 0): it uses vertex 4294967295 (from 0), but the mesh has 3 vertices");
+            "a.ply: face 0 (from 0): it uses vertex -1 (from 0), but the mesh has 3 vertices");
   EXPECT_EQ(refusal("a.ply", ply("float ", "3 0 1 2")), "a.ply:6: property has no name");
   EXPECT_EQ(refusal("a.ply", ply("list uchar float", "3 0 1 2")), "a.ply:6: property has no name");
   EXPECT_EQ(refusal("a.ply", ply("half z", "3 0 1 2")),

@@ -161,8 +161,8 @@ TEST_P(SharedRobots, AreAsFarFromThemselvesAsTheReferenceSays) {
     const double expected = run.entries()[c].distance;
     const auto closest = run.closest(run.entries()[c]);
     ASSERT_TRUE(closest.has_value());
-    // OBJ meshes: both readers round to single precision, each in its own way. The reference has twelve digits.
-    EXPECT_NEAR(closest->distance, expected, GetParam().has_text_meshes ? 1e-7 : 1e-9 * expected) << "entry " << c;
+    // The reference has twelve digits.
+    EXPECT_NEAR(closest->distance, expected, 1e-9 * expected) << "entry " << c;
   }
 }
 

@@ -85,8 +85,8 @@ TEST_P(RobocdReplay, AgreesWithTheReference) {
     EXPECT_EQ(pairs, expected[k].pairs);
     EXPECT_EQ(row.at("collides"), !pairs.empty());
     const double distance = closest["configurations"][k].at("closest").at("distance");
-    // OBJ meshes: both readers round to single precision, each in its own way. The reference has twelve digits.
-    EXPECT_NEAR(distance, expected[k].distance, robot.has_text_meshes ? 1e-7 : 1e-9 * expected[k].distance);
+    // The reference has twelve digits.
+    EXPECT_NEAR(distance, expected[k].distance, 1e-9 * expected[k].distance);
   }
 }
 

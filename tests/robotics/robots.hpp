@@ -27,17 +27,16 @@ namespace hinge::test {
 struct SharedRobot {
   std::string name;
   std::size_t links, links_with_geometry, groups_with_geometry, dofs, triangles, pairs;
-  bool has_text_meshes;  ///< OBJ: readers round coordinates to single precision
 };
 
 /// Returns the ten shared robots.
 inline const std::vector<SharedRobot>& shared_robots() {
   static const std::vector<SharedRobot> robots = {
-      {"panda", 12, 11, 10, 8, 2364, 21, false},        {"fanuc_m10ia", 9, 7, 7, 6, 6934, 11, false},
-      {"ur5_robotiq", 22, 18, 7, 6, 104197, 59, false}, {"ur10", 11, 8, 7, 6, 5874, 20, false},
-      {"baxter", 49, 42, 15, 14, 4855, 561, false},     {"pr2", 82, 32, 27, 20, 5852, 239, false},
-      {"icub", 56, 28, 28, 32, 3407, 340, true},        {"allegro_hand", 21, 21, 17, 16, 1484, 185, false},
-      {"talos", 60, 52, 45, 32, 26726, 881, false},     {"snake40", 80, 80, 41, 40, 74000, 2965, false}};
+      {"panda", 12, 11, 10, 8, 2364, 21},        {"fanuc_m10ia", 9, 7, 7, 6, 6934, 11},
+      {"ur5_robotiq", 22, 18, 7, 6, 104197, 59}, {"ur10", 11, 8, 7, 6, 5874, 20},
+      {"baxter", 49, 42, 15, 14, 4855, 561},     {"pr2", 82, 32, 27, 20, 5852, 239},
+      {"icub", 56, 28, 28, 32, 3407, 340},       {"allegro_hand", 21, 21, 17, 16, 1484, 185},
+      {"talos", 60, 52, 45, 32, 26726, 881},     {"snake40", 80, 80, 41, 40, 74000, 2965}};
   return robots;
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ear clipping (Meisters, "Polygons have ears", 1975). assimp's own triangulation is not used: for an L whose inner
-// corner is collinear with two others it gives triangles outside the polygon.
+// Ear clipping (Meisters, "Polygons have ears", 1975), safe for corners that are collinear with others.
 #include "mesh/cut_polygon.hpp"
 
 #include <algorithm>
