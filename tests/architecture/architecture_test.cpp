@@ -22,7 +22,7 @@ using architecture::SourceTree;
 
 const std::filesystem::path root = HINGE_SOURCE_DIR;
 
-SourceTree library() { return architecture::read_sources(root, {"include", "molecular", "robotics"}); }
+SourceTree library() { return architecture::read_sources(root, {"include", "molecular", "robotics", "python"}); }
 
 std::string joined(const std::vector<std::string>& lines) {
   std::string text;
@@ -35,6 +35,7 @@ TEST(SourceTree, FindsTheLibrary) {
   const SourceTree tree = library();
   EXPECT_GE(tree.size(), 40U);
   EXPECT_TRUE(tree.contains("include/hinge/hierarchy.hpp"));
+  EXPECT_TRUE(tree.contains("python/src/module.cpp"));
 }
 
 TEST(Floors, NoIncludeClimbs) { EXPECT_EQ(joined(architecture::floor_violations(library())), ""); }
@@ -99,11 +100,18 @@ TEST(Presets, HaveAFolderEach) {
 
 /// Returns the number of violations after planting one line into a small valid tree.
 std::size_t floor_breaches(const std::string& path, const std::string& line) {
-  SourceTree tree = {{"include/hinge/version.hpp", {}},          {"include/hinge/core/vec3.hpp", {}},
-                     {"include/hinge/policy/primitive.hpp", {}}, {"include/hinge/kinematics/joint.hpp", {}},
-                     {"include/hinge/engine/engine.hpp", {}},    {"include/hinge/engine/lazy.hpp", {}},
-                     {"include/hinge/hierarchy.hpp", {}},        {"molecular/include/hinge/molecular/atom.hpp", {}},
-                     {"molecular/src/io/read_file.hpp", {}},     {"robotics/include/hinge/robotics/link.hpp", {}}};
+  SourceTree tree = {{"include/hinge/version.hpp", {}},
+                     {"include/hinge/core/vec3.hpp", {}},
+                     {"include/hinge/policy/primitive.hpp", {}},
+                     {"include/hinge/kinematics/joint.hpp", {}},
+                     {"include/hinge/engine/engine.hpp", {}},
+                     {"include/hinge/engine/lazy.hpp", {}},
+                     {"include/hinge/hierarchy.hpp", {}},
+                     {"molecular/include/hinge/molecular/atom.hpp", {}},
+                     {"molecular/src/io/read_file.hpp", {}},
+                     {"robotics/include/hinge/robotics/link.hpp", {}},
+                     {"python/src/arrays.hpp", {}},
+                     {"include/hinge/detail/simd/lanes.hpp", {}}};
   tree[path] = {line};
   return architecture::floor_violations(tree).size();
 }
@@ -117,6 +125,8 @@ TEST(PlantedInclude, DownwardIsFine) {
   EXPECT_EQ(floor_breaches("include/hinge/detail/simd/x.hpp", "#include <immintrin.h>"), 0U);
   EXPECT_EQ(floor_breaches("molecular/src/clash/x.cpp", "#include \"io/read_file.hpp\""), 0U);
   EXPECT_EQ(floor_breaches("molecular/src/io/x.cpp", "#include \"hinge/hierarchy.hpp\""), 0U);
+  EXPECT_EQ(floor_breaches("python/src/core/x.cpp", "#include \"arrays.hpp\""), 0U);
+  EXPECT_EQ(floor_breaches("python/src/core/x.cpp", "#include \"hinge/molecular/atom.hpp\""), 0U);
 }
 
 TEST(PlantedInclude, UpwardIsCaught) {
@@ -124,6 +134,13 @@ TEST(PlantedInclude, UpwardIsCaught) {
   EXPECT_EQ(floor_breaches("include/hinge/engine/x.hpp", "#include \"hinge/engine/lazy.hpp\""), 1U);
   EXPECT_EQ(floor_breaches("include/hinge/query/x.hpp", "  #  include \"hinge/hierarchy.hpp\"  // why not"), 1U);
   EXPECT_EQ(floor_breaches("include/hinge/hierarchy.hpp", "#include \"hinge/molecular/atom.hpp\""), 1U);
+}
+
+TEST(PlantedInclude, PrivateHeadersAreNotForBindings) {
+  const std::string line = "#include \"hinge/detail/simd/lanes.hpp\"";
+  EXPECT_EQ(floor_breaches("python/src/core/x.cpp", line), 1U);
+  EXPECT_EQ(floor_breaches("molecular/src/io/x.cpp", line), 0U);
+  EXPECT_EQ(floor_breaches("molecular/src/io/x.cpp", "#include \"arrays.hpp\""), 1U);
 }
 
 TEST(PlantedInclude, SidewaysIsCaught) {

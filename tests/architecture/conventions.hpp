@@ -91,6 +91,7 @@ inline std::vector<std::string> strangers_at_top(const std::filesystem::path& ro
                                               "include",
                                               "molecular",
                                               "robotics",
+                                              "python",
                                               "tests",
                                               "bench",
                                               "docs",

@@ -14,7 +14,7 @@ namespace architecture {
 /// Floor of each folder or file under include/hinge and of each module. Folders on one floor may not include each
 /// other; engines share code in engine/ itself. Every file may include version.hpp, which includes nothing. Folders
 /// under include/hinge/detail are on the floor of their public folder. The core is below hinge_tools, which serves the
-/// tools and is not installed.
+/// tools and is not installed. The Python package is above all, and knows public headers only.
 inline const std::map<std::string, int>& floors() {
   static const std::map<std::string, int> table = [] {
     const std::vector<std::vector<std::string>> by_floor = {{"core"},
@@ -29,7 +29,8 @@ inline const std::map<std::string, int>& floors() {
                                                             {"path", "batch", "moves"},
                                                             {"hinge.hpp"},
                                                             {"hinge_tools"},
-                                                            {"molecular", "robotics"}};
+                                                            {"molecular", "robotics"},
+                                                            {"python"}};
     std::map<std::string, int> rows = {{"version.hpp", -1}};
     for (std::size_t floor = 0; floor < by_floor.size(); ++floor) {
       for (const std::string& row : by_floor[floor]) rows[row] = static_cast<int>(floor);
@@ -41,7 +42,7 @@ inline const std::map<std::string, int>& floors() {
 
 /// Returns the row of the table of a file, or "" if there is none. `path` is relative to the root of the repository.
 inline std::string row_of(const std::string& path) {
-  for (const char* module : {"molecular", "robotics"}) {
+  for (const char* module : {"molecular", "robotics", "python"}) {
     if (path.starts_with(std::string(module) + "/")) return module;
   }
   if (path.starts_with("include/hinge_tools/")) return "hinge_tools";
@@ -64,7 +65,7 @@ inline std::string row_of(const std::string& path) {
 /// Returns the path of a quoted include from the root of the repository, or "" if no such file is in the tree.
 inline std::string resolve(const SourceTree& tree, const std::string& from, const std::string& name) {
   std::vector<std::string> roots = {"include/", "molecular/include/", "robotics/include/"};
-  for (const char* module : {"molecular/", "robotics/"}) {  // src is an include path only for its own module
+  for (const char* module : {"molecular/", "robotics/", "python/"}) {  // src is an include path only for its own module
     if (from.starts_with(module)) roots.push_back(std::string(module) + "src/");
   }
   for (const std::string& root : roots) {
@@ -104,6 +105,8 @@ inline std::vector<std::string> floor_violations(const SourceTree& tree) {
       const std::string target_row = row_of(target);
       if (target_row.empty()) {
         violations.push_back(path + " includes \"" + include.name + "\", which is none of ours");
+      } else if (row == "python" && target.find("/detail/") != std::string::npos) {
+        violations.push_back(path + " includes " + target + ", which is private");
       } else if (target_row != row && !row.starts_with(target_row + "/") &&
                  floors().at(target_row) >= floors().at(row)) {
         violations.push_back(path + " includes " + target + ", which is not on a lower floor");

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What all tests share: where data and tools are, and a marker for tests that take long."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SHARED = ROOT.parent / "shared" / "data"
+
+
+def pytest_configure(config):
+    config.addinivalue_line("markers", "long: takes long; `./run python` runs it, `./run test` does not")
+
+
+def tool(name):
+    """The path of a command-line tool, or a skipped test."""
+    folder = os.environ.get("HINGE_TOOLS_DIR", str(ROOT / "build" / "release" / "bin"))
+    path = shutil.which(name, path=folder)
+    if path is None:
+        pytest.skip(f"{name} is not in {folder}")
+    return path
+
+
+def shared(name):
+    """The path of a file in ../shared/data, or a skipped test."""
+    path = SHARED / name
+    if not path.exists():
+        pytest.skip(f"{path} does not exist")
+    return path
+
+
+def run_python(code, **environment):
+    """Runs code in a process of its own and returns it; the package is found as here."""
+    import hinge
+
+    package = str(pathlib.Path(hinge.__file__).parents[1])
+    env = {**os.environ, "PYTHONPATH": package, **environment}
+    return subprocess.run([sys.executable, "-c", code], env=env, capture_output=True, text=True, timeout=300)
+
+
+@pytest.fixture(name="tool")
+def _tool():
+    return tool
+
+
+@pytest.fixture(name="shared")
+def _shared():
+    return shared
+
+
+@pytest.fixture(name="run_python")
+def _run_python():
+    return run_python
