@@ -1,0 +1,276 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Checker: clash rules and free torsions of a molecule, and what is asked about conformations."""
+
+import dataclasses
+import warnings
+
+import numpy as np
+
+from .. import ModelError
+from .._core import molecular as _core
+from ._molecule import Molecule, one_of, residues_of
+
+_PATH_VERDICTS = np.array(["free", "colliding", "undecided"])
+
+
+@dataclasses.dataclass(frozen=True)
+class Walk:
+    """The result of Checker.walk().
+
+    configurations: the states after every `every`-th step, shape (n, dof), rad. end: the last state, shape (dof,).
+    steps, accepted: numbers of moves. unclosed: moves rejected because the cycles did not close.
+    """
+
+    configurations: np.ndarray
+    end: np.ndarray
+    steps: int
+    accepted: int
+    unclosed: int
+
+
+class Checker(_core.CheckerBase):
+    """Tests conformations of one molecule. Any number of threads may use it at the same time.
+
+    molecule: a Molecule. free: what Molecule.select() takes; None: 'all', or 'none' (the loops alone) with loops.
+    omega: free omega, too.
+    rules: 'biocd' (set by the next five), 'severe', 'molprobity', 'chimerax', 'posebusters', or 'auto': 'severe' for a
+    molecule with hydrogens if none of the five is given, otherwise 'biocd'.
+    radii: 'bondi', 'probe', 'probe-united' or 'amber'. rho: threshold / sum of radii (0.8). min_bonds: number of bonds
+    from which a pair counts (4). hydrogen_bonds: use the hydrogen-bond rule; None: if there are hydrogens.
+    hydrogen_bond_allowance: angstrom (0.4).
+    exempt_reference: leave out pairs that collide in model 0, except interfaces: pairs of two files, or of a placed
+    part and the rest. exempt_interfaces: leave out these, too.
+    between: pairs of parts; inside: parts. If any are given, only pairs of atoms between or inside them are tested. A
+    part is words, booleans of shape (n_atoms,), or (in between) 'rest', the other atoms.
+    engine: 'simd', 'lazy' (the paper's) or 'brute'; all give the same answers.
+    closures: 'keep': samples and walks close cycles, such as those of disulphides, and torsions that cannot move are
+    not free; 'open': only loops stay closed. open_closures: indices of closures that stay open all the same.
+    threads: default of every call. Answers do not depend on it.
+
+    Raises ModelError for unknown rules and words, ValueError and TypeError for other bad arguments. The defaults are
+    those of `biocd sample`. Pickling stores the molecule's source and the options.
+    """
+
+    def __init__(
+        self,
+        molecule,
+        free=None,
+        *,
+        omega=False,
+        rules="auto",
+        radii=None,
+        rho=None,
+        min_bonds=None,
+        hydrogen_bonds=None,
+        hydrogen_bond_allowance=None,
+        exempt_reference=False,
+        exempt_interfaces=False,
+        between=(),
+        inside=(),
+        engine="simd",
+        closures="keep",
+        open_closures=(),
+        threads=1,
+    ):
+        if not isinstance(molecule, Molecule):
+            raise TypeError(f"molecule: a {type(molecule).__name__}, expected a Molecule")
+        if exempt_interfaces and not exempt_reference:
+            raise ValueError("exempt_interfaces: True without exempt_reference, expected both")
+        if isinstance(inside, (str, np.ndarray)):
+            inside = (inside,)
+        if isinstance(between, tuple) and len(between) == 2 and not any(isinstance(b, (tuple, list)) for b in between):
+            between = (between,)
+        between = [tuple(pair) for pair in between]
+        if any(len(pair) != 2 for pair in between):
+            raise ValueError("between: expected pairs of parts, such as [('A', 'rest')]")
+        if free is None:
+            free = "none" if molecule.has_loops else "all"
+        self._molecule = molecule
+        self._free = free if isinstance(free, str) else np.array(free)
+        self._options = {
+            "omega": omega,
+            "rules": rules,
+            "radii": radii,
+            "rho": rho,
+            "min_bonds": min_bonds,
+            "hydrogen_bonds": hydrogen_bonds,
+            "hydrogen_bond_allowance": hydrogen_bond_allowance,
+            "exempt_reference": exempt_reference,
+            "exempt_interfaces": exempt_interfaces,
+            "between": tuple(between),
+            "inside": tuple(inside),
+            "engine": engine,
+            "closures": one_of("closures", closures, ("keep", "open")),
+            "open_closures": tuple(int(k) for k in open_closures),
+            "threads": threads,
+        }
+        atoms = molecule.atoms["residue"] if between or inside else None
+        super().__init__(
+            molecule,
+            molecule.select(free, omega=omega),
+            rules,
+            radii,
+            rho,
+            hydrogen_bonds,
+            hydrogen_bond_allowance,
+            min_bonds,
+            bool(exempt_reference),
+            bool(exempt_interfaces),
+            [tuple(residues_of(part, atoms, "between") for part in pair) for pair in between],
+            [residues_of(part, atoms, "inside") for part in inside],
+            engine,
+            closures,
+            [int(k) for k in open_closures],
+            threads,
+        )
+        self._closing = set()
+
+    @property
+    def molecule(self):
+        """The Molecule."""
+        return self._molecule
+
+    @property
+    def options(self):
+        """The options of the constructor, as a dict."""
+        return {"free": self._free, **self._options}
+
+    @property
+    def dof_labels(self):
+        """Names of the degrees of freedom: a list of dof words such as 'A:LYS6:chi1' or 'place 0:x'."""
+        labels = self._molecule.torsions["label"]
+        values = ("x", "y", "z", "rx", "ry", "rz")
+        placed = iter(f"place {k}:{c}" for k in range(self._molecule.n_placed) for c in values)
+        return [str(labels[t]) if t >= 0 else next(placed) for t in self.torsion_of_dof]
+
+    def sample(
+        self, n, seed=1, sigma=None, *, first=0, collision_free=False, tries=100, threads=None, progress=None
+    ):
+        """Return random configurations, shape (n, dof), rad and angstrom: those that `biocd sample` draws.
+
+        seed: configuration k depends on (seed, first + k) alone. sigma: standard deviation about the reference, rad
+        (sigma = numpy.radians(5) is --sigma 5); None: uniform over the full turn. first: index of the first one.
+        collision_free: only configurations that do not collide. With closures to keep, or collision_free, starts are
+        repeated up to `tries` times; a sample for which none succeeds is left out, with a warning.
+        Raises ModelError if random starts do not close some cycles (see unclosable()).
+        """
+        if n < 0 or first < 0:
+            raise ValueError(f"n, first: {n}, {first}, expected at least 0")
+        if self.kept_closures.size and (seed, sigma) not in self._closing:
+            open_closures = self.unclosable(seed, sigma)
+            if open_closures.size:
+                given = sorted({*self._options["open_closures"], *map(int, open_closures)})
+                raise ModelError(
+                    f"sample: random starts do not close {open_closures.size} of the cycles; leave them open: "
+                    f"Checker(..., open_closures={given})"
+                )
+            self._closing.add((seed, sigma))
+        q, found, _, _ = self._sample(n, seed, sigma, first, bool(collision_free), tries, threads, progress)
+        if len(q) < n:
+            free = " without a collision" if collision_free else ""
+            warnings.warn(
+                f"{n - len(q)} of {n} samples are missing: none of {tries} starts closed{free}; the first is "
+                f"{first + int(np.flatnonzero(~found)[0])}",
+                stacklevel=2,
+            )
+        return q
+
+    def certify(self, a, b, *, smallest_step=2.0**-20, resolution=None, threads=None, progress=None):
+        """Prove whether straight paths from a to b are free of collisions.
+
+        a, b: shape (n, dof), or (dof,) for one start or end of all. smallest_step: share of the path below which it is
+        not divided. resolution: instead of a proof, test states at most so far apart (rad or angstrom).
+        Returns a structured array of shape (n,): verdict ('free', 'colliding', 'undecided'), parameter (of the
+        collision or undecided segment, 0 to 1), half_width (of that segment), i, j (its atoms; -1: none known),
+        distance, threshold (angstrom), states (number of configurations computed).
+        """
+        if resolution is not None and not 0 < resolution < np.inf:
+            raise ValueError(f"resolution: {resolution}, expected a finite number above 0, or None")
+        rows = self._certify(a, b, float(smallest_step), float(resolution or 0.0), threads, progress)
+        fields = [(name, "U9" if name == "verdict" else rows.dtype[name]) for name in rows.dtype.names]
+        named = np.empty(rows.shape, fields)
+        for name in rows.dtype.names:
+            named[name] = _PATH_VERDICTS[rows[name]] if name == "verdict" else rows[name]
+        return named
+
+    def walk(self, steps, *, step_size=np.radians(3.0), changes=1, seed=1, every=100, start=None, progress=None):
+        """Make a Monte Carlo walk of collision-free moves, the same as `biocd walk`. Returns a Walk.
+
+        step_size: standard deviation of a torsion's change, rad. changes: torsions per move. every: steps from one
+        returned configuration to the next. start: shape (dof,); None: the reference.
+        Raises ModelError if the start collides.
+        """
+        if steps < 0:
+            raise ValueError(f"steps: {steps}, expected at least 0")
+        rows, end, accepted, unclosed = self._walk(steps, step_size, changes, seed, every, start, progress)
+        return Walk(rows, end, steps, accepted, unclosed)
+
+    def fit(self, x, *, progress=None):
+        """Return the configurations with the torsions of given coordinates, shape (n, dof), rad.
+
+        x: shape (n, n_atoms, 3) or (n_atoms, 3), angstrom, or a Trajectory. Bond lengths, angles and other torsions
+        stay as in the reference. Raises LoadError where a torsion is undefined.
+        """
+        return _core._fit(self, x, progress)
+
+    def residue_clashes(self, pairs):
+        """Return which residues clash: a structured array, most frequent first.
+
+        pairs: rows of pairs() or pairs_coordinates(). Fields: residue_i, residue_j (indices), label_i, label_j, chain
+        and residue, conformations (number in which they clash), contacts (pairs of atoms), overlap (largest, angstrom).
+        """
+        return residue_clashes(self, pairs)
+
+    def __reduce__(self):
+        return _rebuild, (type(self), self._molecule, self._free, self._options)
+
+    def __repr__(self):
+        free = self._free if isinstance(self._free, str) else f"{len(self._free)} chosen"
+        rule = f"d < {self.rho} * ({self.radii} radii)" if self.rho else self.rules
+        return (
+            f"<Checker of {self._molecule.name!r}: free {free}, {self.dof} degrees of freedom, "
+            f"{self.n_rigid_groups} rigid groups, {rule}, pairs at least {self.min_bonds} bonds apart>"
+        )
+
+
+def _rebuild(cls, molecule, free, options):
+    return cls(molecule, free, **options)
+
+
+def residue_clashes(checker, pairs):
+    """The table of Checker.residue_clashes()."""
+    atoms = checker.molecule.atoms
+    pairs = np.asarray(pairs)
+    pairs = pairs[pairs["collides"]]
+    residue = atoms["residue"]
+    ends = np.sort(np.stack([residue[pairs["i"]], residue[pairs["j"]]], axis=1), axis=1)
+    unique, row = np.unique(ends, axis=0, return_inverse=True)
+    table = np.zeros(
+        len(unique),
+        [
+            ("residue_i", "i4"),
+            ("residue_j", "i4"),
+            ("label_i", "U24"),
+            ("label_j", "U24"),
+            ("conformations", "i8"),
+            ("contacts", "i8"),
+            ("overlap", "f8"),
+        ],
+    )
+    if len(unique) == 0:
+        return table
+    labels = residue_labels(checker.molecule)
+    table["residue_i"], table["residue_j"] = unique.T
+    table["label_i"], table["label_j"] = labels[unique[:, 0]], labels[unique[:, 1]]
+    table["contacts"] = np.bincount(row, minlength=len(unique))
+    seen = np.unique(np.stack([row, pairs["conformation"]], axis=1), axis=0)
+    table["conformations"] = np.bincount(seen[:, 0], minlength=len(unique))
+    table["overlap"] = -np.inf
+    np.maximum.at(table["overlap"], row, checker.overlaps(np.ascontiguousarray(pairs)))
+    return table[np.lexsort((-table["contacts"], -table["conformations"]))]
+
+
+def residue_labels(molecule):
+    """Names of the residues, such as 'A:LYS77', shape (n_residues,)."""
+    first = np.unique(molecule.atoms["residue"], return_index=True)[1]
+    return np.array([molecule.label(int(k)).rsplit(":", 1)[0] for k in first])

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Random conformations and Monte Carlo walks of a checker.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <atomic>
+#include <optional>
+#include <utility>
+
+#include "arrays.hpp"
+#include "checker_handle.hpp"
+#include "hinge/core/error.hpp"
+#include "hinge/molecular/closed_sampler.hpp"
+#include "hinge/molecular/sampler.hpp"
+#include "hinge/moves/move_checker.hpp"
+#include "hinge/moves/move_closer.hpp"
+#include "hinge/moves/random_move.hpp"
+#include "run_slices.hpp"
+
+namespace hinge::python {
+
+namespace py = pybind11;
+using namespace hinge::molecular;
+
+namespace {
+
+/// What a call of sample() asks for.
+struct SampleArguments {
+  std::uint64_t count = 0, first = 0;
+  Sampling sampling;
+  bool collision_free = false;
+  std::uint64_t most_tries = 100;
+};
+
+Sampling as_sampling(std::uint64_t seed, std::optional<double> sigma) {
+  if (sigma && !(*sigma > 0.0 && *sigma <= 1e9))
+    throw py::value_error("sigma: " + py::repr(py::float_(*sigma)).cast<std::string>() +
+                          ", expected a number above 0, at most 1e9 rad, or None");
+  return {seed, sigma};
+}
+
+/// The rows of the samples that were found, in order of their indices, and counts of the starts.
+struct Samples {
+  std::vector<double> q;
+  std::vector<std::uint8_t> found;
+  std::atomic<std::uint64_t> unclosed{0}, refused{0};
+};
+
+void draw_closed(CheckerHandle& self, const SampleArguments& given, unsigned threads, const py::object& progress,
+                 Samples& samples) {
+  const Checker& prototype = self.checker();
+  const std::size_t dof = self.dof();
+  const ClosedSampler first_sampler(*self.molecule, prototype.selection(), given.sampling, given.most_tries,
+                                    self.kept.closures, self.molecule.ranges);
+  const Mode any_pair{Mode::Kind::any};
+  run_slices(static_cast<std::size_t>(given.count), threads, progress, [&]() -> Slice {
+    const auto sampler = std::make_shared<ClosedSampler>(first_sampler);
+    const auto checker = std::make_shared<WorkerPool<Checker>::Loan>(self.pool);
+    return [&, sampler, checker](std::size_t begin, std::size_t end) {
+      const auto accept = [&](std::span<const double> q) {
+        return !given.collision_free || !(**checker).check(q, any_pair).collides;
+      };
+      for (std::size_t k = begin; k < end; ++k) {
+        const ClosedSample sample = sampler->sample(given.first + k, accept);
+        samples.unclosed += sample.unclosed;
+        samples.refused += sample.refused;
+        samples.found[k] = sample.found() ? 1 : 0;
+        if (sample.found()) std::copy(sample.q.begin(), sample.q.end(), samples.q.data() + k * dof);
+      }
+    };
+  });
+}
+
+void draw_open(CheckerHandle& self, const SampleArguments& given, unsigned threads, const py::object& progress,
+               Samples& samples) {
+  const std::size_t dof = self.dof();
+  const DofSelection& selection = self.checker().selection();
+  run_slices(static_cast<std::size_t>(given.count), threads, progress, [&]() -> Slice {
+    return [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const std::vector<double> q =
+            sample_configuration(given.sampling, given.first + k, *self.molecule, selection, self.molecule.ranges);
+        std::copy(q.begin(), q.end(), samples.q.data() + k * dof);
+      }
+    };
+  });
+}
+
+py::tuple sample(CheckerHandle& self, std::uint64_t count, std::uint64_t seed, std::optional<double> sigma,
+                 std::uint64_t first, bool collision_free, std::uint64_t most_tries, const py::object& given_threads,
+                 const py::object& progress) {
+  if (most_tries == 0) throw py::value_error("tries: 0, expected at least 1");
+  const SampleArguments given{count, first, as_sampling(seed, sigma), collision_free, most_tries};
+  const unsigned threads = as_threads(given_threads, self.threads);
+  const std::size_t dof = self.dof();
+  if (dof > 0 && count > (std::uint64_t{1} << 40) / dof)
+    throw py::value_error("n: " + std::to_string(count) + " conformations of " + std::to_string(dof) +
+                          " values do not fit in memory; draw them in parts (first=)");
+  Samples samples;
+  samples.q.resize(static_cast<std::size_t>(count) * dof);
+  samples.found.assign(static_cast<std::size_t>(count), 1);
+  if (!self.kept.closures.empty() || collision_free)
+    draw_closed(self, given, threads, progress, samples);
+  else
+    draw_open(self, given, threads, progress, samples);
+  std::size_t rows = 0;
+  for (std::size_t k = 0; k < samples.found.size(); ++k) {
+    if (samples.found[k] == 0) continue;
+    if (rows != k) std::copy_n(samples.q.data() + k * dof, dof, samples.q.data() + rows * dof);
+    ++rows;
+  }
+  samples.q.resize(rows * dof);
+  return py::make_tuple(to_array(std::move(samples.q), {static_cast<py::ssize_t>(rows), static_cast<py::ssize_t>(dof)}),
+                        to_booleans(std::move(samples.found)), samples.unclosed.load(), samples.refused.load());
+}
+
+/// Indices of the closures that random starts do not close.
+py::array_t<std::int64_t> unclosable(CheckerHandle& self, std::uint64_t seed, std::optional<double> sigma) {
+  const Sampling sampling = as_sampling(seed, sigma);
+  std::vector<std::size_t> open;
+  {
+    const py::gil_scoped_release unlocked;
+    if (!self.kept.closures.empty())
+      open = find_unclosable(*self.molecule, self.checker().selection(), sampling, self.molecule.ranges,
+                             self.kept.closures);
+  }
+  return to_array(std::vector<std::int64_t>(open.begin(), open.end()));
+}
+
+using Moves = MoveChecker<Point, BondExclusions, TypedThresholds>;
+
+/// A walk in progress: what its steps change.
+struct Walk {
+  Moves moves;
+  MoveCloser closer;
+  std::vector<DofChange> changes{};
+  std::vector<double> rows{};
+  std::uint64_t accepted = 0, unclosed = 0;
+};
+
+void check_start(const CheckerHandle& self, Moves& moves) {
+  if (!moves.collides()) return;
+  const std::vector<Hit>& hits = moves.collisions();
+  const auto name = [&](PrimitiveId i) {
+    return label(self.molecule.structure(), static_cast<std::uint32_t>(index(i)));
+  };
+  throw ModelError("walk: the start collides in " + std::to_string(hits.size()) + " pairs, first " +
+                   name(hits.front().first) + " and " + name(hits.front().second) +
+                   "; expected a start without collisions (exempt_reference=True exempts those of the file)");
+}
+
+py::tuple walk(CheckerHandle& self, std::uint64_t steps, double sigma, std::uint64_t count, std::uint64_t seed,
+               std::uint64_t every, const py::object& start, const py::object& progress) {
+  const std::size_t dof = self.dof();
+  if (self.molecule->placed_parts().size() > 0)
+    throw ModelError("walk: changes only torsions, expected a molecule without placed parts");
+  if (dof == 0) throw ModelError("walk: no torsion is free, expected at least one");
+  if (!(sigma > 0.0 && sigma <= 1e9)) throw py::value_error("step_size: expected an angle above 0, at most 1e9 rad");
+  if (count < 1 || count > dof)
+    throw py::value_error("changes: " + std::to_string(count) + ", expected 1 to " + std::to_string(dof) +
+                          ", the number of free torsions");
+  if (every < 1) throw py::value_error("every: 0, expected at least 1");
+  std::optional<Configurations> from;
+  if (!start.is_none()) from = as_configurations(start, "start", dof);
+  if (from && !from->one) throw py::value_error("start: two dimensions, expected shape (" + std::to_string(dof) + ",)");
+  std::optional<Walk> state;
+  {
+    const py::gil_scoped_release unlocked;
+    const Checker& checker = self.checker();
+    const Model<Point>& model = self.molecule->model();
+    state.emplace(Walk{
+        Moves(MolecularHierarchy<Simd>(model, checker.selection(), checker.exclusions(), checker.thresholds().matrix)),
+        MoveCloser(model.tree(), checker.selection(), self.kept.closures)});
+    if (from) state->moves.set((*from)[0]);
+    check_start(self, state->moves);
+  }
+  Walk& w = *state;
+  run_slices(static_cast<std::size_t>(steps), 1, progress, [&]() -> Slice {  // one thread: slices come in order
+    return [&](std::size_t begin, std::size_t end) {
+      for (std::size_t step = begin; step < end; ++step) {
+        random_move(seed, step, w.moves.configuration(), count, sigma, w.changes);
+        if (!w.closer.close(w.moves.configuration(), w.changes)) {
+          ++w.unclosed;
+        } else if (w.moves.try_move(w.changes)) {
+          w.moves.accept();
+          ++w.accepted;
+        } else {
+          w.moves.reject();
+        }
+        if ((step + 1) % every == 0)
+          w.rows.insert(w.rows.end(), w.moves.configuration().begin(), w.moves.configuration().end());
+      }
+    };
+  });
+  const std::span<const double> end = w.moves.configuration();
+  const auto rows = static_cast<py::ssize_t>(w.rows.size() / dof);
+  return py::make_tuple(to_array(std::move(w.rows), {rows, static_cast<py::ssize_t>(dof)}),
+                        to_array(std::vector<double>(end.begin(), end.end())), w.accepted, w.unclosed);
+}
+
+}  // namespace
+
+void add_sampling(CheckerClass& checker) {
+  checker
+      .def("_sample", &sample, py::arg("n"), py::arg("seed"), py::arg("sigma"), py::arg("first"),
+           py::arg("collision_free"), py::arg("tries"), py::arg("threads"), py::arg("progress"))
+      .def("unclosable", &unclosable, py::arg("seed") = 1, py::arg("sigma") = py::none(),
+           "unclosable(self, seed=1, sigma=None)\n--\n\n"
+           "Return indices of closures that random starts do not close, for Checker(..., open_closures=).\n\n"
+           "seed, sigma: as in sample(). Empty for most molecules.")
+      .def("_walk", &walk, py::arg("steps"), py::arg("step_size"), py::arg("changes"), py::arg("seed"),
+           py::arg("every"), py::arg("start"), py::arg("progress"));
+}
+
+}  // namespace hinge::python
