@@ -3,7 +3,7 @@
 
 hinge.molecular   proteins, nucleic acids and ligands as mechanisms of torsions; lengths in angstrom
 hinge.robotics    robots from URDF or from code, against themselves and the bodies around them; lengths in metres
-hinge.Model       points, spheres, capsules and triangles from arrays; lengths in any unit
+hinge.Model       points, spheres, capsules or triangles from arrays, and hinge.Checker; lengths in any unit
 
 Angles are in radians everywhere. The compiled part is chosen at import: the best instruction set of the CPU, or the
 one that the environment variable HINGE_ISA names (baseline, avx2 or avx512). All sets give the same answers.
@@ -45,11 +45,18 @@ ModelError = _core.ModelError
 ConfigurationError = _core.ConfigurationError
 
 from . import molecular, robotics  # noqa: E402
+from ._model import Checker, Model  # noqa: E402
+
+for _public in (Checker, Model):
+    _public.__module__ = __name__
+del _public, _name
 
 __all__ = [
+    "Checker",
     "ConfigurationError",
     "Error",
     "LoadError",
+    "Model",
     "ModelError",
     "instruction_set",
     "molecular",
