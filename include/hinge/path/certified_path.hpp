@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <utility>
@@ -41,9 +42,10 @@ class CertifiedPath {
         list_limit_(rates_.extent() > 0.0 ? rates_.extent() * rates_.scale() * list_share : 1.0),
         near_links_(by_links ? hierarchy_.model().model().links() : std::span<const LinkId>()) {}
 
-  /// from, to: dof_count values each (rad or model length unit). A segment no longer than `smallest_step` (a share of
-  /// the path) is not divided. Throws ConfigurationError unless the path is valid (StraightPath) and smallest_step > 0.
-  PathAnswer check(std::span<const double> from, std::span<const double> to, double smallest_step = smallest_path_step);
+  /// from, to: dof_count values each, rad or length unit. Segments up to smallest_step, a share of the path, are not
+  /// divided. between() precedes each segment and may throw. ConfigurationError: bad path (StraightPath), step not > 0.
+  PathAnswer check(std::span<const double> from, std::span<const double> to, double smallest_step = smallest_path_step,
+                   const std::function<void()>& between = {});
 
  private:
   static constexpr std::size_t most_segments = std::size_t{1} << 17;  // a path that needs more is left undecided
@@ -85,7 +87,7 @@ class CertifiedPath {
 
 template <Certifiable P, PairFilter F, DistanceMatrix D, template <class, class, class> class EngineOf>
 PathAnswer CertifiedPath<P, F, D, EngineOf>::check(std::span<const double> from, std::span<const double> to,
-                                                   double smallest_step) {
+                                                   double smallest_step, const std::function<void()>& between) {
   check_smallest_step(smallest_step);
   path_ = StraightPath(from, to, hierarchy_.dof_count());
   smallest_step_ = smallest_step;
@@ -99,6 +101,7 @@ PathAnswer CertifiedPath<P, F, D, EngineOf>::check(std::span<const double> from,
       leave_undecided(segment, nullptr);
       break;
     }
+    if (between) between();
     ++answer_.counts.segments;
     place(segment.middle());
     listed_.clear();

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <string>
@@ -39,10 +40,11 @@ inline std::uint64_t count_steps(const StraightPath& path, double resolution) {
 
 /// Tests both ends and evenly spaced states between them, so that no value changes by more than `resolution` (rad or
 /// model length unit) from one state to the next. The states are tested in order of bisection. The hierarchy is left at
-/// the last tested state. Throws ConfigurationError for a bad path (see StraightPath), and for a resolution that is not
-/// finite, not above 0, or needs more than 2^53 states.
+/// the last tested state. between: called before every state; may throw to end the work. Throws ConfigurationError for
+/// a bad path (see StraightPath), and for a resolution that is not finite, not above 0, or needs more than 2^53 states.
 template <class H>
-PathAnswer check_sampled(H& hierarchy, std::span<const double> from, std::span<const double> to, double resolution) {
+PathAnswer check_sampled(H& hierarchy, std::span<const double> from, std::span<const double> to, double resolution,
+                         const std::function<void()>& between = {}) {
   const StraightPath path(from, to, hierarchy.dof_count());
   const std::uint64_t steps = count_steps(path, resolution);
   const bool moves = std::ranges::any_of(path.rate(), [](double rate) { return rate != 0.0; });
@@ -50,6 +52,7 @@ PathAnswer check_sampled(H& hierarchy, std::span<const double> from, std::span<c
   PathAnswer answer;
   std::vector<double> q;
   const auto collides = [&](double t) {
+    if (between) between();
     path.at(t, q);
     hierarchy.update(q);
     ++answer.counts.configurations;

@@ -10,12 +10,14 @@ PathChecker::PathChecker(const Checker& checker)
     : hierarchy_(checker.molecule().model(), checker.selection(), checker.exclusions(), checker.thresholds().matrix),
       certified_(hierarchy_) {}
 
-PathAnswer PathChecker::certify(std::span<const double> from, std::span<const double> to, double smallest_step) {
-  return certified_.check(from, to, smallest_step);
+PathAnswer PathChecker::certify(std::span<const double> from, std::span<const double> to, double smallest_step,
+                                const std::function<void()>& between) {
+  return certified_.check(from, to, smallest_step, between);
 }
 
-PathAnswer PathChecker::sample(std::span<const double> from, std::span<const double> to, double resolution) {
-  return check_sampled(hierarchy_, from, to, resolution);
+PathAnswer PathChecker::sample(std::span<const double> from, std::span<const double> to, double resolution,
+                               const std::function<void()>& between) {
+  return check_sampled(hierarchy_, from, to, resolution, between);
 }
 
 }  // namespace hinge::molecular
