@@ -260,7 +260,7 @@ class Checker(_core.CheckerBase):
 
     @property
     def model(self):
-        """The Model."""
+        """The Model that is tested."""
         return self._model
 
     def __reduce__(self):

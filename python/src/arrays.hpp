@@ -33,6 +33,9 @@ Doubles as_doubles(pybind11::handle value, const char* name);
 /// ValueError with the shape given and the shapes expected.
 Doubles as_doubles(pybind11::handle value, const char* name, std::span<const Shape> shapes, const char* meaning);
 
+/// Returns the value as a number, which may be infinite or NaN. Throws TypeError, with the argument, if it is none.
+double as_number(pybind11::handle value, const char* name);
+
 /// Throws ValueError, with the argument and the index of the first number that is not finite.
 void require_finite(const Doubles& array, const char* name);
 

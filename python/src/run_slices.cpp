@@ -11,6 +11,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace hinge::python {
@@ -54,6 +55,7 @@ class SharedWork {
   }
   /// Lets no further slice begin.
   void stop() { end_ = 0; }
+  bool stopped() const { return end_.load() == 0; }
   std::size_t done() const { return done_; }
   void rethrow() {
     if (error_) std::rethrow_exception(error_);
@@ -108,6 +110,28 @@ class Watch {
   Clock::time_point next_signal_ = Clock::now() + signal_time, next_report_ = Clock::now() + progress_time;
 };
 
+/// Ends the work of a thread after stop(). The calling thread throws another exception.
+struct Stopped {};
+
+/// What poll() does in this thread. `watch` is null in threads other than the calling one.
+struct Polled {
+  SharedWork* shared = nullptr;
+  Watch* watch = nullptr;
+};
+thread_local Polled polled;
+
+/// Sets `polled` during its lifetime.
+class Polling {
+ public:
+  explicit Polling(Polled now) : before_(std::exchange(polled, now)) {}
+  Polling(const Polling&) = delete;
+  Polling& operator=(const Polling&) = delete;
+  ~Polling() { polled = before_; }
+
+ private:
+  Polled before_;
+};
+
 void run_on_threads(SharedWork& shared, unsigned threads, Watch& watch, const std::function<Slice()>& make_work) {
   std::mutex mutex;
   std::condition_variable ended;
@@ -118,6 +142,7 @@ void run_on_threads(SharedWork& shared, unsigned threads, Watch& watch, const st
     for (unsigned k = 1; k < threads; ++k)
       others.emplace_back([&] {
         try {
+          const Polling polling({&shared, nullptr});
           shared.work(make_work(), [] {});
         } catch (...) {  // no memory for a worker: the other threads do its work
         }
@@ -125,7 +150,10 @@ void run_on_threads(SharedWork& shared, unsigned threads, Watch& watch, const st
         --running;
         ended.notify_one();
       });
-    shared.work(make_work(), [&] { watch.look(shared.done()); });
+    {
+      const Polling polling({&shared, &watch});
+      shared.work(make_work(), [&] { watch.look(shared.done()); });
+    }
     std::unique_lock lock(mutex);
     while (!ended.wait_for(lock, signal_time, [&] { return running == 0; })) {
       lock.unlock();
@@ -141,6 +169,11 @@ void run_on_threads(SharedWork& shared, unsigned threads, Watch& watch, const st
 }
 
 }  // namespace
+
+void poll() {
+  if (polled.watch != nullptr) polled.watch->look(polled.shared->done());
+  if (polled.shared != nullptr && polled.shared->stopped()) throw Stopped();
+}
 
 void run_slices(std::size_t count, unsigned threads, const py::object& progress,
                 const std::function<Slice()>& make_work) {

@@ -34,6 +34,10 @@ void run_slices(WorkerPool<Worker>& pool, std::size_t count, unsigned threads, c
   });
 }
 
+/// For work on one item that may take long: call it often, at least every 10 ms. Inside run_slices(), it does what is
+/// done between slices, or throws if the call is to end; elsewhere it does nothing.
+void poll();
+
 /// Returns the number of threads of a call: `given`, or `standard` if it is None. Throws TypeError unless it is an
 /// integer, ValueError unless it is in 1 ... 1024.
 unsigned as_threads(const pybind11::object& given, unsigned standard);

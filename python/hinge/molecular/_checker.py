@@ -2,6 +2,7 @@
 """Checker: clash rules and free torsions of a molecule, and what is asked about conformations."""
 
 import dataclasses
+import operator
 import warnings
 
 import numpy as np
@@ -26,6 +27,24 @@ class Walk:
     steps: int
     accepted: int
     unclosed: int
+
+
+def _integer(name, value, least):
+    """An integer of 64 bits, at least `least`."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name}: a {type(value).__name__}, expected an integer") from None
+    if not least <= number < 2**64:
+        raise ValueError(f"{name}: {number}, expected {least} to 2**64 - 1")
+    return number
+
+
+def _number(name, value):
+    """A float."""
+    if isinstance(value, (str, bytes)) or not hasattr(value, "__float__"):
+        raise TypeError(f"{name}: a {type(value).__name__}, expected a number")
+    return float(value)
 
 
 class Checker(_core.CheckerBase):
@@ -127,7 +146,7 @@ class Checker(_core.CheckerBase):
 
     @property
     def molecule(self):
-        """The Molecule."""
+        """The Molecule that is tested."""
         return self._molecule
 
     @property
@@ -154,8 +173,9 @@ class Checker(_core.CheckerBase):
         repeated up to `tries` times; a sample for which none succeeds is left out, with a warning.
         Raises ModelError if random starts do not close some cycles (see unclosable()).
         """
-        if n < 0 or first < 0:
-            raise ValueError(f"n, first: {n}, {first}, expected at least 0")
+        n, first = _integer("n", n, 0), _integer("first", first, 0)
+        seed, tries = _integer("seed", seed, 0), _integer("tries", tries, 1)
+        sigma = None if sigma is None else _number("sigma", sigma)
         if self.kept_closures.size and (seed, sigma) not in self._closing:
             open_closures = self.unclosable(seed, sigma)
             if open_closures.size:
@@ -184,9 +204,11 @@ class Checker(_core.CheckerBase):
         collision or undecided segment, 0 to 1), half_width (of that segment), i, j (its atoms; -1: none known),
         distance, threshold (angstrom), states (number of configurations computed).
         """
+        resolution = None if resolution is None else _number("resolution", resolution)
         if resolution is not None and not 0 < resolution < np.inf:
             raise ValueError(f"resolution: {resolution}, expected a finite number above 0, or None")
-        rows = self._certify(a, b, float(smallest_step), float(resolution or 0.0), threads, progress)
+        smallest_step = _number("smallest_step", smallest_step)
+        rows = self._certify(a, b, smallest_step, resolution or 0.0, threads, progress)
         fields = [(name, "U9" if name == "verdict" else rows.dtype[name]) for name in rows.dtype.names]
         named = np.empty(rows.shape, fields)
         for name in rows.dtype.names:
@@ -197,11 +219,12 @@ class Checker(_core.CheckerBase):
         """Make a Monte Carlo walk of collision-free moves, the same as `biocd walk`. Returns a Walk.
 
         step_size: standard deviation of a torsion's change, rad. changes: torsions per move. every: steps from one
-        returned configuration to the next. start: shape (dof,); None: the reference.
+        returned configuration to the next. start: shape (dof,); None: the reference. seed: of the random moves.
         Raises ModelError if the start collides.
         """
-        if steps < 0:
-            raise ValueError(f"steps: {steps}, expected at least 0")
+        steps, changes = _integer("steps", steps, 0), _integer("changes", changes, 0)
+        seed, every = _integer("seed", seed, 0), _integer("every", every, 0)
+        step_size = _number("step_size", step_size)
         rows, end, accepted, unclosed = self._walk(steps, step_size, changes, seed, every, start, progress)
         return Walk(rows, end, steps, accepted, unclosed)
 
@@ -228,8 +251,8 @@ class Checker(_core.CheckerBase):
         free = self._free if isinstance(self._free, str) else f"{len(self._free)} chosen"
         rule = f"d < {self.rho} * ({self.radii} radii)" if self.rho else self.rules
         return (
-            f"<Checker of {self._molecule.name!r}: free {free}, {self.dof} degrees of freedom, "
-            f"{self.n_rigid_groups} rigid groups, {rule}, pairs at least {self.min_bonds} bonds apart>"
+            f"<Checker of {self._molecule.name!r}: free {free}, {self.dof} DOF, {self.n_rigid_groups} rigid groups, "
+            f"{rule}, {self.min_bonds} bonds apart>"
         )
 
 

@@ -53,6 +53,8 @@ def text_of_mdanalysis(atoms):
     chains = _column(group, "chainIDs", "")
     segments = _column(group, "segids", "")
     codes = _column(group, "icodes", "")
+    altlocs = _column(group, "altLocs", "")
+    occupancies = _column(group, "occupancies", 1.0)
     numbers = _column(group, "resids", 1)
     elements = _column(group, "elements", "")
     lines = ["data_mdanalysis", "loop_", *(f"_atom_site.{column}" for column in _COLUMNS)]
@@ -63,20 +65,8 @@ def text_of_mdanalysis(atoms):
         code = str(codes[k]).strip() or "?"
         place = " ".join(np.format_float_positional(c, unique=True, trim="0") for c in x)
         lines.append(
-            f"ATOM {k + 1} {element} {_quoted(names[k])} . {_quoted(residues[k])} {chain} ? . {code} {place} 1 0 "
+            f"ATOM {k + 1} {element} {_quoted(names[k])} {_quoted(altlocs[k])} {_quoted(residues[k])} {chain} ? . "
+            f"{code} {place} {float(occupancies[k]):.6g} 0 "
             f"{int(numbers[k])} {chain} 1"
         )
     return ("\n".join(lines) + "\n").encode()
-
-
-def require_same_atoms(molecule, group):
-    """Raises ModelError unless the molecule has the group's atoms, in its order."""
-    from .. import ModelError
-
-    names = np.asarray(group.names, dtype=str)
-    if molecule.n_atoms != len(names):
-        raise ModelError(f"atoms: {len(names)} atoms, of which {molecule.n_atoms} were read; see notes of the molecule")
-    different = np.flatnonzero(molecule.atoms["name"] != np.char.strip(names))
-    if different.size:
-        k = different[0]
-        raise ModelError(f"atoms: atom {k} is {names[k]}, read as {molecule.label(k)}; sort the group by residues")

@@ -163,15 +163,13 @@ class Molecule(_core.MoleculeBase):
     def from_mdanalysis(cls, atoms, **options):
         """Return the molecule of an MDAnalysis AtomGroup or Universe, at its present frame.
 
-        options: as of Molecule, but hetero is 'waters' unless given: all atoms of the group are kept, in its order.
-        Chains are MDAnalysis' chainIDs, or segids if there are none. Bonds are found as for a file.
-        Raises ModelError if the molecule has other atoms than the group, or in another order.
+        options: as of Molecule, but hetero is 'waters' unless given, which keeps all. Chains are MDAnalysis' chainIDs,
+        or segids if there are none. Bonds are found as for a file. One alternative location is kept, and chains are
+        contiguous, so atoms may be fewer and in another order: atoms.positions[m.atoms["record"]] are coordinates
+        for the molecule. They are 32-bit floats; pass decimals=3 where the file had three decimals.
         """
         options.setdefault("hetero", "waters")
-        molecule = cls(_interop.text_of_mdanalysis(atoms), **options)
-        if options.get("hydrogens", "keep") == "keep" and options["hetero"] == "waters":
-            _interop.require_same_atoms(molecule, atoms.atoms)
-        return molecule
+        return cls(_interop.text_of_mdanalysis(atoms), **options)
 
     @property
     def source(self):
@@ -187,7 +185,8 @@ class Molecule(_core.MoleculeBase):
     def atoms(self):
         """The atoms: a read-only structured array of shape (n_atoms,).
 
-        Fields: name, element, residue (index), residue_name, residue_number, insertion_code, chain, altloc, serial.
+        Fields: name, element, residue (index), residue_name, residue_number, insertion_code, chain, altloc, serial,
+        record (index among the atom records of the file, or in the AtomGroup of from_mdanalysis).
         """
         if "_atoms" not in self.__dict__:
             self._atoms = _table(self._atom_columns())
@@ -257,11 +256,12 @@ class Molecule(_core.MoleculeBase):
         return _rebuild, (type(self), self._data, self._options)
 
     def __repr__(self):
-        models = f", {self.n_models} models" if self.n_models > 1 else ""
-        return (
-            f"<Molecule {self.name!r}: {self.n_atoms} atoms, {self.n_residues} residues, {self.n_chains} chains, "
-            f"{len(self.torsions)} torsions{models}>"
-        )
+        def count(n, what):
+            return f"{n} {what}" + ("" if n == 1 else "s")
+
+        parts = [count(self.n_atoms, "atom"), count(self.n_residues, "residue"), count(self.n_chains, "chain")]
+        models = [count(self.n_models, "model")] if self.n_models > 1 else []
+        return f"<Molecule {self.name!r}: {', '.join([*parts, count(len(self.torsions), 'torsion'), *models])}>"
 
 
 def residues_of(part, residues, name):

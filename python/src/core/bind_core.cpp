@@ -105,6 +105,7 @@ py::object collides(CoreChecker& self, const py::object& values, const py::objec
                     const py::object& progress) {
   const Configurations q = as_configurations(values, "q", self.dof);
   if (q.one) {
+    as_threads(threads, self.threads);
     bool hit = false;
     {
       const py::gil_scoped_release unlocked;
@@ -196,9 +197,8 @@ void bind_core(py::module_& module) {
              "are left out (constant_contacts). Raises TypeError and ValueError.")
         .def(
             "pairs",
-            [](CoreChecker& self, const py::object& q, double within, const py::object& n, const py::object& bar) {
-              return list_pairs(self, q, within, n, bar);
-            },
+            [](CoreChecker& self, const py::object& q, const py::object& within, const py::object& n,
+               const py::object& bar) { return list_pairs(self, q, as_number(within, "within"), n, bar); },
             py::arg("q"), py::kw_only(), py::arg("within") = 0.0, threads, progress,
             "pairs(self, q, *, within=0.0, threads=None, progress=None)\n--\n\n"
             "Return the pairs of primitives that collide, or with d < threshold + within.\n\n"
@@ -213,12 +213,12 @@ void bind_core(py::module_& module) {
             py::arg("q"), py::kw_only(), threads, progress,
             "closest(self, q, *, threads=None, progress=None)\n--\n\n"
             "Return the pair of least distance - threshold of each configuration, as rows of pairs().\n\n"
+            "q: as in collides(). "
             "A configuration without tested pairs has no row.")
         .def("link_poses", &link_poses, py::arg("q"), py::kw_only(), threads, progress,
              "link_poses(self, q, *, threads=None, progress=None)\n--\n\n"
-             "Return the world poses of all links, the world included: shape (n, links, 4, 4), or (links, 4, 4) for "
-             "one\n"
-             "configuration.");
+             "Return the world poses of all links, the world included.\n\n"
+             "q: as in collides(). Returns shape (n, links, 4, 4), or (links, 4, 4) for one configuration.");
   });
   checker
       .def_property_readonly(

@@ -48,13 +48,10 @@ py::object list_pairs(CheckerHandle& self, const FrameSource& frames, const Mode
   return to_array(joined(rows));
 }
 
-py::object pairs_coordinates(CheckerHandle& self, const py::object& x, double within, const py::object& decimals,
-                             const py::object& threads, const py::object& progress) {
-  if (!(within >= 0.0 && within <= 1e9))
-    throw py::value_error("within: " + py::repr(py::float_(within)).cast<std::string>() +
-                          ", expected a length from 0 to 1e9 angstrom");
+py::object pairs_coordinates(CheckerHandle& self, const py::object& x, const py::object& within,
+                             const py::object& decimals, const py::object& threads, const py::object& progress) {
+  const Mode mode = as_mode(within);
   const FrameSource frames(x, "x", self.molecule, decimals);
-  const Mode mode = within == 0.0 ? Mode{Mode::Kind::all} : Mode{Mode::Kind::within, within};
   return list_pairs(self, frames, mode, threads, progress);
 }
 

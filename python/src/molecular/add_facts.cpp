@@ -48,6 +48,31 @@ py::array_t<double> overlaps(const CheckerHandle& self, const py::array_t<PairRo
   return to_array(std::move(all));
 }
 
+py::array_t<std::uint16_t> types_of(const CheckerHandle& self) {
+  std::vector<std::uint16_t> types;
+  const auto& matrix = self.checker().thresholds().matrix;
+  for (std::size_t atom = 0; atom < self.molecule.atom_count(); ++atom)
+    types.push_back(matrix.type(id<PrimitiveId>(atom)));
+  return to_array(std::move(types));
+}
+
+py::array_t<double> threshold_table(const CheckerHandle& self) {
+  const auto& thresholds = self.checker().thresholds();
+  const auto count = static_cast<py::ssize_t>(thresholds.type_names.size());
+  return to_array(std::vector(thresholds.table), {count, count});
+}
+
+py::array_t<std::uint32_t> excluded_pairs(const CheckerHandle& self) {
+  std::vector<std::uint32_t> pairs;
+  const BondExclusions& exclusions = self.checker().exclusions();
+  for (std::size_t i = 0; i < exclusions.size(); ++i)
+    for (const PrimitiveId j : exclusions.excluded(id<PrimitiveId>(i)))
+      if (index(j) > i)
+        pairs.insert(pairs.end(), {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(index(j))});
+  const auto count = static_cast<py::ssize_t>(pairs.size() / 2);
+  return to_array(std::move(pairs), {count, 2});
+}
+
 }  // namespace
 
 void add_facts(CheckerClass& checker) {
@@ -82,6 +107,15 @@ void add_facts(CheckerClass& checker) {
           "constant_contacts",
           [](const CheckerHandle& self) { return listed_hits(self.checker().constant_contacts()); },
           "Reference collisions whose distance the selection cannot change, as rows of pairs().")
+      .def_property_readonly("types", &types_of, "The type of each atom, shape (n_atoms,); see threshold_table.")
+      .def_property_readonly("threshold_table", &threshold_table,
+                             "Distance below which two types collide, shape (types, types), angstrom.")
+      .def_property_readonly(
+          "type_names", [](const CheckerHandle& self) { return self.checker().thresholds().type_names; },
+          "Names of the types, such as 'C' or 'H.polar'.")
+      .def_property_readonly("excluded_pairs", &excluded_pairs,
+                             "Pairs of atoms that are not tested, because they have too few bonds between them or are\n"
+                             "exempt: shape (n, 2), i < j.")
       .def_property_readonly(
           "rules", [](const CheckerHandle& self) { return std::string(self.checker().thresholds().rules->name); },
           "Name of the clash rules in use.")

@@ -58,8 +58,8 @@ py::object certify(CheckerHandle& self, const py::object& from, const py::object
     return [&, checker](std::size_t first, std::size_t last) {
       for (std::size_t k = first; k < last; ++k) {
         const auto start = a[a.one ? 0 : k], end = b[b.one ? 0 : k];
-        rows[k] = path_row(resolution > 0.0 ? checker->sample(start, end, resolution)
-                                            : checker->certify(start, end, smallest_step));
+        rows[k] = path_row(resolution > 0.0 ? checker->sample(start, end, resolution, poll)
+                                            : checker->certify(start, end, smallest_step, poll));
       }
     };
   });

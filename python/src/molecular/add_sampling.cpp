@@ -42,7 +42,7 @@ Sampling as_sampling(std::uint64_t seed, std::optional<double> sigma) {
 
 /// The rows of the samples that were found, in order of their indices, and counts of the starts.
 struct Samples {
-  std::vector<double> q;
+  double* q = nullptr;
   std::vector<std::uint8_t> found;
   std::atomic<std::uint64_t> unclosed{0}, refused{0};
 };
@@ -66,7 +66,7 @@ void draw_closed(CheckerHandle& self, const SampleArguments& given, unsigned thr
         samples.unclosed += sample.unclosed;
         samples.refused += sample.refused;
         samples.found[k] = sample.found() ? 1 : 0;
-        if (sample.found()) std::copy(sample.q.begin(), sample.q.end(), samples.q.data() + k * dof);
+        if (sample.found()) std::copy(sample.q.begin(), sample.q.end(), samples.q + k * dof);
       }
     };
   });
@@ -81,7 +81,7 @@ void draw_open(CheckerHandle& self, const SampleArguments& given, unsigned threa
       for (std::size_t k = begin; k < end; ++k) {
         const std::vector<double> q =
             sample_configuration(given.sampling, given.first + k, *self.molecule, selection, self.molecule.ranges);
-        std::copy(q.begin(), q.end(), samples.q.data() + k * dof);
+        std::copy(q.begin(), q.end(), samples.q + k * dof);
       }
     };
   });
@@ -97,8 +97,10 @@ py::tuple sample(CheckerHandle& self, std::uint64_t count, std::uint64_t seed, s
   if (dof > 0 && count > (std::uint64_t{1} << 40) / dof)
     throw py::value_error("n: " + std::to_string(count) + " conformations of " + std::to_string(dof) +
                           " values do not fit in memory; draw them in parts (first=)");
+  const auto width = static_cast<py::ssize_t>(dof);
+  Doubles q(Shape{static_cast<py::ssize_t>(count), width});  // NumPy does not touch the memory
   Samples samples;
-  samples.q.resize(static_cast<std::size_t>(count) * dof);
+  samples.q = q.mutable_data();
   samples.found.assign(static_cast<std::size_t>(count), 1);
   if (!self.kept.closures.empty() || collision_free)
     draw_closed(self, given, threads, progress, samples);
@@ -107,12 +109,11 @@ py::tuple sample(CheckerHandle& self, std::uint64_t count, std::uint64_t seed, s
   std::size_t rows = 0;
   for (std::size_t k = 0; k < samples.found.size(); ++k) {
     if (samples.found[k] == 0) continue;
-    if (rows != k) std::copy_n(samples.q.data() + k * dof, dof, samples.q.data() + rows * dof);
+    if (rows != k) std::copy_n(samples.q + k * dof, dof, samples.q + rows * dof);
     ++rows;
   }
-  samples.q.resize(rows * dof);
-  return py::make_tuple(to_array(std::move(samples.q), {static_cast<py::ssize_t>(rows), static_cast<py::ssize_t>(dof)}),
-                        to_booleans(std::move(samples.found)), samples.unclosed.load(), samples.refused.load());
+  const py::object found = rows == count ? py::object(q) : q[py::slice(0, static_cast<py::ssize_t>(rows), 1)];
+  return py::make_tuple(found, to_booleans(std::move(samples.found)), samples.unclosed.load(), samples.refused.load());
 }
 
 /// Indices of the closures that random starts do not close.

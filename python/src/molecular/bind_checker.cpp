@@ -25,6 +25,14 @@ std::vector<PairRow> joined(const std::vector<std::vector<PairRow>>& rows) {
   return all;
 }
 
+Mode as_mode(const py::object& within) {
+  const double margin = as_number(within, "within");
+  if (!(margin >= 0.0 && margin <= 1e9))
+    throw py::value_error("within: " + py::repr(py::float_(margin)).cast<std::string>() +
+                          ", expected a length from 0 to 1e9 angstrom");
+  return margin == 0.0 ? Mode{Mode::Kind::all} : Mode{Mode::Kind::within, margin};
+}
+
 namespace {
 
 const Mode any_pair{Mode::Kind::any};
@@ -78,6 +86,7 @@ py::object collides(CheckerHandle& self, const py::object& values, const py::obj
                     const py::object& progress) {
   const Configurations q = as_configurations(values, "q", self.dof());
   if (q.one) {
+    as_threads(threads, self.threads);
     std::uint8_t verdict = 0;
     {
       const py::gil_scoped_release unlocked;
@@ -170,7 +179,8 @@ constexpr const char* pairs_doc =
 constexpr const char* closest_doc =
     "closest(self, q, *, threads=None, progress=None)\n--\n\n"
     "Return the pair of least distance - threshold of each configuration, as rows of pairs().\n\n"
-    "A pair that collides comes first, if any does. A configuration without tested pairs has no row.";
+    "q: as in collides(). A pair that collides comes first, if any does. A configuration without tested pairs has no "
+    "row.";
 constexpr const char* positions_doc =
     "positions(self, q, *, out=None, threads=None, progress=None)\n--\n\n"
     "Return the coordinates of all atoms: shape (n, n_atoms, 3), or (n_atoms, 3) for one configuration; angstrom.\n\n"
@@ -201,12 +211,9 @@ void bind_checker(py::module_& module) {
            py::arg("progress") = py::none(), collides_doc)
       .def(
           "pairs",
-          [](CheckerHandle& self, const py::object& q, double within, const py::object& threads,
+          [](CheckerHandle& self, const py::object& q, const py::object& within, const py::object& threads,
              const py::object& progress) {
-            if (!(within >= 0.0 && within <= 1e9))
-              throw py::value_error("within: " + py::repr(py::float_(within)).cast<std::string>() +
-                                    ", expected a length from 0 to 1e9 angstrom");
-            const Mode mode = within == 0.0 ? Mode{Mode::Kind::all} : Mode{Mode::Kind::within, within};
+            const Mode mode = as_mode(within);
             return list_pairs(self, q, mode, threads, progress);
           },
           py::arg("q"), py::kw_only(), py::arg("within") = 0.0, py::arg("threads") = py::none(),
@@ -222,8 +229,8 @@ void bind_checker(py::module_& module) {
       .def("closure_residuals", &closure_residuals, py::arg("q"), py::kw_only(), py::arg("threads") = py::none(),
            py::arg("progress") = py::none(),
            "closure_residuals(self, q, *, threads=None, progress=None)\n--\n\nReturn how far each closure is from "
-           "closed: "
-           "shape (n, n_closures), angstrom.");
+           "closed.\n\n"
+           "q: as in collides(). Returns shape (n, n_closures), angstrom.");
   add_facts(checker);
   add_coordinates(checker);
   add_sampling(checker);

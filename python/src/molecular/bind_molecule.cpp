@@ -94,7 +94,7 @@ std::unique_ptr<MoleculeHandle> make_molecule(const MoleculeArguments& given) {
 py::dict atom_columns(const MoleculeHandle& m) {
   const Structure& s = m.structure();
   py::list names, elements, residue_names, chains, altlocs, codes;
-  std::vector<std::int32_t> residue_of, numbers_of, serials;
+  std::vector<std::int32_t> residue_of, numbers_of, serials, records;
   for (const Atom& atom : s.atoms) {
     const Residue& residue = s.residues[atom.residue];
     names.append(atom.name);
@@ -106,6 +106,7 @@ py::dict atom_columns(const MoleculeHandle& m) {
     residue_of.push_back(static_cast<std::int32_t>(atom.residue));
     numbers_of.push_back(residue.sequence_number);
     serials.push_back(atom.serial);
+    records.push_back(static_cast<std::int32_t>(atom.record));
   }
   py::dict columns;
   columns["name"] = names;
@@ -117,6 +118,7 @@ py::dict atom_columns(const MoleculeHandle& m) {
   columns["chain"] = chains;
   columns["altloc"] = altlocs;
   columns["serial"] = to_array(std::move(serials));
+  columns["record"] = to_array(std::move(records));
   return columns;
 }
 
@@ -247,9 +249,8 @@ void bind_molecule(py::module_& module) {
             return bond_distance(m.structure(), static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), limit);
           },
           py::arg("i"), py::arg("j"), py::arg("limit") = 16,
-          "bond_distance(self, i, j, limit=16)\n--\n\nReturn the number of bonds on the shortest path between two "
-          "atoms, "
-          "or -1 if it is above\nlimit or there is no path.")
+          "bond_distance(self, i, j, limit=16)\n--\n\nReturn the number of bonds on the shortest path between atoms i "
+          "and j, or -1 if it\nis above limit or there is no path.")
       .def("_atom_columns", &atom_columns)
       .def("_torsion_columns", &torsion_columns)
       .def("_bond_columns", &bond_columns)

@@ -51,6 +51,10 @@ inline PairRow pair_row(std::int64_t conformation, const molecular::Contact& con
           contact.collides};
 }
 
+/// Returns the mode of a list of pairs with d < threshold + within. Throws TypeError, and ValueError unless `within` is
+/// a length from 0 to 1e9 angstrom.
+molecular::Mode as_mode(const pybind11::object& within);
+
 /// Joins the rows of all conformations, in their order.
 std::vector<PairRow> joined(const std::vector<std::vector<PairRow>>& rows);
 

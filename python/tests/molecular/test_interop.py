@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Structures and coordinates of gemmi, MDAnalysis and mdtraj give the answers of the files they were read from."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+import hinge.molecular as hm
+from conftest import ROOT, SHARED
+
+FILES = [
+    ROOT / "molecular/data/1ubq.pdb",
+    ROOT / "molecular/data/1bna.pdb",
+    SHARED / "molecules/1crn.pdb",
+    SHARED / "molecules/5pti.pdb",
+    SHARED / "molecules/1hpx.pdb",
+    SHARED / "molecules/paper/nmr_neopetrosiamide.pdb",
+]
+files = pytest.mark.parametrize("file", FILES, ids=lambda f: f.stem)
+
+
+def imported(name):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of old modules with a newer Python
+        return pytest.importorskip(name, reason=f"{name} is not installed (./run python installs it)")
+
+
+def existing(file):
+    if not file.exists():
+        pytest.skip(f"{file} does not exist")
+    return file
+
+
+@files
+def test_gemmi(file):
+    gemmi = imported("gemmi")
+    m = hm.Molecule(existing(file), hetero=True)
+    g = hm.Molecule.from_gemmi(gemmi.read_structure(str(file)), hetero=True)
+    assert np.array_equal(g.models, m.models)
+    assert [m.label(k) for k in range(m.n_atoms)] == [g.label(k) for k in range(g.n_atoms)]
+    mine, theirs = hm.Checker(m, "none"), hm.Checker(g, "none")
+    assert np.array_equal(mine.pairs_coordinates(m.models, within=0.3), theirs.pairs_coordinates(g.models, within=0.3))
+
+
+@files
+@pytest.mark.filterwarnings("ignore")
+def test_mdanalysis(file):
+    mda = imported("MDAnalysis")
+    m = hm.Molecule(existing(file), hetero="waters", model=1)
+    universe = mda.Universe(str(file))
+    x = hm.Molecule.from_mdanalysis(universe)
+    assert [m.label(k) for k in range(m.n_atoms)] == [x.label(k) for k in range(x.n_atoms)]
+    mine, theirs = hm.Checker(m, "none"), hm.Checker(x, "none")
+    expected = mine.pairs_coordinates(m.coordinates, within=0.3)
+    positions = universe.atoms.positions[x.atoms["record"]]
+    assert positions.dtype == np.float32
+    assert np.array_equal(theirs.pairs_coordinates(positions, within=0.3, decimals=3), expected)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_part_of_a_universe():
+    mda = imported("MDAnalysis")
+    universe = mda.Universe(str(FILES[0]))
+    group = universe.select_atoms("resid 10-30")
+    m = hm.Molecule.from_mdanalysis(group)
+    assert m.n_atoms == len(group)
+    assert m.atoms["residue_number"].min() == 10 and m.atoms["residue_number"].max() == 30
+    with pytest.raises(ValueError, match="atoms: 0 atoms"):
+        hm.Molecule.from_mdanalysis(universe.select_atoms("resid 999"))
+    with pytest.raises(TypeError, match="atoms: a str, expected an AtomGroup"):
+        hm.Molecule.from_mdanalysis("1ubq")
+    with pytest.raises(TypeError, match="structure: a str, expected a gemmi.Structure"):
+        hm.Molecule.from_gemmi("1ubq")
+
+
+@pytest.mark.parametrize("top, trajectory, decimals", [("1l2y.pdb", "1l2y.xtc", 3), ("1l2y.pdb", "1l2y.dcd", None)])
+@pytest.mark.filterwarnings("ignore")
+def test_trajectories_of_mdanalysis_and_mdtraj(shared, top, trajectory, decimals):
+    mda, mdtraj = imported("MDAnalysis"), imported("mdtraj")
+    top, trajectory = shared(f"molecules/{top}"), shared(f"molecules/{trajectory}")
+    m = hm.Molecule(top, model=1)
+    c = hm.Checker(m, "none")
+    frames = hm.Trajectory(m, trajectory)
+    expected = c.pairs_coordinates(frames)
+    universe = mda.Universe(str(top), str(trajectory))
+    x = np.stack([universe.atoms.positions for _ in universe.trajectory])
+    assert np.array_equal(c.pairs_coordinates(x, decimals=decimals), expected)
+    nanometres = mdtraj.load(str(trajectory), top=str(top)).xyz
+    got = c.pairs_coordinates(nanometres.astype(float) * 10, decimals=3)
+    if decimals == 3:
+        assert np.array_equal(got, expected)
+    else:  # mdtraj's nanometres are rounded once more
+        assert abs(len(got) - len(expected)) <= 0.02 * len(expected)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_analysis_class(shared):
+    mda = imported("MDAnalysis")
+    from hinge.molecular.mdanalysis import ClashAnalysis
+
+    top, trajectory = shared("molecules/1l2y.pdb"), shared("molecules/1l2y.xtc")
+    universe = mda.Universe(str(top), str(trajectory))
+    analysis = ClashAnalysis(universe, decimals=3).run(start=3, stop=20, step=2)
+    m = hm.Molecule(top, model=1)
+    c = hm.Checker(m, "none")
+    expected = c.pairs_coordinates(hm.Trajectory(m, trajectory).read(3, 20, 2))
+    assert np.array_equal(analysis.results.pairs, expected)
+    assert analysis.results.collides.tolist() == c.collides_coordinates(hm.Trajectory(m, trajectory)[3:20:2]).tolist()
+    assert analysis.results.residues["contacts"].sum() == len(expected)
+    assert analysis.frames.tolist() == list(range(3, 20, 2))

@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the Python code of the documentation and compares its output."""
+
+import doctest
+import re
+
+import pytest
+
+from conftest import ROOT
+
+PAGES = sorted((ROOT / "docs").rglob("python_*.md"))
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda p: p.stem)
+def test_output_is_as_shown(page, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    blocks = re.findall(r"^```python\n(.*?)^```$", page.read_text(), re.MULTILINE | re.DOTALL)
+    assert blocks, f"{page} has no ```python block"
+    parser = doctest.DocTestParser()
+    examples = [example for block in blocks for example in parser.get_examples(block)]
+    assert len(examples) >= 10
+    test = doctest.DocTest(examples, {}, page.stem, str(page), 0, None)
+    output = []
+    result = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS).run(test, out=output.append)
+    assert result.failed == 0, "".join(output)
