@@ -3,8 +3,8 @@
 
     PYTHONPATH=build/python /usr/bin/python3 python/bench/trajectory_clashes.py TOPOLOGY [TRAJECTORY]
 
-MDAnalysis: self_capped_distance with the largest threshold; mdtraj: compute_neighborlist with it. Both times are without
-the thresholds by type and the bonded pairs, which only the comparison of the pairs applies. Medians of five runs.
+MDAnalysis: self_capped_distance with the largest threshold; mdtraj: compute_neighborlist with it. Both times are
+without the thresholds by type and the bonded pairs, which only the comparison applies. Medians of five runs.
 """
 
 import statistics

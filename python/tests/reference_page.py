@@ -38,7 +38,7 @@ def _class(thing):
     if issubclass(thing, Exception):
         return text
     members = [(name, inspect.getattr_static(thing, name)) for name in sorted(dir(thing)) if not name.startswith("_")]
-    described = [_entry(name, m) for name, m in members if callable(m) or hasattr(m, "__func__") or hasattr(m, "__get__")]
+    described = [_entry(name, m) for name, m in members if callable(m) or hasattr(m, "__get__")]
     return text + (_block("\n\n".join(described)) if described else "")
 
 

@@ -15,11 +15,12 @@ from conftest import ROOT
 def test_pip_builds_and_installs(tmp_path):
     build = os.environ.get("HINGE_PYTHON_BUILD_DIR")
     if not build:
-        pytest.skip("HINGE_PYTHON_BUILD_DIR is not set: a build from nothing takes many minutes (./run python sets it)")
+        pytest.skip("HINGE_PYTHON_BUILD_DIR is not set (./run python sets it): a build from nothing takes long")
     pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "-q"]
     settings = ["--config-settings", f"build-dir={build}"]
-    wheel = [*pip, "wheel", "--no-build-isolation", "--no-deps", "--no-index", *settings, "-w", tmp_path, ROOT / "python"]
-    done = subprocess.run(list(map(str, wheel)), capture_output=True, text=True, timeout=1200)
+    offline = ["--no-build-isolation", "--no-deps", "--no-index"]
+    wheel = [*pip, "wheel", *offline, *settings, "-w", str(tmp_path), str(ROOT / "python")]
+    done = subprocess.run(wheel, capture_output=True, text=True, timeout=1200)
     assert done.returncode == 0, done.stdout + done.stderr
     (made,) = tmp_path.glob("hinge-*.whl")
     names = zipfile.ZipFile(made).namelist()
@@ -31,7 +32,8 @@ def test_pip_builds_and_installs(tmp_path):
     subprocess.run(install, check=True, timeout=300)
     code = (
         "import hinge, hinge.molecular as hm; assert hinge.__file__.startswith('" + str(folder) + "')\n"
-        f"m = hm.Molecule({str(ROOT / 'molecular/data/1ubq.pdb')!r}); print(hm.Checker(m).collides_coordinates(m.models))"
+        f"m = hm.Molecule({str(ROOT / 'molecular/data/1ubq.pdb')!r})\n"
+        "print(hm.Checker(m).collides_coordinates(m.models))"
     )
     env = {**os.environ, "PYTHONPATH": str(folder)}
     told = subprocess.run([sys.executable, "-c", code], env=env, capture_output=True, text=True, cwd=tmp_path)

@@ -98,12 +98,7 @@ class Walk:
     accepted: int
     unclosed: int
     def __init__(
-        self,
-        configurations: NDArray[np.float64],
-        end: NDArray[np.float64],
-        steps: int,
-        accepted: int,
-        unclosed: int,
+        self, configurations: NDArray[np.float64], end: NDArray[np.float64], steps: int, accepted: int, unclosed: int
     ) -> None: ...
 
 class Trajectory:
@@ -153,21 +148,14 @@ class Checker:
         open_closures: Sequence[int] = (),
         threads: int = 1,
     ) -> None: ...
-    # collides and collides_coordinates: bool for one conformation, booleans of shape (n,) for several
+    # collides...: bool for one conformation, booleans of shape (n,) for several
     def collides(self, q: ArrayLike, *, threads: int | None = None, progress: _Progress = None) -> Any: ...
     def pairs(
         self, q: ArrayLike, *, within: float = 0.0, threads: int | None = None, progress: _Progress = None
     ) -> NDArray[np.void]: ...
-    def closest(
-        self, q: ArrayLike, *, threads: int | None = None, progress: _Progress = None
-    ) -> NDArray[np.void]: ...
+    def closest(self, q: ArrayLike, *, threads: int | None = None, progress: _Progress = None) -> NDArray[np.void]: ...
     def positions(
-        self,
-        q: ArrayLike,
-        *,
-        out: NDArray[np.float64] | None = None,
-        threads: int | None = None,
-        progress: _Progress = None,
+        self, q: ArrayLike, *, out: Any = None, threads: int | None = None, progress: _Progress = None
     ) -> NDArray[np.float64]: ...
     def closure_residuals(
         self, q: ArrayLike, *, threads: int | None = None, progress: _Progress = None
