@@ -25,6 +25,9 @@ constexpr auto slice_time = std::chrono::milliseconds(10);
 constexpr auto signal_time = std::chrono::milliseconds(20);
 constexpr auto progress_time = std::chrono::milliseconds(100);
 
+/// Ends the work of a thread after stop(). Another thread's exception is the answer of the call.
+struct Stopped {};
+
 /// What the threads of one call share.
 class SharedWork {
  public:
@@ -43,6 +46,8 @@ class SharedWork {
       try {
         slice(first, last);
         done_ += last - first;
+      } catch (const Stopped&) {
+        return;
       } catch (...) {
         fail(first);
         return;
@@ -110,9 +115,6 @@ class Watch {
   Clock::time_point next_signal_ = Clock::now() + signal_time, next_report_ = Clock::now() + progress_time;
 };
 
-/// Ends the work of a thread after stop(). The calling thread throws another exception.
-struct Stopped {};
-
 /// What poll() does in this thread. `watch` is null in threads other than the calling one.
 struct Polled {
   SharedWork* shared = nullptr;
@@ -171,7 +173,14 @@ void run_on_threads(SharedWork& shared, unsigned threads, Watch& watch, const st
 }  // namespace
 
 void poll() {
-  if (polled.watch != nullptr) polled.watch->look(polled.shared->done());
+  if (polled.watch != nullptr) {
+    try {
+      polled.watch->look(polled.shared->done());
+    } catch (...) {
+      polled.shared->stop();
+      throw;
+    }
+  }
   if (polled.shared != nullptr && polled.shared->stopped()) throw Stopped();
 }
 

@@ -108,7 +108,7 @@ def test_ctrl_c_ends_a_long_call(c, threads):
     assert c.collides(q[:10]).shape == (10,)
 
 
-@pytest.mark.parametrize("call", ["walk", "sample", "certify", "frames"])
+@pytest.mark.parametrize("call", ["walk", "sample", "certify", "one endless path", "two endless paths", "frames"])
 def test_ctrl_c_ends_every_kind_of_call(m, c, call):
     start = []
 
@@ -125,6 +125,10 @@ def test_ctrl_c_ends_every_kind_of_call(m, c, call):
             c.walk(10**9)
         elif call == "sample":
             c.sample(2 * 10**6, 1, 0.1)
+        elif "endless" in call:
+            free = hm.Checker(m, "A:2:chi1", exempt_reference=True)
+            threads = 2 if call == "two endless paths" else 1
+            free.certify(np.zeros((20 * threads, 1)), [6.28], resolution=1e-12, threads=threads)
         elif call == "certify":
             c.certify(np.repeat(q[:1], 10**5, axis=0), q[1])
         else:
