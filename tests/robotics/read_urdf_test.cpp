@@ -51,6 +51,16 @@ RobotDescription read(const std::string& urdf, const UrdfOptions& options = {}) 
   return read_urdf(folder.write("r.urdf", urdf), options);
 }
 
+TEST(ReadUrdf, ReadsTextInMemoryAsTheFile) {
+  const test::TemporaryFolder folder;
+  const std::string text = one_shape("<mesh filename='none.stl'/>");
+  const std::filesystem::path file = folder.write("r.urdf", text), other = folder.path() / "other.urdf";
+  const std::string of_file = test::refusal(folder, [&] { read_urdf(file); });
+  const std::string of_text = test::refusal(folder, [&] { parse_urdf(text, other); });
+  EXPECT_EQ(of_text, "other" + of_file.substr(1));
+  EXPECT_EQ(parse_urdf(one_shape("<box size='1 2 3'/>"), other).links.size(), 1U);
+}
+
 TEST(ReadUrdf, ReadsLinksAndJointsInTheOrderOfTheFile) {
   const RobotDescription robot = read(robot_of(
       "<link name='z'/><link name='y'/><link name='x'><collision><origin xyz='1 2 3'/><geometry><box size='1 2 3'/>"

@@ -161,8 +161,8 @@ void note_xacro(const XmlFile& file, const XMLElement& element, UrdfOutline& out
 
 }  // namespace
 
-UrdfOutline outline_urdf(const std::filesystem::path& path) {
-  XmlFile file(path, "robot");
+UrdfOutline outline_urdf(const std::filesystem::path& path, const std::string& text) {
+  XmlFile file(path, text, "robot");
   UrdfOutline outline;
   if (text_of(file.root(), "name").empty()) {
     file.root().SetAttribute("name", path.stem().string().c_str());

@@ -48,6 +48,7 @@ struct UrdfOutline {
 
 /// Throws LoadError as XmlFile does, and for elements without name, an xyz or rpy that is not three finite numbers, a
 /// capsule size that is not one finite number, and xacro that could stand for geometry or change it.
-UrdfOutline outline_urdf(const std::filesystem::path& path);
+/// text: the bytes of the file `path`.
+UrdfOutline outline_urdf(const std::filesystem::path& path, const std::string& text);
 
 }  // namespace hinge::robotics

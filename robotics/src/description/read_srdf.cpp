@@ -28,8 +28,8 @@ void for_each(const XMLElement& parent, const char* name, const Visit& visit) {
 
 class SrdfReader {
  public:
-  SrdfReader(const std::filesystem::path& path, const Robot& robot, UnknownLinks unknown)
-      : file_(path, "robot"), robot_(robot), unknown_(unknown) {
+  SrdfReader(const std::filesystem::path& path, const std::string& text, const Robot& robot, UnknownLinks unknown)
+      : file_(path, text, "robot"), robot_(robot), unknown_(unknown) {
     file_.refuse_xacro_in(file_.root());
     const auto& joints = robot.description().joints;
     for (std::size_t k = 0; k < joints.size(); ++k) above_[joints[k].child] = k;
@@ -217,7 +217,11 @@ class SrdfReader {
 }  // namespace
 
 Srdf read_srdf(const std::filesystem::path& path, const Robot& robot, UnknownLinks unknown) {
-  return SrdfReader(path, robot, unknown).read();
+  return parse_srdf(read_file(path), path, robot, unknown);
+}
+
+Srdf parse_srdf(const std::string& text, const std::filesystem::path& path, const Robot& robot, UnknownLinks unknown) {
+  return SrdfReader(path, text, robot, unknown).read();
 }
 
 std::vector<NamedPair> read_named_pairs(const std::filesystem::path& path) {

@@ -22,6 +22,7 @@
 #include "description/missing_mesh.hpp"
 #include "description/outline_urdf.hpp"
 #include "description/parse_with_urdfdom.hpp"
+#include "description/read_file.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/robotics/read_mesh.hpp"
 
@@ -35,8 +36,8 @@ Vec3 vec3(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
 
 class UrdfReader {
  public:
-  UrdfReader(const fs::path& path, const UrdfOptions& options)
-      : path_(path), options_(options), outline_(outline_urdf(path)) {}
+  UrdfReader(const fs::path& path, const std::string& text, const UrdfOptions& options)
+      : path_(path), options_(options), outline_(outline_urdf(path, text)) {}
 
   RobotDescription read() {
     refuse_if(tree_problem(skeleton()));
@@ -235,7 +236,11 @@ class UrdfReader {
 }  // namespace
 
 RobotDescription read_urdf(const fs::path& path, const UrdfOptions& options) {
-  return UrdfReader(path, options).read();
+  return parse_urdf(read_file(path), path, options);
+}
+
+RobotDescription parse_urdf(const std::string& text, const fs::path& path, const UrdfOptions& options) {
+  return UrdfReader(path, text, options).read();
 }
 
 }  // namespace hinge::robotics

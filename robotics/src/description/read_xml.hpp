@@ -22,7 +22,8 @@ inline std::string text_of(const tinyxml2::XMLElement& element, const char* attr
 class XmlFile {
  public:
   XmlFile(const std::filesystem::path& path, const char* root);
-  XmlFile(const std::filesystem::path& path, std::string bytes, const char* root);  ///< the bytes of that file
+  /// text: the bytes of the file, which is not read. path: for messages.
+  XmlFile(const std::filesystem::path& path, std::string text, const char* root);
 
   tinyxml2::XMLElement& root() noexcept { return *document_.RootElement(); }
   const tinyxml2::XMLElement& root() const noexcept { return *document_.RootElement(); }

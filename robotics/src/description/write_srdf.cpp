@@ -124,7 +124,11 @@ void write_srdf(const Robot& robot, const CollisionMatrix& matrix, std::ostream&
 
 void merge_srdf(const std::filesystem::path& path, const Srdf& srdf, const Robot& robot, const CollisionMatrix& matrix,
                 std::ostream& out, UnseenPairs unseen) {
-  const std::string xml = read_file(path);
+  merge_srdf_text(read_file(path), srdf, robot, matrix, out, unseen);
+}
+
+void merge_srdf_text(const std::string& xml, const Srdf& srdf, const Robot& robot, const CollisionMatrix& matrix,
+                     std::ostream& out, UnseenPairs unseen) {
   const auto end = end_of_root(xml);
   if (!end) {  // <robot/>: nothing to keep
     write_srdf(robot, matrix, out, unseen);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// read_srdf: reads disabled pairs of links, groups of joints and named configurations from an SRDF file.
+// read_srdf, parse_srdf: read disabled pairs of links, groups of joints and named configurations from an SRDF file.
 #pragma once
 
 #include <cstddef>
@@ -56,6 +56,9 @@ enum class UnknownLinks : std::uint8_t { refused, noted };
 /// counts. Throws LoadError (one line with file, line and element) for bad XML, a pair with an unknown link (unless
 /// noted), a group that contains itself, or a value that is not a finite number of at most 1e15.
 Srdf read_srdf(const std::filesystem::path& path, const Robot& robot, UnknownLinks unknown = UnknownLinks::refused);
+/// The same for the text of an SRDF file that may be in memory only. path: names the text in messages.
+Srdf parse_srdf(const std::string& text, const std::filesystem::path& path, const Robot& robot,
+                UnknownLinks unknown = UnknownLinks::refused);
 
 /// A pair of names from a text file.
 struct NamedPair {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// read_urdf: reads a robot's description and its meshes from a URDF file.
+// read_urdf, parse_urdf: read a robot's description and its meshes from a URDF file or its text.
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "hinge/robotics/robot_description.hpp"
@@ -32,5 +33,9 @@ std::vector<std::filesystem::path> ros_package_path();
 /// that do not form a tree, other floating or planar joints, a zero axis or scale, negative sizes, numbers that are not
 /// finite, shapes of unknown type, and missing (unless skipped) or bad meshes.
 RobotDescription read_urdf(const std::filesystem::path& path, const UrdfOptions& options = {});
+/// The same for the text of a URDF file that may be in memory only. path: names the text in messages; mesh paths are
+/// relative to its folder.
+RobotDescription parse_urdf(const std::string& text, const std::filesystem::path& path,
+                            const UrdfOptions& options = {});
 
 }  // namespace hinge::robotics

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <string>
 
 #include "hinge/robotics/collision_matrix.hpp"
 #include "hinge/robotics/read_srdf.hpp"
@@ -25,5 +26,8 @@ void write_srdf(const Robot& robot, const CollisionMatrix& matrix, std::ostream&
 /// if the file cannot be read.
 void merge_srdf(const std::filesystem::path& path, const Srdf& srdf, const Robot& robot, const CollisionMatrix& matrix,
                 std::ostream& out, UnseenPairs unseen = UnseenPairs::tested);
+/// The same with the contents of the SRDF file.
+void merge_srdf_text(const std::string& xml, const Srdf& srdf, const Robot& robot, const CollisionMatrix& matrix,
+                     std::ostream& out, UnseenPairs unseen = UnseenPairs::tested);
 
 }  // namespace hinge::robotics
