@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
-#include "hinge/detail/core/sincos.hpp"
 #include "hinge/robotics/read_mesh.hpp"
+#include "hinge/robotics/rpy.hpp"
 #include "hinge_tools/number_option.hpp"
 
 namespace robocd {
@@ -67,7 +67,7 @@ class BodyReader {
                ", in metres and radians");
       }
     }
-    body.pose.rotation = turned(angles);
+    body.pose.rotation = rotation_of_rpy(angles);
     return body;
   }
 
@@ -125,21 +125,6 @@ class BodyReader {
     } else {
       body.file = shape;
     }
-  }
-
-  /// Rotation by roll about x, then pitch about y, then yaw about z, all fixed axes (URDF). Angles in rad.
-  static hinge::Mat3 turned(const Vec3& angles) {
-    hinge::Mat3 r = hinge::Mat3::Identity();
-    for (int axis = 0; axis < 3; ++axis) {
-      const hinge::detail::SinCos sc = hinge::detail::sincos(angles[axis]);
-      const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-      hinge::Mat3 turn = hinge::Mat3::Identity();
-      turn(u, u) = turn(v, v) = sc.cos;
-      turn(u, v) = -sc.sin;
-      turn(v, u) = sc.sin;
-      r = hinge::product(turn, r);
-    }
-    return r;
   }
 
   const std::string& text_;

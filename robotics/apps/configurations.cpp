@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "hinge/core/error.hpp"
-#include "hinge/core/philox.hpp"
+#include "hinge/robotics/random_configuration.hpp"
 #include "read_configurations.hpp"
 
 namespace robocd {
@@ -21,11 +21,8 @@ namespace {
 
 /// Returns configuration k, uniform within the limits.
 std::vector<double> sample(const Robot& robot, std::uint64_t seed, std::uint64_t k) {
-  hinge::SampleStream stream(seed, k);
   std::vector<double> q(robot.lower().size());
-  for (std::size_t j = 0; j < q.size(); ++j)
-    // Rounding may exceed the limit.
-    q[j] = std::min(robot.lower()[j] + stream.uniform() * (robot.upper()[j] - robot.lower()[j]), robot.upper()[j]);
+  random_configuration(robot, seed, k, q);
   return q;
 }
 

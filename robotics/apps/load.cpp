@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
-#include "hinge/robotics/containment.hpp"
 #include "hinge/robotics/read_urdf.hpp"
+#include "hinge/robotics/solid_meshes.hpp"
 #include "hinge/robotics/tessellate.hpp"
 #include "hinge/robotics/tested_pairs.hpp"
 #include "hinge_tools/check_output.hpp"
@@ -30,20 +30,6 @@ void check_outputs(const Options& options) {
 }
 
 namespace {
-
-/// Makes closed meshes solid and appends a note for each open one.
-void fill_meshes(RobotDescription& robot, std::vector<std::string>& notes) {
-  for (LinkDescription& link : robot.links)
-    for (PlacedShape& placed : link.geometry) {
-      auto* mesh = std::get_if<MeshShape>(&placed.shape);
-      if (mesh == nullptr) continue;
-      const auto open = open_edge(tessellate(*mesh).triangles);
-      mesh->solid = !open;
-      if (open)
-        notes.push_back("link '" + link.name +
-                        "' has an open mesh, so containment in it is not tested: " + open->text());
-    }
-}
 
 std::vector<Body> read_bodies(const Options& options, const Robot& robot) {
   std::vector<Body> bodies;
@@ -127,7 +113,8 @@ std::shared_ptr<const Robot> load_robot(const Options& options, std::vector<std:
     for (const PlacedShape& placed : link.geometry)
       if (const auto* mesh = std::get_if<MeshShape>(&placed.shape)) meshes.emplace_back(mesh->file);
   hinge::tool::check_output("--out", options.out, meshes);
-  if (options.contained) fill_meshes(description, notes);
+  if (options.contained)
+    for (std::string& note : fill_closed_meshes(description)) notes.push_back(std::move(note));
   try {
     return std::make_shared<const Robot>(std::move(description), tessellation);
   } catch (const hinge::ModelError& error) {  // the fault is in the file, not in the command line

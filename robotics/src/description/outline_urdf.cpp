@@ -10,7 +10,7 @@
 
 #include "description/parse_numbers.hpp"
 #include "description/read_xml.hpp"
-#include "hinge/kinematics/joint.hpp"
+#include "hinge/robotics/rpy.hpp"
 
 namespace hinge::robotics {
 
@@ -28,16 +28,12 @@ Vec3 vector_of(const XmlFile& file, const XMLElement& element, const char* name)
   return {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
 }
 
-/// Returns the pose in <origin>: roll, pitch, yaw about the fixed axes x, y, z, in this order (URDF).
+/// Returns the pose in <origin>.
 Pose origin_of(const XmlFile& file, const XMLElement& parent) {
   const XMLElement* origin = parent.FirstChildElement("origin");
   if (origin == nullptr) return {};
   file.refuse_xacro_in(*origin);
-  const Vec3 rpy = vector_of(file, *origin, "rpy");
-  const Mat3 roll = rotation_about(Vec3::UnitX(), rpy[0]);
-  const Mat3 pitch = rotation_about(Vec3::UnitY(), rpy[1]);
-  const Mat3 yaw = rotation_about(Vec3::UnitZ(), rpy[2]);
-  return {product(yaw, product(pitch, roll)), vector_of(file, *origin, "xyz")};
+  return {rotation_of_rpy(vector_of(file, *origin, "rpy")), vector_of(file, *origin, "xyz")};
 }
 
 bool is_xacro_element(const XMLElement& element) { return std::string_view(element.Name()).starts_with("xacro:"); }

@@ -14,12 +14,12 @@
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
 #include "hinge/core/number_text.hpp"
-#include "hinge/core/philox.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 #include "hinge/query/link_pair_hits.hpp"
 #include "hinge/robotics/link_margins.hpp"
+#include "hinge/robotics/random_configuration.hpp"
 #include "hinge/robotics/tested_pairs.hpp"
 #include "matrix/motion_bounds.hpp"
 #include "matrix/motion_bounds_search.hpp"
@@ -82,9 +82,7 @@ void sample(const Robot& robot, const LinkPairs& tested, const MatrixOptions& op
   const std::vector<double> start = default_configuration(robot);
   std::vector<double> q(start.size());
   for (std::size_t k = 0; k < options.samples; ++k) {
-    SampleStream stream(options.seed, k);
-    for (std::size_t j = 0; j < q.size(); ++j)
-      q[j] = robot.lower()[j] + stream.uniform() * (robot.upper()[j] - robot.lower()[j]);
+    random_configuration(robot, options.seed, k, q);
     look(q, [](MatrixEntry& entry) { ++entry.hits; });
     if (progress && k % 64 == 0)
       progress({MatrixProgress::Stage::sampling, static_cast<double>(k) / static_cast<double>(options.samples)});
