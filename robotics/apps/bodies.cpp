@@ -14,6 +14,7 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/robotics/read_mesh.hpp"
+#include "hinge/robotics/read_points.hpp"
 #include "hinge/robotics/rpy.hpp"
 #include "hinge_tools/number_option.hpp"
 
@@ -24,6 +25,8 @@ using hinge::Pose;
 using hinge::Vec3;
 
 namespace {
+
+bool is_mesh(const Body& body) { return !body.primitive && !body.radius; }
 
 class BodyReader {
  public:
@@ -57,13 +60,13 @@ class BodyReader {
         body.pose.translation = three(key, value);
       } else if (key == "rpy") {
         angles = three(key, value);
-      } else if (key == "scale" && !body.primitive) {
+      } else if (key == "scale" && is_mesh(body)) {
         const std::vector<double> s = numbers(key, value);
         if (s.size() != 1 && s.size() != 3)
           refuse("scale: " + std::to_string(s.size()) + " numbers, expected one or three");
         body.scale = s.size() == 1 ? Vec3::Constant(s[0]) : Vec3(s[0], s[1], s[2]);
       } else {
-        refuse("'" + std::string(field) + "': expected xyz=X Y Z, rpy=R P Y" + (body.primitive ? "" : " or scale=S") +
+        refuse("'" + std::string(field) + "': expected xyz=X Y Z, rpy=R P Y" + (is_mesh(body) ? " or scale=S" : "") +
                ", in metres and radians");
       }
     }
@@ -122,6 +125,12 @@ class BodyReader {
         body.primitive = CylinderShape{x[0], x[1]};
       else
         body.primitive = CapsuleShape{x[0], x[1]};
+    } else if (colon != std::string_view::npos && kind == "points") {
+      const std::size_t blank = sizes.rfind(' ');
+      if (blank == std::string_view::npos || blank == 0)
+        refuse("points: '" + std::string(sizes) + "', expected points:FILE R");
+      body.file = sizes.substr(0, blank);
+      body.radius = numbers(kind, sizes.substr(blank), 1)[0];
     } else {
       body.file = shape;
     }
@@ -136,6 +145,8 @@ Body parse_body(const std::string& text) { return BodyReader(text).read(); }
 
 Shape shape_of(const Body& body, std::vector<std::string>& notes) {
   if (body.primitive) return *body.primitive;
+  if (body.radius)
+    return PointCloudShape{std::make_shared<const std::vector<Vec3>>(read_points(body.file)), *body.radius};
   return MeshShape{std::make_shared<const TriangleMesh>(read_mesh(body.file, &notes)), body.scale, body.file};
 }
 

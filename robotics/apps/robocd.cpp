@@ -86,7 +86,8 @@ void add_environment_option(CLI::App& command, Options& o) {
   repeatable(command.add_option(
       "--env", o.environment,
       "body in the world, [NAME=]SHAPE[,xyz=X Y Z][,rpy=R P Y][,scale=S], where SHAPE is a mesh file, "
-      "'box:X Y Z', 'sphere:R', 'cylinder:R L' or 'capsule:R L'; repeatable"));
+      "'box:X Y Z', 'sphere:R', 'cylinder:R L', 'capsule:R L' or 'points:FILE R' (a text file of points x y z, each a "
+      "sphere of radius R); repeatable"));
   repeatable(
       command.add_option("--allow", o.allowed,
                          "LINK BODY: this link and this body may touch, for example a base and its table; repeatable"))

@@ -100,6 +100,7 @@ struct ToFcl {
   oracle::FclShape operator()(const CylinderShape& c) const { return oracle::FclCylinder{c.radius, c.length}; }
   oracle::FclShape operator()(const CapsuleShape& c) const { return oracle::FclCapsule{c.radius, c.length}; }
   oracle::FclShape operator()(const MeshShape&) const { return oracle::FclSphere{0.0}; }
+  oracle::FclShape operator()(const PointCloudShape&) const { return oracle::FclSphere{0.0}; }
 };
 
 bool collide_for_fcl(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b) {

@@ -48,6 +48,7 @@ struct Nearest {
     return way.norm() <= c.radius ? x : Vec3(middle + way.normalized() * c.radius);
   }
   Vec3 operator()(const MeshShape&) const { return x; }
+  Vec3 operator()(const PointCloudShape&) const { return x; }
 };
 
 /// Returns the distance of two convex solids by alternating projections; 0 if they overlap.

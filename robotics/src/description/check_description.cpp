@@ -167,6 +167,14 @@ struct ShapeProblem {
     }
     return "";
   }
+  std::string operator()(const PointCloudShape& cloud) const {
+    if (cloud.points == nullptr || cloud.points->empty()) return "point cloud without points, expected at least one";
+    for (std::size_t k = 0; k < cloud.points->size(); ++k)
+      if (!is_length((*cloud.points)[k]))
+        return "point cloud: point " + std::to_string(k) + " is " + text((*cloud.points)[k]) +
+               ", expected finite coordinates of at most 2^1000";
+    return unless_length("point cloud of radius", cloud.radius);
+  }
 };
 
 /// Describes shapes without volume. Meshes are not examined.
@@ -184,6 +192,9 @@ struct WithoutVolume {
     return capsule.radius > 0.0 ? "" : "capsule of radius 0";
   }
   std::string operator()(const MeshShape&) const { return ""; }
+  std::string operator()(const PointCloudShape& cloud) const {
+    return cloud.radius > 0.0 ? "" : "point cloud of radius 0";
+  }
 };
 
 Found check_geometry(const LinkDescription& link) {

@@ -104,7 +104,9 @@ void Robot::build() {
     triangle_counts_.push_back(0);
     for (const PlacedShape& placed : link.geometry) {
       const Surface surface = tessellate(placed.shape, tessellation_);
-      if (!std::holds_alternative<MeshShape>(placed.shape)) tessellated += surface.triangles.size();
+      const bool is_given =
+          std::holds_alternative<MeshShape>(placed.shape) || std::holds_alternative<PointCloudShape>(placed.shape);
+      if (!is_given) tessellated += surface.triangles.size();
       if (tessellated > most_tessellated)
         throw ModelError("link '" + link.name + "': up to this link the shapes need more than " +
                          std::to_string(most_tessellated) +

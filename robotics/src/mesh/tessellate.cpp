@@ -207,6 +207,17 @@ struct InTriangles {
     const Triangles sphere = (*this)(SphereShape{capsule.radius});
     return capsule.length == 0.0 ? sphere : drawn_apart(sphere, capsule.length);
   }
+  Triangles operator()(const PointCloudShape& cloud) const {
+    const Triangles sphere = (*this)(SphereShape{cloud.radius});
+    if (cloud.points->size() > most_triangles / sphere.size())
+      throw ModelError("a point cloud of " + std::to_string(cloud.points->size()) +
+                       " points needs more than 10^6 triangles as meshes; use exact spheres, or fewer points");
+    Triangles triangles;
+    triangles.reserve(cloud.points->size() * sphere.size());
+    for (const Vec3& point : *cloud.points)
+      for (const Triangle& t : sphere) triangles.push_back({t.a + point, t.b + point, t.c + point});
+    return triangles;
+  }
 };
 
 }  // namespace
@@ -221,6 +232,12 @@ Surface tessellate(const Shape& shape, const Tessellation& tessellation) {
     if (const auto* capsule = std::get_if<CapsuleShape>(&shape)) {
       const Vec3 end(0, 0, capsule->length / 2);
       return {{{-end, end, end}}, capsule->radius};
+    }
+    if (const auto* cloud = std::get_if<PointCloudShape>(&shape)) {
+      Triangles points;
+      points.reserve(cloud->points->size());
+      for (const Vec3& point : *cloud->points) points.push_back({point, point, point});
+      return {std::move(points), cloud->radius};
     }
   }
   const bool inscribed = tessellation.manner == Tessellation::Manner::inscribed;

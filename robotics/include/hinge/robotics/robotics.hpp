@@ -12,6 +12,7 @@
 #include "hinge/robotics/path_checker.hpp"
 #include "hinge/robotics/random_configuration.hpp"
 #include "hinge/robotics/read_mesh.hpp"
+#include "hinge/robotics/read_points.hpp"
 #include "hinge/robotics/read_srdf.hpp"
 #include "hinge/robotics/read_urdf.hpp"
 #include "hinge/robotics/robot.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shapes of links as in URDF: lengths in m, centred on their own frame; cylinders and capsules are aligned with z.
-// Boxes, spheres, cylinders and capsules are solid: a link inside one collides. Sizes are >= 0: a sphere of radius 0 is
-// a point, a box with one size of 0 is flat.
+// Boxes, spheres, cylinders, capsules and the spheres of a point cloud are solid: a link inside one collides. Sizes are
+// >= 0: a sphere of radius 0 is a point, a box with one size of 0 is flat.
 #pragma once
 
 #include <cstddef>
@@ -37,6 +37,12 @@ struct CapsuleShape {
   double length = 1.0;  ///< m, length of the segment along z; the capsule is length + 2 radius long
 };
 
+/// Solid spheres of one radius, such as the points of a depth camera with their uncertainty.
+struct PointCloudShape {
+  std::shared_ptr<const std::vector<Vec3>> points;  ///< m, at least one; may be shared by several bodies
+  double radius = 0.0;                              ///< m
+};
+
 /// Triangles of a surface, which may be open or closed.
 struct TriangleMesh {
   std::vector<Triangle> triangles;  ///< m
@@ -53,6 +59,6 @@ struct MeshShape {
 };
 
 /// The shapes that a link or body can have.
-using Shape = std::variant<BoxShape, SphereShape, CylinderShape, CapsuleShape, MeshShape>;
+using Shape = std::variant<BoxShape, SphereShape, CylinderShape, CapsuleShape, MeshShape, PointCloudShape>;
 
 }  // namespace hinge::robotics
