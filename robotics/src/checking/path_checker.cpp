@@ -168,7 +168,8 @@ RobotPathAnswer PathChecker::answer(std::span<const double> from, std::span<cons
   return answer;
 }
 
-RobotPathAnswer PathChecker::certify(std::span<const double> from, std::span<const double> to, double smallest_step) {
+RobotPathAnswer PathChecker::certify(std::span<const double> from, std::span<const double> to, double smallest_step,
+                                     const std::function<void()>& between) {
   check_smallest_step(smallest_step);
   return answer(from, to, [&](const std::vector<double>& a, const std::vector<double>& b) {
     // While surfaces stay apart, no component enters or leaves a solid. One test at the start is enough.
@@ -176,7 +177,7 @@ RobotPathAnswer PathChecker::certify(std::span<const double> from, std::span<con
     hierarchy_.update(a);
     AnyHit inside;
     WithInsides{hierarchy_, *solid_pairs_, *robot_}.add_insides(inside);
-    if (!inside.done()) return certified_.check(a, b, smallest_step);
+    if (!inside.done()) return certified_.check(a, b, smallest_step, between);
     at_start.verdict = PathVerdict::colliding;
     at_start.counts.configurations = 1;
     at_start.configuration = a;
@@ -185,11 +186,12 @@ RobotPathAnswer PathChecker::certify(std::span<const double> from, std::span<con
   });
 }
 
-RobotPathAnswer PathChecker::sample(std::span<const double> from, std::span<const double> to, double resolution) {
+RobotPathAnswer PathChecker::sample(std::span<const double> from, std::span<const double> to, double resolution,
+                                    const std::function<void()>& between) {
   count_steps(StraightPath(robot_->expand(from), robot_->expand(to), hierarchy_.dof_count()), resolution);
   return answer(from, to, [&](const std::vector<double>& a, const std::vector<double>& b) {
     WithInsides scene{hierarchy_, *solid_pairs_, *robot_};
-    return check_sampled(scene, a, b, resolution);
+    return check_sampled(scene, a, b, resolution, between);
   });
 }
 

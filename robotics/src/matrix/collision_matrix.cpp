@@ -122,13 +122,16 @@ void prove(const Robot& robot, const MatrixOptions& options, const Progress& pro
     std::vector<Interval> box;
     for (const std::size_t k : path.drivers()) box.push_back({robot.lower()[k], robot.upper()[k]});
     PairSearch search(robot, path, balls_of(entry.link1), balls_of(entry.link2), options.clearance);
-    const PairSearch::Result result = search.run(box, options.cells);
+    const auto tell = [&] {
+      if (progress) progress({MatrixProgress::Stage::proving, static_cast<double>(done) / static_cast<double>(open)});
+    };
+    const PairSearch::Result result = search.run(box, options.cells, tell);
     entry.cells = result.cells;
     if (is_finite(result.smallest_gap)) entry.smallest_gap = result.smallest_gap;
     if (result.verdict == PairSearch::Result::Verdict::apart) entry.kind = PairKind::never;
     if (result.verdict == PairSearch::Result::Verdict::met) entry.kind = PairKind::sometimes;
     ++done;
-    if (progress) progress({MatrixProgress::Stage::proving, static_cast<double>(done) / static_cast<double>(open)});
+    tell();
   }
 }
 

@@ -68,7 +68,8 @@ PairSearch::PairSearch(const Robot& robot, const LinkPath& path, const BallTree&
       enough_(clearance + path.rounding(a.reach(), b.reach())),
       shares_(path.drivers().size()) {}
 
-PairSearch::Result PairSearch::run(const std::vector<Interval>& box, std::size_t most_cells) {
+PairSearch::Result PairSearch::run(const std::vector<Interval>& box, std::size_t most_cells,
+                                   const std::function<void()>& between) {
   result_ = {};
   last_direction_ = Vec3::Zero();
   cells_.clear();
@@ -78,6 +79,7 @@ PairSearch::Result PairSearch::run(const std::vector<Interval>& box, std::size_t
   Outcome outcome = most_cells > 0 ? try_box() : Outcome::open;
   // The links may collide in one half only, so both halves are tested before either is divided.
   while (outcome != Outcome::met && !cells_.empty() && result_.cells + 2 <= most_cells) {
+    if (between) between();
     const Cell cell = cells_.back();
     cells_.pop_back();
     const auto at = [](auto& all, std::size_t k) { return all.begin() + static_cast<std::ptrdiff_t>(k); };

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -60,8 +61,9 @@ class PairSearch {
   /// clearance: m, in addition to the radii. All arguments must outlive the object.
   PairSearch(const Robot& robot, const LinkPath& path, const BallTree& a, const BallTree& b, double clearance);
 
-  /// Searches a box with one interval per driver of the path. Tries at most `most_cells` boxes.
-  Result run(const std::vector<Interval>& box, std::size_t most_cells);
+  /// Searches a box with one interval per driver of the path. Tries at most `most_cells` boxes. between: called from
+  /// time to time; may throw to end the search.
+  Result run(const std::vector<Interval>& box, std::size_t most_cells, const std::function<void()>& between = {});
 
  private:
   struct NodePair {

@@ -63,8 +63,9 @@ struct MatrixProgress {
 
 /// Classifies every pair of links with geometry. The result depends only on the robot and the options, not on the
 /// machine. In the default configuration each independent joint is 0, or in the middle of its limits if 0 is outside
-/// them. Calls `progress`, if it is not empty, on the calling thread. Throws ModelError if the clearance is negative or
-/// not finite, or if `settled` was made for another number of links.
+/// them. Calls `progress`, if it is not empty, on the calling thread, for every 64 samples and every box of a proof; it
+/// may throw to end the search. Throws ModelError if the clearance is negative or not finite, or if `settled` was made
+/// for another number of links.
 CollisionMatrix find_collision_matrix(const Robot& robot, const MatrixOptions& options = {},
                                       const std::function<void(const MatrixProgress&)>& progress = {});
 

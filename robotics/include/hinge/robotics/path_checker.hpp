@@ -2,6 +2,7 @@
 // PathChecker: checks straight paths of a robot, alone or among bodies, by proof or by sampling.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -55,8 +56,9 @@ struct RobotPathAnswer {
 /// larger clearance applies between links and bodies. Bodies keep the poses that they have at construction, held bodies
 /// follow their link, and the robot keeps its base. If the base is not the identity, the bodies are moved into its
 /// frame, which rounds. Solids are those of RobotChecker: a component outside a solid at the start stays outside while
-/// no surfaces touch. If a body collides with a link that never moves against it, every path collides. One per thread;
-/// copies share constant data.
+/// no surfaces touch. If a body collides with a link that never moves against it, every path collides. Both
+/// functions call between() before every segment or state; it may throw to end the work. One per thread; copies share
+/// constant data.
 class PathChecker {
  public:
   /// Checks the robot against itself.
@@ -69,11 +71,12 @@ class PathChecker {
   /// than `smallest_step`, a fraction of the path, is not divided further. Throws ConfigurationError if a length is
   /// wrong, a value is not finite, or smallest_step is not above 0.
   RobotPathAnswer certify(std::span<const double> from, std::span<const double> to,
-                          double smallest_step = smallest_path_step);
+                          double smallest_step = smallest_path_step, const std::function<void()>& between = {});
   /// Tests states along the path. No joint, mimic joints included, changes by more than `resolution` (rad or m) between
   /// neighbouring states. Throws ConfigurationError as certify() does, and if resolution is not finite, not above 0, or
   /// needs more than 2^53 states.
-  RobotPathAnswer sample(std::span<const double> from, std::span<const double> to, double resolution);
+  RobotPathAnswer sample(std::span<const double> from, std::span<const double> to, double resolution,
+                         const std::function<void()>& between = {});
 
  private:
   struct Scene;
