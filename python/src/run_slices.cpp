@@ -84,15 +84,6 @@ class SharedWork {
   std::exception_ptr error_;
 };
 
-/// Reports how much is done. The interpreter's lock is held.
-void report(const py::object& progress, std::size_t done, std::size_t total) {
-  if (progress.is_none()) return;
-  if (PyCallable_Check(progress.ptr()) != 0)
-    progress(done, total);
-  else
-    progress.attr("update")(py::int_(done) - py::int_(progress.attr("n")));
-}
-
 /// Looks for signals and reports progress from time to time. Used by the calling thread, without the lock.
 class Watch {
  public:
@@ -106,7 +97,7 @@ class Watch {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     if (now < next_report_) return;
     next_report_ = now + progress_time;
-    report(progress_, done, total_);
+    report_progress(progress_, done, total_);
   }
 
  private:
@@ -184,10 +175,22 @@ void poll() {
   if (polled.shared != nullptr && polled.shared->stopped()) throw Stopped();
 }
 
-void run_slices(std::size_t count, unsigned threads, const py::object& progress,
-                const std::function<Slice()>& make_work) {
+void check_progress(const py::object& progress) {
   if (!progress.is_none() && PyCallable_Check(progress.ptr()) == 0 && !py::hasattr(progress, "update"))
     throw py::type_error("progress: expected a callable with (done, total), or a progress bar with update()");
+}
+
+void report_progress(const py::object& progress, std::size_t done, std::size_t total) {
+  if (progress.is_none()) return;
+  if (PyCallable_Check(progress.ptr()) != 0)
+    progress(done, total);
+  else
+    progress.attr("update")(py::int_(done) - py::int_(progress.attr("n")));
+}
+
+void run_slices(std::size_t count, unsigned threads, const py::object& progress,
+                const std::function<Slice()>& make_work) {
+  check_progress(progress);
   if (count > 0) {
     const py::gil_scoped_release unlocked;
     SharedWork shared(count);
@@ -196,7 +199,7 @@ void run_slices(std::size_t count, unsigned threads, const py::object& progress,
     run_on_threads(shared, most, watch, make_work);
     shared.rethrow();
   }
-  report(progress, count, count);
+  report_progress(progress, count, count);
 }
 
 unsigned as_threads(const py::object& given, unsigned standard) {

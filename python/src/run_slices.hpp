@@ -34,6 +34,11 @@ void run_slices(WorkerPool<Worker>& pool, std::size_t count, unsigned threads, c
   });
 }
 
+/// Throws TypeError unless `progress` is what run_slices() takes.
+void check_progress(const pybind11::object& progress);
+/// Reports how much is done. The interpreter's lock is held.
+void report_progress(const pybind11::object& progress, std::size_t done, std::size_t total);
+
 /// For work on one item that may take long: call it often, at least every 10 ms. Inside run_slices(), it does what is
 /// done between slices, or throws if the call is to end; elsewhere it does nothing.
 void poll();
