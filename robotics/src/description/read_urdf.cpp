@@ -21,6 +21,7 @@
 #include "description/find_mesh.hpp"
 #include "description/missing_mesh.hpp"
 #include "description/outline_urdf.hpp"
+#include "description/parse_numbers.hpp"
 #include "description/parse_with_urdfdom.hpp"
 #include "description/read_file.hpp"
 #include "hinge/core/error.hpp"
