@@ -8,7 +8,7 @@ import pytest
 
 from conftest import ROOT
 
-PAGES = sorted((ROOT / "docs").rglob("python_*.md"))
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("python_*.md"))]
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda p: p.stem)
@@ -18,7 +18,7 @@ def test_output_is_as_shown(page, monkeypatch):
     assert blocks, f"{page} has no ```python block"
     parser = doctest.DocTestParser()
     examples = [example for block in blocks for example in parser.get_examples(block)]
-    assert len(examples) >= 10
+    assert len(examples) >= 10, page
     test = doctest.DocTest(examples, {}, page.stem, str(page), 0, None)
     output = []
     result = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS).run(test, out=output.append)
