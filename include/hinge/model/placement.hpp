@@ -112,9 +112,6 @@ class Placement {
     return source_ == Source::poses && model_->group_of(i) == model_->group_of(j);
   }
 
-  /// Returns true when the coordinates come from a configuration. Pairs with a primitive on the joint axis are then
-  /// constant too.
-  bool from_configuration() const noexcept { return source_ == Source::configuration; }
   /// Returns true when pairs inside one rigid group must be tested.
   bool groups_may_deform() const noexcept { return source_ == Source::coordinates; }
 
