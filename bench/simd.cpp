@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The choice of <experimental/simd> for hinge::simd: two inner loops with it and with Highway, interleaved, at three
-// levels.
+// hinge::detail::simd against Highway: two inner loops with both, interleaved, at three levels.
 #include <algorithm>
 #include <bit>
 #include <chrono>
