@@ -71,7 +71,6 @@ class Simd {
     const detail::BlockLayout& layout = side.layout();
     budget.blocks_in = layout.block_count();
     begin();
-    const auto listed_margin = [&] { return thresholds_.margin(); };
     const detail::Identity<P> as_is;
     const auto run_listed = [&] { run(side, placement, side, placement, side.table(), as_is, test_pair, budget); };
     std::size_t patience = 1;
@@ -87,7 +86,7 @@ class Simd {
         cutoff = collector.cutoff();
         set_thresholds(side, side, side.table(), as_is, cutoff);
       }
-      if (!broad_phase_.within(side, u, placement, listed_margin, budget.counts, relief(run_listed, collector, budget)))
+      if (!broad_phase_.within(side, u, placement, thresholds_, budget.counts, relief(run_listed, collector, budget)))
         break;
       broad_phase_.resume_point.reach(u + 1);
       // The first runs are short: a hit near the root saves placing the rest. Longer runs cost less per candidate.
@@ -169,9 +168,8 @@ class Simd {
     const auto run_listed = [&] { run(mine, placement, theirs, other_placement, table, into, test_pair, budget); };
     std::size_t u = 0;
     for (; into.holds() && u < entries && !collector.done() && !budget.is_too_much(); ++u) {
-      if (!broad_phase_.across(
-              mine, u, placement, theirs, other_placement, into, [&] { return thresholds_.margin(); },
-              options.moved_only, budget.counts, relief(run_listed, collector, budget)))
+      if (!broad_phase_.across(mine, u, placement, theirs, other_placement, into, thresholds_, options.moved_only,
+                               budget.counts, relief(run_listed, collector, budget)))
         break;
       broad_phase_.resume_point.reach(u + 1);
       run_listed();

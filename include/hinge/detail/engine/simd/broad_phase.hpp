@@ -9,9 +9,11 @@
 
 #include "hinge/core/id.hpp"
 #include "hinge/detail/bounds/float_box.hpp"
+#include "hinge/detail/core/function_ref.hpp"
 #include "hinge/detail/engine/simd/candidate_list.hpp"
 #include "hinge/detail/engine/simd/cross_model_transform.hpp"
 #include "hinge/detail/engine/simd/exclusion_masks.hpp"
+#include "hinge/detail/engine/simd/narrow_phase.hpp"
 #include "hinge/detail/engine/simd/resume_point.hpp"
 #include "hinge/detail/engine/simd/simd_side.hpp"
 #include "hinge/detail/primitive/batch.hpp"
@@ -31,37 +33,38 @@ std::uint32_t slot(std::uint32_t position) noexcept {
   return position / floats * static_cast<std::uint32_t>(simd::width) + position % floats;
 }
 
-/// `margin()`: pairs with d - M <= margin() (plus extra clearances) must be listed; it may shrink during the sweep.
+/// Pairs with d - M <= thresholds.margin() (plus extra clearances) must be listed; it may shrink during the sweep.
 /// `relieve()` is called between the blocks of a large entry, whose candidates may be as many as its pairs. It returns
 /// false to stop. within() and across() then return false too.
 template <Primitive P>
 class BroadPhase {
  public:
+  using Relieve = FunctionRef<bool()>;
+
   CandidateList candidates;
   /// The caller reports finished entries. The broad phase stores the position where it stopped.
   ResumePoint resume_point;
 
   /// Lists the candidates between entry u and earlier entries, and inside u.
-  template <class Margin, class Relieve>
-  bool within(SimdSide<P>& side, std::size_t u, Placement<P>& placement, const Margin& margin, QueryCounts& counts,
-              const Relieve& relieve) {
+  bool within(SimdSide<P>& side, std::size_t u, Placement<P>& placement, const Thresholds16& thresholds,
+              QueryCounts& counts, Relieve relieve) {
     const SweepEntry& entry = side.layout().entries[u];
     const std::uint32_t first = entry.first_block;
     const NearRows16 self = side.near().self(first);
     if (self.lanes != 0 && !side.kept_apart(u, u))
       candidates.add_rows(self.lanes, position<P>(first), position<P>(first), self.rows);
-    const auto found = side.entries().sweep(side.entries().get(u).grown(margin()), entry.sweep_end, counts);
+    const auto found = side.entries().sweep(side.entries().get(u).grown(thresholds.margin()), entry.sweep_end, counts);
     if (found.empty()) return true;
     const float extra = side.extra(first);
     if (entry.block_count == 1) {
-      Facing facing(side, first, placement, margin() + extra);
+      Facing facing(side, first, placement, thresholds.margin() + extra);
       for (const std::uint32_t w : found) {
         if (side.kept_apart(u, w)) continue;
         const SweepEntry& partner = side.layout().entries[w];
         if (partner.block_count == 1) {
           add_pair(side, facing, partner.first_block, facing.partners.find(partner.first_block), placement);
         } else {
-          const float more = margin() + extra + side.extra(partner.first_block);
+          const float more = thresholds.margin() + extra + side.extra(partner.first_block);
           side.descend(w, side.state().block_box(first).grown(more), placement, counts, theirs_);
           add_found(side, facing, placement);
         }
@@ -71,16 +74,16 @@ class BroadPhase {
     for (const std::uint32_t w : found) {
       if (side.kept_apart(u, w)) continue;
       const float both = extra + side.extra(side.layout().entries[w].first_block);
-      side.descend(u, side.state().entries().get(w).grown(margin() + both), placement, counts, mine_);
+      side.descend(u, side.state().entries().get(w).grown(thresholds.margin() + both), placement, counts, mine_);
       for (const std::uint32_t b : mine_) {
-        const float near = margin() + both;
+        const float near = thresholds.margin() + both;
         // The block itself is placed only if its box overlaps something.
         if (side.layout().entries[w].block_count == 1)
           theirs_.assign(1, side.layout().entries[w].first_block);
         else
           side.descend(w, side.state().tree_box(u, b, placement).grown(near), placement, counts, theirs_);
         if (theirs_.empty()) continue;
-        add_found(side, Facing(side, b, placement, margin() + extra), placement);
+        add_found(side, Facing(side, b, placement, thresholds.margin() + extra), placement);
         if (!relieve()) return stop(w, b);
       }
     }
@@ -88,13 +91,12 @@ class BroadPhase {
   }
 
   /// Lists the candidates between an entry and the other model. `into` transforms coordinates into that model.
-  template <class Margin, class Relieve>
   bool across(SimdSide<P>& mine, std::size_t u, Placement<P>& placement, SimdSide<P>& theirs,
-              Placement<P>& other_placement, const CrossModelTransform<P>& into, const Margin& margin, bool moved_only,
-              QueryCounts& counts, const Relieve& relieve) {
+              Placement<P>& other_placement, const CrossModelTransform<P>& into, const Thresholds16& thresholds,
+              bool moved_only, QueryCounts& counts, Relieve relieve) {
     const SweepEntry& entry = mine.layout().entries[u];
     const float extra = mine.extra(entry.first_block) * into.scale;
-    const FloatBox box = into(mine.state().entries().get(u)).grown(margin() + extra);
+    const FloatBox box = into(mine.state().entries().get(u)).grown(thresholds.margin() + extra);
     const bool stood_still = moved_only && !mine.moved(u, placement);
     for (const std::uint32_t w : theirs.entries().sweep(box, theirs.layout().entries.size(), counts)) {
       if (stood_still && !theirs.moved(w, other_placement)) continue;
@@ -103,9 +105,10 @@ class BroadPhase {
       if (entry.block_count == 1)
         mine_.assign(1, entry.first_block);
       else
-        mine.descend(u, into.back(theirs.state().entries().get(w).grown(margin() + extras)), placement, counts, mine_);
+        mine.descend(u, into.back(theirs.state().entries().get(w).grown(thresholds.margin() + extras)), placement,
+                     counts, mine_);
       for (const std::uint32_t b : mine_) {
-        const float own = margin() + extras;
+        const float own = thresholds.margin() + extras;
         const float* at = mine.state().block(b, placement);
         const float more = own + mine.parts().rigid.reach[b] * into.scale;
         if (partner.block_count == 1)

@@ -6,13 +6,13 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <numeric>
 #include <span>
 #include <vector>
 
 #include "hinge/bounds/aabb.hpp"
 #include "hinge/core/id.hpp"
+#include "hinge/detail/core/function_ref.hpp"
 #include "hinge/detail/engine/lazy_tree.hpp"
 #include "hinge/detail/engine/simd/block_layout.hpp"
 #include "hinge/detail/engine/traversal.hpp"
@@ -25,14 +25,13 @@
 namespace hinge::detail {
 
 /// Two levels as in BioCD, over single primitives: a tree over the primitives of each rigid group, split on demand, and
-/// a tree over the groups. Each search makes new boxes. std::function keeps this code out of the instantiations per
-/// collector: searches are rare, and they test more boxes than pairs.
+/// a tree over the groups. Each search makes new boxes.
 class FallbackBvh {
  public:
   /// Largest d - M of interest. It may shrink during the search.
-  using Cutoff = std::function<double()>;
+  using Cutoff = FunctionRef<double()>;
   /// Returns false to stop.
-  using Visit = std::function<bool(PrimitiveId, PrimitiveId)>;
+  using Visit = FunctionRef<bool(PrimitiveId, PrimitiveId)>;
 
   /// Makes boxes of the present coordinates of all primitives in the layout. clearance: extra clearance per rigid
   /// group.
@@ -42,14 +41,14 @@ class FallbackBvh {
 
   /// Visits every pair of primitives of different groups with a possible d - M <= cutoff. If groups deform, visits
   /// pairs within groups too.
-  void within(const Cutoff& cutoff, const Visit& visit, QueryCounts& counts) {
+  void within(Cutoff cutoff, Visit visit, QueryCounts& counts) {
     if (deform_ && !bodies_.empty())
       bodies(*this, 0, 0, cutoff, visit, counts);
     else
       across(*this, cutoff, visit, counts);
   }
   /// The same for pairs of a primitive here and a primitive of `other`.
-  void across(FallbackBvh& other, const Cutoff& cutoff, const Visit& visit, QueryCounts& counts);
+  void across(FallbackBvh& other, Cutoff cutoff, Visit visit, QueryCounts& counts);
 
  private:
   /// One low-level tree: the primitives of a rigid group, or all primitives if groups deform.
@@ -61,8 +60,7 @@ class FallbackBvh {
   PrimitiveId primitive(std::uint32_t body, std::uint32_t item) const noexcept {
     return primitives_[bodies_[body].first + item];
   }
-  bool bodies(FallbackBvh& other, std::uint32_t a, std::uint32_t b, const Cutoff& cutoff, const Visit& visit,
-              QueryCounts& counts);
+  bool bodies(FallbackBvh& other, std::uint32_t a, std::uint32_t b, Cutoff cutoff, Visit visit, QueryCounts& counts);
 
   std::vector<PrimitiveId> primitives_;  // by body
   std::vector<Body> bodies_;
@@ -108,8 +106,8 @@ void FallbackBvh::place(const BlockLayout& layout, Placement<P>& placement, cons
   if (!roots.empty()) upper_.reset(roots);
 }
 
-inline bool FallbackBvh::bodies(FallbackBvh& other, std::uint32_t a, std::uint32_t b, const Cutoff& cutoff,
-                                const Visit& visit, QueryCounts& counts) {
+inline bool FallbackBvh::bodies(FallbackBvh& other, std::uint32_t a, std::uint32_t b, Cutoff cutoff, Visit visit,
+                                QueryCounts& counts) {
   const double extra = bodies_[a].extra + other.bodies_[b].extra;
   return traverse(
       trees_[a], other.trees_[b], stack_, counts, [&] { return cutoff() + extra; },
@@ -119,7 +117,7 @@ inline bool FallbackBvh::bodies(FallbackBvh& other, std::uint32_t a, std::uint32
       });
 }
 
-inline void FallbackBvh::across(FallbackBvh& other, const Cutoff& cutoff, const Visit& visit, QueryCounts& counts) {
+inline void FallbackBvh::across(FallbackBvh& other, Cutoff cutoff, Visit visit, QueryCounts& counts) {
   if (bodies_.empty() || other.bodies_.empty()) return;
   traverse(upper_, other.upper_, stack_, counts, cutoff,
            [&](std::uint32_t a, std::uint32_t b) { return bodies(other, a, b, cutoff, visit, counts); });

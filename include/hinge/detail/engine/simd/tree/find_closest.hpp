@@ -11,6 +11,7 @@
 #include <limits>
 #include <vector>
 
+#include "hinge/detail/core/function_ref.hpp"
 #include "hinge/detail/engine/simd/tree/leaf_pair.hpp"
 #include "hinge/detail/engine/simd/tree/relative_transform.hpp"
 #include "hinge/detail/engine/simd/tree/tree_parts.hpp"
@@ -57,10 +58,13 @@ class ClosestFinder {
     if (room > stack_.size()) stack_.resize(room);
   }
 
-  /// Calls flush(slots of a, slots of b, count, bounds) -> new bound, for up to sixteen pairs of primitives at a time.
-  template <class Flush>
+  using Slots = std::array<std::uint32_t, simd::width>;
+  /// Takes slots of a, slots of b, their number, and bounds of their distances; returns the new bound.
+  using Flush = FunctionRef<float(const Slots&, const Slots&, std::size_t, const Bounds16&)>;
+
+  /// Calls flush for up to sixteen pairs of primitives at a time.
   float run(const TreeParts<P>& a, const TreePart& part_a, const TreeParts<P>& b, const TreePart& part_b,
-            const RelativeTransform& turn, float bound, QueryCounts& counts, const Flush& flush) {
+            const RelativeTransform& turn, float bound, QueryCounts& counts, Flush flush) {
     constexpr auto width = static_cast<std::uint32_t>(simd::width);
     std::size_t left = 0;
     queued_ = 0;
@@ -121,9 +125,8 @@ class ClosestFinder {
     return left;
   }
 
-  template <class Flush>
   float run_leaves(const TreeParts<P>& a, BoxId x, const TreeParts<P>& b, BoxId y, const RelativeTransform& turn,
-                   float bound, QueryCounts& counts, const Flush& flush) {
+                   float bound, QueryCounts& counts, Flush flush) {
     const TransformedLeaf<P> turned(b, y, turn.b_to_a);
     LeafPair<P> pair(a, x, turned, bound);
     for (simd::Bits ones = pair.ones(); ones != 0; ones &= ones - 1) {
@@ -143,8 +146,7 @@ class ClosestFinder {
     return bound;
   }
 
-  template <class Flush>
-  float hand_over(float bound, bool sane, const Flush& flush) {
+  float hand_over(float bound, bool sane, Flush flush) {
     Bounds16 bounds;
     queue_.bound(bounds);
     if (!sane) {
@@ -158,7 +160,7 @@ class ClosestFinder {
 
   std::vector<Entry> stack_;
   TrianglePairs queue_;
-  std::array<std::uint32_t, simd::width> slot_a_{}, slot_b_{};
+  Slots slot_a_{}, slot_b_{};
   std::size_t queued_ = 0;
 };
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "hinge/detail/core/function_ref.hpp"
 #include "hinge/detail/engine/simd/tree/leaf_pair.hpp"
 #include "hinge/detail/engine/simd/tree/relative_transform.hpp"
 #include "hinge/detail/engine/simd/tree/tree_parts.hpp"
@@ -29,12 +30,13 @@ class NearFinder {
     b_.resize(room);
   }
 
-  /// Calls visit(slot, leaf, lanes of the leaf, slot_in_a) -> bool; slot_in_a: the slot is in a, the leaf in b. Stops
-  /// and returns false when visit returns false. `margin`: added to the reaches, unit of a. `turn` is completed on
-  /// demand.
-  template <class Visit>
+  /// Takes a slot, a leaf, the leaf's lanes, and whether the slot is in a and the leaf in b; returns false to stop.
+  using Visit = FunctionRef<bool(std::uint32_t, std::uint32_t, simd::Bits, bool)>;
+
+  /// Stops and returns false when visit returns false. `margin`: added to the reaches, unit of a. `turn` is completed
+  /// on demand.
   bool run(const TreeParts<P>& a, const TreePart& part_a, const TreeParts<P>& b, const TreePart& part_b,
-           RelativeTransform& turn, float margin, QueryCounts& counts, const Visit& visit) {
+           RelativeTransform& turn, float margin, QueryCounts& counts, Visit visit) {
     const BoxProbe root(part_b.root_box, turn.b_to_a, margin);
     const bool a_is_leaf = is_leaf(part_a.top);
     const std::uint32_t top = a_is_leaf ? part_a.root / width : part_a.top;
@@ -124,9 +126,9 @@ class NearFinder {
 
   /// Tests box x of a node against box y of a leaf of the other tree. The leaf is transformed once and tested against
   /// x. The children of x are tested only if a primitive of the leaf is near. push(lanes that hold nodes).
-  template <class Visit, class Push>
+  template <class Push>
   [[gnu::always_inline]] static bool open_by_leaf(const Sides& sides, const Side& own, BoxId x, const Side& other,
-                                                  BoxId y, QueryCounts& counts, const Visit& visit, const Push& push) {
+                                                  BoxId y, QueryCounts& counts, Visit visit, const Push& push) {
     const TransformedLeaf<P> turned(other.tree, y, own.turn);
     if (turned.near_box(own.tree.store.box(x), own.margin) == 0) return true;
     const std::uint32_t in_x = own.tree.store.child(x);
@@ -141,10 +143,9 @@ class NearFinder {
   }
 
   /// `turned`: the leaf below y, transformed into the frame of `own`.
-  template <class Visit>
   [[gnu::always_inline]] static bool run_leaves(const Sides& sides, const Side& own, BoxId x, const Side& other,
                                                 BoxId y, const TransformedLeaf<P>& turned, QueryCounts& counts,
-                                                const Visit& visit) {
+                                                Visit visit) {
     const LeafPair<P> pair(own.tree, x, turned, own.margin);
     if (pair.ones() == 0) return true;
     if (std::popcount(pair.ones()) > few) {
@@ -157,9 +158,8 @@ class NearFinder {
     return run_pair(pair, sides.sane, counts, visit, other.is_a);
   }
 
-  template <class Visit>
-  [[gnu::always_inline]] static bool run_pair(const LeafPair<P>& pair, bool sane, QueryCounts& counts,
-                                              const Visit& visit, bool slot_in_a) {
+  [[gnu::always_inline]] static bool run_pair(const LeafPair<P>& pair, bool sane, QueryCounts& counts, Visit visit,
+                                              bool slot_in_a) {
     for (simd::Bits ones = pair.ones(); ones != 0; ones &= ones - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(ones));
       ++counts.pairs_tested;
