@@ -17,6 +17,7 @@
 #include "hinge/core/id.hpp"
 #include "hinge/core/number_text.hpp"
 #include "hinge/detail/policy/largest_threshold.hpp"
+#include "hinge/detail/query/check_clearance.hpp"
 #include "hinge/engine/engine.hpp"
 #include "hinge/engine/simd.hpp"
 #include "hinge/kinematics/frame.hpp"
@@ -113,7 +114,7 @@ class Hierarchy {
       throw ConfigurationError(
           "other_clearance: expected none in a query of one model, because clearance applies to both "
           "primitives of a pair");
-    check_clearance(options.clearance, model().groups()->size());
+    detail::check_clearance(options.clearance, model().groups()->size());
     engine_.self_query(self_rules(options), collector);
   }
 
@@ -148,8 +149,8 @@ class Hierarchy {
   /// Passes the pairs to a custom collector, in the order of the engine.
   template <Collector C, PairFilter G = AdmitAll>
   void query(const Hierarchy& other, C& collector, const G& across = {}, const QueryOptions& options = {}) const {
-    check_clearance(options.clearance, model().groups()->size());
-    check_clearance(options.other_clearance, other.model().groups()->size());
+    detail::check_clearance(options.clearance, model().groups()->size());
+    detail::check_clearance(options.other_clearance, other.model().groups()->size());
     check_laws(across, model().model().links(), other.model().model().links());
     with_other(other, across, options,
                [&](E& engine, const CrossRules<P, G, D>& rules) { engine_.query(engine, rules, collector); });
@@ -194,14 +195,15 @@ class Hierarchy {
   static Model<P> checked(Model<P> model, const F& filter, const D& matrix) {
     const auto check = [&](const auto& policy, const char* what) {
       if constexpr (KnowsSize<std::remove_cvref_t<decltype(policy)>>)
-        if (policy.size() != model.size())
-          throw ModelError(std::string(what) + " made for " + std::to_string(policy.size()) +
-                           " primitives, the model has " + std::to_string(model.size()));
+        if (const std::size_t n = policy.size(); n != model.size())
+          throw ModelError(std::string(what) + " made for " + std::to_string(n) + " primitives, the model has " +
+                           std::to_string(model.size()));
     };
     check(filter, "pair filter");
     check(matrix, "distance matrix");
     if constexpr (KnowsLinks<F>)
-      if (const std::span<const LinkId> links = filter.links(); !std::ranges::equal(links, model.links()))
+      if (const std::span<const LinkId> a = filter.links(), b = model.links();
+          !std::equal(a.begin(), a.end(), b.begin(), b.end()))
         throw ModelError("pair filter made for primitives on different links, expected the links of the model");
     if constexpr (ListsExclusions<F>)
       for (std::size_t i = 0; i < model.size(); ++i) check_exclusions(i, filter.excluded(id<PrimitiveId>(i)), model);
@@ -233,16 +235,6 @@ class Hierarchy {
       throw ConfigurationError("margin " + number_text(margin) + ": expected a finite length >= 0");
     return margin;
   }
-  static void check_clearance(std::span<const double> clearance, std::size_t groups) {
-    if (!clearance.empty() && clearance.size() != groups)
-      throw ConfigurationError(std::to_string(clearance.size()) + " extra clearances, expected one for each of " +
-                               std::to_string(groups) + " rigid groups");
-    for (std::size_t g = 0; g < clearance.size(); ++g)
-      if (!is_length(clearance[g]) || clearance[g] < 0.0)
-        throw ConfigurationError("extra clearance of rigid group " + std::to_string(g) + " is " +
-                                 number_text(clearance[g]) + ": expected a finite length >= 0");
-  }
-
   static double largest(std::span<const double> clearance) noexcept {
     double most = 0.0;
     for (const double extra : clearance) most = std::max(most, extra);
