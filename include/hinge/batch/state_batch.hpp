@@ -256,7 +256,7 @@ bool StateBatch<P, F, D, EngineOf>::make_list(std::size_t first, std::size_t end
   tests_ = 0;
   const double factor = allowance_.factor();
   if (!find_pairs(factor) && (factor == 1.0 || !find_pairs(1.0))) return false;
-  std::ranges::sort(found_);
+  std::sort(found_.begin(), found_.end());
   near_.assign(found_, single_.matrix(), single_.model(), travel_);
   allowance_.made(tests_, near_.size());
   has_list_ = true;

@@ -37,9 +37,11 @@ class Lazy {
         built_(layout_->body_count(), 0) {
     if constexpr (IsPointLike<P>) {
       const std::vector<std::uint8_t> never_collides = zero_thresholds(matrix_, model.size());
-      for (std::uint32_t l = 0; l < layout_->leaf_count(); ++l)
+      for (std::uint32_t l = 0; l < layout_->leaf_count(); ++l) {
+        const auto leaf = layout_->primitives(l);
         never_collides_.push_back(
-            std::ranges::all_of(layout_->primitives(l), [&](PrimitiveId i) { return never_collides[index(i)] != 0; }));
+            std::all_of(leaf.begin(), leaf.end(), [&](PrimitiveId i) { return never_collides[index(i)] != 0; }));
+      }
     }
   }
 

@@ -88,7 +88,8 @@ class ClosureEquations {
 
   /// Returns the smallest fixed length of a closure with lengths, model length unit.
   double shortest_length(std::size_t closure) const noexcept {
-    return std::ranges::min(*cycles_[closure].closure.lengths);
+    const auto& lengths = *cycles_[closure].closure.lengths;
+    return *std::min_element(lengths.begin(), lengths.end());
   }
 
   /// Returns the largest magnitude of a revolute joint's change in a step (columns() values), rad.

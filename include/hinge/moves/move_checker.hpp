@@ -125,7 +125,7 @@ class MoveChecker {
         blocks_->set(q_, parts());
       } else if (!behind_.empty()) {
         // Keep each DOF once, with its present value.
-        std::ranges::sort(behind_, {}, &DofChange::dof);
+        std::sort(behind_.begin(), behind_.end(), DofChange::by_dof);
         const auto same = [](const DofChange& a, const DofChange& b) { return a.dof == b.dof; };
         behind_.erase(std::unique(behind_.begin(), behind_.end(), same), behind_.end());
         for (DofChange& change : behind_) change.value = q_[change.dof];

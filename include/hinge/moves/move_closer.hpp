@@ -26,7 +26,8 @@ class MoveCloser {
   /// at q itself. Throws ConfigurationError if q has a wrong length or a value is not finite (see
   /// ClosureSolver::close).
   bool close(std::span<const double> q, std::vector<DofChange>& changes) {
-    if (std::ranges::none_of(changes, [&](const DofChange& change) { return in_cycle_[change.dof]; })) return true;
+    if (std::none_of(changes.begin(), changes.end(), [&](const DofChange& change) { return in_cycle_[change.dof]; }))
+      return true;
     closed_.assign(q.begin(), q.end());
     for (const DofChange& change : changes) closed_[change.dof] = change.value;
     if (!solver_.close(closed_)) return false;

@@ -22,10 +22,10 @@ inline void random_move(std::uint64_t seed, std::uint64_t step, std::span<const 
   changes.clear();
   for (std::size_t last = q.size() - std::min(count, q.size()); last < q.size(); ++last) {
     const auto drawn = static_cast<std::size_t>(stream.uniform() * static_cast<double>(last + 1));
-    const bool taken = std::ranges::any_of(changes, [&](const DofChange& c) { return c.dof == drawn; });
+    const bool taken = std::any_of(changes.begin(), changes.end(), [&](const DofChange& c) { return c.dof == drawn; });
     changes.push_back({taken ? last : drawn, 0.0});
   }
-  std::ranges::sort(changes, {}, &DofChange::dof);
+  std::sort(changes.begin(), changes.end(), DofChange::by_dof);
   for (DofChange& change : changes) change.value = q[change.dof] + sigma * stream.normal();
 }
 

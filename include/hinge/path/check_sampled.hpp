@@ -47,7 +47,7 @@ PathAnswer check_sampled(H& hierarchy, std::span<const double> from, std::span<c
                          const std::function<void()>& between = {}) {
   const StraightPath path(from, to, hierarchy.dof_count());
   const std::uint64_t steps = count_steps(path, resolution);
-  const bool moves = std::ranges::any_of(path.rate(), [](double rate) { return rate != 0.0; });
+  const bool moves = std::any_of(path.rate().begin(), path.rate().end(), [](double rate) { return rate != 0.0; });
 
   PathAnswer answer;
   std::vector<double> q;

@@ -31,9 +31,10 @@ class ListAllowance {
       const double tests = static_cast<double>(making_) / static_cast<double>(served_) + static_cast<double>(testing_);
       double& known = tests_of_[choice_];
       known = known == 0.0 ? tests : 0.5 * (known + tests);
-      choice_ = ++lists_ % try_again == 0
-                    ? lists_ / try_again % factors.size()
-                    : static_cast<std::size_t>(std::ranges::min_element(tests_of_) - tests_of_.begin());
+      choice_ =
+          ++lists_ % try_again == 0
+              ? lists_ / try_again % factors.size()
+              : static_cast<std::size_t>(std::min_element(tests_of_.begin(), tests_of_.end()) - tests_of_.begin());
     }
     served_ = 0;
   }

@@ -21,7 +21,7 @@ struct KnownPair {
 };
 
 inline bool any_collides(const std::vector<KnownPair>& known) noexcept {
-  return std::ranges::any_of(known, &KnownPair::collides);
+  return std::any_of(known.begin(), known.end(), [](const KnownPair& pair) { return pair.collides; });
 }
 
 /// Writes the collisions among `known` into `hits`, sorted by (first, second). Returns `hits`.

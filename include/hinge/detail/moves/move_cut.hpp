@@ -56,7 +56,7 @@ class MoveCut {
     values_.clear();
     joints_.clear();
     for (const DofChange& change : changes) values_.emplace_back(dofs_[change.dof].place, change.value);
-    std::ranges::sort(values_);
+    std::sort(values_.begin(), values_.end());
     for (const auto& [place, value] : values_) joints_.push_back(place);
     parts_.cut(joints_);
   }

@@ -116,7 +116,7 @@ class MoveFrames {
   void settle(const MovingParts& parts) {
     if (kept_.empty()) return;
     for (const std::uint32_t place : changed_) set_motion(place, at_[place].value, parts);
-    std::ranges::sort(kept_, {}, &Kept::begin);
+    std::sort(kept_.begin(), kept_.end(), [](const Kept& x, const Kept& y) { return x.begin < y.begin; });
     std::uint32_t done = 1;
     for (const Kept& k : kept_) {
       compose_range(std::max(done, k.begin), k.begin + k.count, parts);

@@ -43,7 +43,8 @@ class MovedBlocks {
       last_[b] = *most;
       order_.push_back(b);
     }
-    std::ranges::sort(order_, {}, [&](std::uint32_t b) { return std::pair(first[b], b); });
+    std::sort(order_.begin(), order_.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return std::pair(first[a], a) < std::pair(first[b], b); });
     std::uint32_t reaching = 0, from = 0;
     for (std::uint32_t p = 0; p <= parts.size(); ++p) {
       while (reaching < order_.size() && last_[order_[reaching]] < p) ++reaching;
@@ -112,7 +113,7 @@ inline std::span<const PartLanes> MovedBlocks::pieces(const Cut& cut, const Movi
   pieces_.clear();
   const auto add = [&](std::uint32_t part, simd::Bits lanes) {
     if (lanes == 0) return;
-    const auto piece = std::ranges::find(pieces_, part, &PartLanes::part);
+    const auto piece = std::find_if(pieces_.begin(), pieces_.end(), [&](const PartLanes& p) { return p.part == part; });
     if (piece == pieces_.end())
       pieces_.push_back({part, lanes});
     else
@@ -124,7 +125,9 @@ inline std::span<const PartLanes> MovedBlocks::pieces(const Cut& cut, const Movi
     add(stretches[t].part, lanes);
   }
   add(0, rest);
-  const auto most = std::ranges::max_element(pieces_, {}, [](const PartLanes& p) { return std::popcount(p.lanes); });
+  const auto most = std::max_element(pieces_.begin(), pieces_.end(), [](const PartLanes& p, const PartLanes& q) {
+    return std::popcount(p.lanes) < std::popcount(q.lanes);
+  });
   std::swap(*most, pieces_.back());
   return pieces_;
 }

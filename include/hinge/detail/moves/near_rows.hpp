@@ -43,7 +43,7 @@ class NearRows {
     }
     for (auto& list : lists) {
       start_.push_back(near_.size());
-      std::ranges::sort(list, {}, &Near::partner);
+      std::sort(list.begin(), list.end(), [](const Near& x, const Near& y) { return x.partner < y.partner; });
       near_.insert(near_.end(), list.begin(), list.end());
       near_.push_back({std::numeric_limits<std::uint32_t>::max(), 0, 0});
     }

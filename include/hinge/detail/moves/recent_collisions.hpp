@@ -50,7 +50,9 @@ class RecentCollisions {
     const auto end = slot_.begin() + static_cast<std::ptrdiff_t>(size_);
     auto k = static_cast<std::size_t>(std::find(slot_.begin(), end, slot) - slot_.begin());
     if (k == size_)
-      k = size_ < simd::width ? size_++ : static_cast<std::size_t>(std::ranges::min_element(met_at_) - met_at_.begin());
+      k = size_ < simd::width
+              ? size_++
+              : static_cast<std::size_t>(std::min_element(met_at_.begin(), met_at_.end()) - met_at_.begin());
     slot_[k] = slot;
     threshold_[k] = threshold;
     for (std::size_t side = 0; side < 2; ++side) place_[side][k] = place[side];

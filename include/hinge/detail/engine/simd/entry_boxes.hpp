@@ -30,7 +30,7 @@ class ShownEntries {
   void show_all() noexcept {
     std::size_t entries = entries_;
     for (std::vector<simd::Bits>& level : lanes_) {
-      std::ranges::fill(level, simd::all_bits);
+      std::fill(level.begin(), level.end(), simd::all_bits);
       if (entries % simd::width != 0) level.back() = (simd::Bits{1} << entries % simd::width) - 1;
       entries = level.size();
     }

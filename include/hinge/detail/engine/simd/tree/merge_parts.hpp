@@ -98,15 +98,17 @@ inline PartSet merge_alike(const PartSet& links, TreeStore& store) {
       }
   const auto row = [&](std::uint32_t p) { return std::span(tested).subspan(std::size_t{p} * row_count, row_count); };
   const auto same = [&](std::uint32_t p, std::uint32_t q) {
-    return links.parts[p].group == links.parts[q].group && std::ranges::equal(row(p), row(q));
+    const auto x = row(p), y = row(q);
+    return links.parts[p].group == links.parts[q].group && std::equal(x.begin(), x.end(), y.begin(), y.end());
   };
   std::vector<std::uint32_t> order(n), first;  // first[m]: one link of merged part m
   std::iota(order.begin(), order.end(), 0U);
-  std::ranges::stable_sort(order, [&](std::uint32_t p, std::uint32_t q) {
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t p, std::uint32_t q) {
     if (links.parts[p].group != links.parts[q].group) return links.parts[p].group < links.parts[q].group;
-    return std::ranges::lexicographical_compare(row(p), row(q));
+    const auto x = row(p), y = row(q);
+    return std::lexicographical_compare(x.begin(), x.end(), y.begin(), y.end());
   });
-  if (std::ranges::adjacent_find(order, same) == order.end()) return alike;
+  if (std::adjacent_find(order.begin(), order.end(), same) == order.end()) return alike;
   for (std::size_t start = 0, end = 0; start < n; start = end) {
     while (end < n && end < start + simd::width && same(order[start], order[end])) ++end;
     const std::span members = std::span(order).subspan(start, end - start);
