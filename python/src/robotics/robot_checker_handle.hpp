@@ -66,6 +66,7 @@ struct Against {
 Against as_against(const std::string& text);
 
 /// A checker. What changes it (set_base, allow, calibrate) puts another pool in place, so running calls keep theirs.
+  using MadeByInit = void;
 struct RobotCheckerHandle {
   RobotHandle robot;
   std::shared_ptr<RobotPool> pool;

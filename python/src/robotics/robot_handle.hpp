@@ -24,6 +24,7 @@ struct RobotHandle {
   robotics::Srdf srdf;                   ///< without a file: nothing disabled
   std::optional<std::string> srdf_text;  ///< contents of the SRDF file
   std::vector<std::string> notes;        ///< one sentence each
+  using MadeByInit = void;
 
   const robotics::Robot& operator*() const noexcept { return *robot; }
   const robotics::Robot* operator->() const noexcept { return robot.get(); }
@@ -36,6 +37,7 @@ struct ShapeHandle {
 };
 
 /// Returns a pose from a matrix of shape (4, 4) with the last row (0, 0, 0, 1); None is the identity. It is not checked
+  using MadeByInit = void;
 /// for rigidity. Throws TypeError and ValueError that name the argument.
 Pose as_pose(pybind11::handle value, const char* name);
 
