@@ -7,6 +7,7 @@
 #include "bindings.hpp"
 #include "errors.hpp"
 #include "hinge/version.hpp"
+#include "run_aside.hpp"
 
 namespace {
 
@@ -33,6 +34,7 @@ PYBIND11_MODULE(HINGE_PYTHON_MODULE, m) {
   m.doc() = "The compiled part of hinge, for one instruction set. Import hinge, hinge.molecular or hinge.robotics.";
   m.attr("__module__") = "hinge";  // the module that classes and functions say they belong to
   m.attr("version") = hinge::version_string;
+  hinge::python::wait_for_work_at_exit();
   hinge::python::bind_errors(m);
   hinge::python::bind_core(m);
   refuse_pickling(m);
