@@ -45,7 +45,8 @@ ModelError = _core.ModelError
 ConfigurationError = _core.ConfigurationError
 
 from . import molecular, robotics  # noqa: E402
-from ._model import Checker, Model  # noqa: E402
+from ._checker import Checker  # noqa: E402
+from ._model import Model  # noqa: E402
 
 for _public in (Checker, Model):
     _public.__module__ = __name__
