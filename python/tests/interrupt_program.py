@@ -34,8 +34,8 @@ def many_chains(count):
         for k, (atom, x) in enumerate(rows):
             place = " ".join(f"{c:.3f}" for c in x + shift)
             lines.append(
-                f"ATOM {copy * len(rows) + k + 1} {atom['element']} {atom['name']} . {atom['residue_name']} C{copy} ? . ? "
-                f"{place} 1.0 0 {atom['residue_number']} C{copy} 1"
+                f"ATOM {copy * len(rows) + k + 1} {atom['element']} {atom['name']} . {atom['residue_name']} C{copy} "
+                f"? . ? {place} 1.0 0 {atom['residue_number']} C{copy} 1"
             )
     return ("\n".join(lines) + "\n").encode()
 

@@ -15,7 +15,14 @@ import hinge.molecular as hm
 import hinge.robotics as hr
 from conftest import ROOT
 
-HANDLES = [hinge.Checker, hm.Molecule, hm.Checker, hm.Trajectory, hr.Robot, hr.Environment, hr.Checker, hr.CollisionMatrix]
+HANDLES = [hinge.Checker, hm.Molecule, hm.Checker, hm.Trajectory, hr.Robot, hr.Environment, hr.Checker]
+HANDLES += [hr.CollisionMatrix]
+
+
+def name_of(cls):
+    return f"{cls.__module__}.{cls.__name__}"
+
+
 MESSAGE = r"an object whose __init__\(\) has not been called"
 
 
@@ -41,20 +48,20 @@ def first_property(cls):
     raise AssertionError(f"{cls} has no compiled part")
 
 
-@pytest.mark.parametrize("cls", [c for c in HANDLES if c is not hr.CollisionMatrix], ids=lambda c: c.__module__ + "." + c.__name__)
+@pytest.mark.parametrize("cls", [c for c in HANDLES if c is not hr.CollisionMatrix], ids=name_of)
 def test_the_exception_names_the_class(cls):
     with pytest.raises(TypeError, match=f"{cls.__name__}: {MESSAGE}"):
         getattr(cls.__new__(cls), first_property(cls))
 
 
-@pytest.mark.parametrize("cls", HANDLES, ids=lambda c: c.__module__ + "." + c.__name__)
+@pytest.mark.parametrize("cls", HANDLES, ids=name_of)
 def test_half_made_objects_are_not_copied(cls):
     for way in (copy.copy, copy.deepcopy, pickle.dumps):
         with pytest.raises((TypeError, AttributeError)):
             way(cls.__new__(cls))
 
 
-@pytest.mark.parametrize("cls", HANDLES, ids=lambda c: c.__module__ + "." + c.__name__)
+@pytest.mark.parametrize("cls", HANDLES, ids=name_of)
 def test_heirs_call_the_init_of_their_base(cls):
     heir = type("Heir", (cls,), {"__init__": lambda self: None})
     with pytest.raises(TypeError, match="__init__"):

@@ -44,7 +44,7 @@ def numbers(text):
 
 
 def wrong_numbers(cells):
-    """The bold numbers of texts that the last printing cell above did not print, and how many bold numbers there are."""
+    """The bold numbers of texts that the last printing cell above did not print, and the count of bold numbers."""
     wrong, count, last = [], 0, ""
     for cell in cells:
         if cell["cell_type"] == "code":

@@ -130,7 +130,9 @@ class Checker(_core.CheckerBase):
 
     @property
     def names(self):
-        """Names that results refer to by index: the links of the robot, then the bodies ('' for removed ones)."""
+        """Names that results refer to by index, shape (n,): the links of the robot, then the bodies ('' for removed
+        ones).
+        """
         bodies = self._environment._names if self._environment is not None else []
         return np.array([*self._robot.link_names, *bodies])
 

@@ -103,7 +103,7 @@ void bind_ensemble(py::module_& module) {
       "superpose", &superposed, py::arg("moved"), py::arg("onto"),
       "superpose(moved, onto)\n--\n\nReturn (rmsd, farthest, atom): root mean square distance and largest distance "
       "after the best\nrigid superposition, angstrom, and the atom with the latter.\n\nmoved, onto: shape (n, 3), "
-      "angstrom.");
+      "angstrom. Raises TypeError and ValueError.");
 }
 
 }  // namespace hinge::python
