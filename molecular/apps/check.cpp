@@ -19,6 +19,7 @@
 #include "hinge/molecular/severity.hpp"
 #include "hinge_tools/progress_bar.hpp"
 #include "options.hpp"
+#include "pair_text.hpp"
 #include "report.hpp"
 #include "results.hpp"
 #include "summary.hpp"
@@ -32,6 +33,7 @@ using namespace hinge::molecular;
 struct Checked {
   Verdict verdict;
   BondDeviation bond;
+  std::string pairs{};                 // JSON; empty for other outputs, and for modes without a list
   std::vector<hinge::Vec3> positions;  // empty unless --out takes them
   std::string error;                   // not empty if there is no verdict
   std::shared_ptr<const Job> own{};    // for a model with other atoms than the first
@@ -143,6 +145,8 @@ Exit run_check(const Options& options) {
   if (options.output == Output::csv) print_constant_contacts(job);
   if (options.output == Output::table) fmt::print("{}", heading(options, job));
 
+  std::optional<PairText> pair_text;
+  if (options.output == Output::json && lists_pairs(mode)) pair_text.emplace(job);
   const BondGauge gauge(*job.molecule);
   const bool has_closures = !job.molecule->closure_atoms().empty();
   Summary summary(closure_names(job), false, options.output == Output::json);
@@ -159,6 +163,7 @@ Exit run_check(const Options& options) {
       if (file.wants_whole_frames()) checked.positions = whole;
       std::vector<hinge::Vec3> own = source.kept(std::move(whole));
       checked.verdict = checker.check_coordinates(own, mode);
+      if (pair_text) checked.pairs = pair_text->list(checked.verdict.pairs);
       checked.bond = gauge.worst_bond(own);
       checked.verdict.closure_residuals = gauge.closure_residuals(own);
       for (const double residual : checked.verdict.closure_residuals)
@@ -174,6 +179,7 @@ Exit run_check(const Options& options) {
       }
       checked = check_alone(options, frames.number(k), mode, error.what());
       checked.verdict.closure_residuals.assign(job.molecule->closure_atoms().size(), 0.0);
+      if (pair_text) checked.pairs = PairText(*checked.own).list(checked.verdict.pairs);
     } catch (const hinge::LoadError& error) {
       checked.error = error.what();
     }
@@ -201,7 +207,7 @@ Exit run_check(const Options& options) {
       if (checked.own) row["other_atoms"] = checked.difference;
       row["worst_bond"] = bond_json(s, checked.bond);
       if (has_closures) row["closures"] = closures_json(job, checked.verdict.closure_residuals);
-      results.add(row);
+      results.add(row, checked.pairs);
     }
     if (options.output == Output::csv)
       results.add(with_columns(csv_rows(of, k, checked.verdict),

@@ -33,11 +33,6 @@ Severity severity(const Job& job, const Contact& pair) {
   return severity_of(job.checker.thresholds(), pair.hit, pair.collides);
 }
 
-bool has_classes(std::string_view rules) {
-  return rules == "molprobity" || rules == "chimerax" || rules == "posebusters";
-}
-bool has_relative_distance(std::string_view rules) { return rules == "posebusters"; }
-
 /// Returns "d < 0.8 * (bondi v1 radii), pairs at least 4 bonds apart, ...", or the same with the name of the rules.
 std::string rule_line(const Checker& checker) {
   const auto& t = checker.thresholds();
@@ -81,6 +76,11 @@ std::string free_words_line(const Job& job) {
 }
 
 }  // namespace
+
+bool has_classes(std::string_view rules) {
+  return rules == "molprobity" || rules == "chimerax" || rules == "posebusters";
+}
+bool has_relative_distance(std::string_view rules) { return rules == "posebusters"; }
 
 Json model_json(const Options& options, const Job& job) {
   const Structure& s = job.molecule->structure();
@@ -172,15 +172,13 @@ void print_closures(const Job& job, const std::vector<double>& residuals) {
                residuals[k]);
 }
 
+bool lists_pairs(const Mode& mode) { return mode.kind == Mode::Kind::all || mode.kind == Mode::Kind::within; }
+
 double rounded(double length) { return std::round(length * 1e3) / 1e3; }
 
 Json verdict_json(const Job& job, std::uint64_t index, const Verdict& verdict, const Mode& mode) {
   Json json{{"index", index}, {"collides", verdict.collides}};
-  if (mode.kind == Mode::Kind::all || mode.kind == Mode::Kind::within) {
-    Json pairs = Json::array();
-    for (const Contact& pair : verdict.pairs) pairs.push_back(pair_json(job, pair));
-    json["pairs"] = std::move(pairs);
-  }
+  if (lists_pairs(mode)) json["pairs"] = Json();
   if (mode.kind == Mode::Kind::closest) json["closest"] = verdict.closest ? pair_json(job, *verdict.closest) : Json();
   return json;
 }

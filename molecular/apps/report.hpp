@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hinge/molecular/checker.hpp"
@@ -42,9 +43,15 @@ std::vector<std::string> closure_names(const Job& job);
 void print_closures(const Job& job, const std::vector<double>& residuals);
 /// Rounds a length to thousandths: superposed coordinates differ in their last bits between instruction sets.
 double rounded(double length);
-/// Returns one conformation's verdict, with the pairs that the mode lists.
+/// Returns true if the mode asks for a list of pairs.
+bool lists_pairs(const hinge::molecular::Mode& mode);
+/// Returns one conformation's verdict. Its member `pairs`, if the mode lists pairs, is null: PairText writes them.
 Json verdict_json(const Job& job, std::uint64_t index, const hinge::molecular::Verdict& verdict,
                   const hinge::molecular::Mode& mode);
+
+/// Returns true if the rules have classes, or relative distances, of pairs.
+bool has_classes(std::string_view rules);
+bool has_relative_distance(std::string_view rules);
 
 /// Columns of every CSV file. A conformation has one row per pair, or one row with empty fields if it has no pair.
 inline constexpr const char* csv_columns =

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdio>
 #include <string_view>
 
 #include "hinge/core/error.hpp"
@@ -85,9 +86,21 @@ Results::Results(const Options& options, Json head, std::uint64_t total, const s
   }
 }
 
-void Results::add(const Json& row) {
-  fmt::print("{}{}", json_row_separator(empty_), hinge::tool::json_text(row));
+void Results::add(const Json& row, const std::string& pairs) {
+  const std::string text = hinge::tool::json_text(row);
+  // `pairs` follows a number and a Boolean, so its first occurrence is the member.
+  constexpr std::string_view placeholder = "\"pairs\":null";
+  const std::size_t at = pairs.empty() ? std::string::npos : text.find(placeholder);
+  std::fputs(json_row_separator(empty_), stdout);
   empty_ = false;
+  if (at == std::string::npos) {
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    return;
+  }
+  const std::size_t end = at + placeholder.size(), start = end - 4;
+  std::fwrite(text.data(), 1, start, stdout);
+  std::fwrite(pairs.data(), 1, pairs.size(), stdout);
+  std::fwrite(text.data() + end, 1, text.size() - end, stdout);
 }
 
 void Results::add(const std::string& csv_rows) { fmt::print("{}", csv_rows); }

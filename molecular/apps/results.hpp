@@ -25,8 +25,8 @@ class Results {
   /// Throws ModelError for a shard of a table.
   Results(const Options& options, Json head, std::uint64_t total, const std::string& columns = "");
 
-  /// Prints a JSON row.
-  void add(const Json& row);
+  /// Prints a JSON row. pairs: the JSON text of its member `pairs`; empty if it has none.
+  void add(const Json& row, const std::string& pairs);
   /// Prints CSV rows, each with its line end.
   void add(const std::string& csv_rows);
   /// Prints the summary. error: why the run ended early, or empty.

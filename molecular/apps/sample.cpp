@@ -22,6 +22,7 @@
 #include "hinge_tools/csv_field.hpp"
 #include "hinge_tools/progress_bar.hpp"
 #include "options.hpp"
+#include "pair_text.hpp"
 #include "report.hpp"
 #include "results.hpp"
 #include "scene.hpp"
@@ -39,6 +40,7 @@ struct Sample {
   bool found = true;                   // false: no start closed (with --collision-free: no closed start was free)
   std::uint64_t unclosed = 0, refused = 0;
   Placements placements{};
+  std::string pairs{};             // JSON; empty for other outputs, and for modes without a list
   std::vector<double> torsions{};  // values of the selected DOF, as torsion_values gives them
 };
 
@@ -192,6 +194,8 @@ Exit run_sample(const Options& options) {
   if (options.output == Output::csv) print_constant_contacts(job);
   if (options.output == Output::table) fmt::print("{}", heading(options, job));
 
+  std::optional<PairText> pair_text;
+  if (options.output == Output::json && lists_pairs(mode)) pair_text.emplace(job);
   Summary summary(closure_names(job), closed, options.output != Output::csv);
   hinge::tool::ProgressBar bar(end - begin);
   const auto start = std::chrono::steady_clock::now();
@@ -202,6 +206,7 @@ Exit run_sample(const Options& options) {
   const auto judge = [&, begin = begin](Worker& mine, std::size_t n) {
     Sample sample = draw(mine, job, sampling, begin + n, mode, options.collision_free);
     if (sample.found && file.takes(sample.verdict.collides)) sample.positions = mine.checker.positions();
+    if (sample.found && pair_text) sample.pairs = pair_text->list(sample.verdict.pairs);
     return sample;
   };
   const auto report = [&, begin = begin](std::size_t n, const Sample& sample) {
@@ -216,7 +221,7 @@ Exit run_sample(const Options& options) {
         row["closures"] = closures_json(job, sample.verdict.closure_residuals);
       if (!sample.placements.empty()) row["placements"] = placements_json(job, sample.placements);
       if (options.torsions) row["torsions"] = sample.torsions;
-      results.add(row);
+      results.add(row, sample.pairs);
     }
     if (options.output == Output::csv) {
       const std::string rows = with_placements(csv_rows(job, k, sample.verdict), sample.placements);

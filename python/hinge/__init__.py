@@ -10,6 +10,8 @@ one that the environment variable HINGE_ISA names (baseline, avx2 or avx512). Al
 
 Calls that compute release the interpreter's lock, obey Ctrl-C, and take `threads` (the answers do not depend on it)
 and `progress`: a callable with (done, total), or a progress bar such as tqdm's. Several threads may use one object.
+After Ctrl-C in a call that reads a file or builds a checker, its work runs on and is dropped; the process waits for it
+at its exit, and a second Ctrl-C ends the process at once.
 In several processes, start them by "spawn" or "forkserver".
 """
 
@@ -45,7 +47,8 @@ ModelError = _core.ModelError
 ConfigurationError = _core.ConfigurationError
 
 from . import molecular, robotics  # noqa: E402
-from ._model import Checker, Model  # noqa: E402
+from ._checker import Checker  # noqa: E402
+from ._model import Model  # noqa: E402
 
 for _public in (Checker, Model):
     _public.__module__ = __name__

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 from collections.abc import Sequence
-from typing import Any, Literal, Protocol
+from typing import Any, Literal, Protocol, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -31,10 +31,17 @@ class _Callback(Protocol):
     def __call__(self, done: int, total: int, /) -> object: ...
 
 class _Bar(Protocol):
-    n: Any
+    @property
+    def n(self) -> float: ...
     def update(self, n: int, /) -> object: ...
 
 _Progress = _Callback | _Bar | None
+# Of an array, a type checker does not know the number of dimensions: the answer is one value for one configuration, and
+# an array for several. For lists, it is known.
+_One = Sequence[float]
+_Several = Sequence[Sequence[float]]
+_Booleans = NDArray[np.bool_] | Any
+_Numbers = NDArray[np.float64] | Any
 _Joint = Literal["fixed", "revolute", "prismatic"]
 
 class Model:
@@ -81,8 +88,18 @@ class Checker:
         engine: Literal["simd", "lazy", "brute"] = "simd",
         threads: int = 1,
     ) -> None: ...
-    # bool for one configuration, booleans of shape (n,) for several
-    def collides(self, q: ArrayLike, *, threads: int | None = None, progress: _Progress = None) -> Any: ...
+    @overload
+    def collides(
+        self, q: _One, *, threads: int | None = None, progress: _Progress = None
+    ) -> bool: ...
+    @overload
+    def collides(
+        self, q: _Several, *, threads: int | None = None, progress: _Progress = None
+    ) -> NDArray[np.bool_]: ...
+    @overload
+    def collides(
+        self, q: ArrayLike, *, threads: int | None = None, progress: _Progress = None
+    ) -> _Booleans: ...
     def pairs(
         self, q: ArrayLike, *, within: float = 0.0, threads: int | None = None, progress: _Progress = None
     ) -> NDArray[np.void]: ...
@@ -92,6 +109,77 @@ class Checker:
     def link_poses(
         self, q: ArrayLike, *, threads: int | None = None, progress: _Progress = None
     ) -> NDArray[np.float64]: ...
+    def certify(
+        self,
+        a: ArrayLike,
+        b: ArrayLike,
+        *,
+        smallest_step: float = ...,
+        resolution: float | None = None,
+        threads: int | None = None,
+        progress: _Progress = None,
+    ) -> NDArray[np.void]: ...
+    @overload
+    def collides_with(
+        self,
+        other: Checker,
+        q: _One,
+        q_other: _One,
+        *,
+        exclude: ArrayLike = (),
+        admitted: ArrayLike | None = None,
+        threads: int | None = None,
+        progress: _Progress = None,
+    ) -> bool: ...
+    @overload
+    def collides_with(
+        self,
+        other: Checker,
+        q: _Several,
+        q_other: _Several,
+        *,
+        exclude: ArrayLike = (),
+        admitted: ArrayLike | None = None,
+        threads: int | None = None,
+        progress: _Progress = None,
+    ) -> NDArray[np.bool_]: ...
+    @overload
+    def collides_with(
+        self,
+        other: Checker,
+        q: ArrayLike,
+        q_other: ArrayLike,
+        *,
+        exclude: ArrayLike = (),
+        admitted: ArrayLike | None = None,
+        threads: int | None = None,
+        progress: _Progress = None,
+    ) -> _Booleans: ...
+    def pairs_with(
+        self,
+        other: Checker,
+        q: ArrayLike,
+        q_other: ArrayLike,
+        *,
+        within: float = 0.0,
+        exclude: ArrayLike = (),
+        admitted: ArrayLike | None = None,
+        threads: int | None = None,
+        progress: _Progress = None,
+    ) -> NDArray[np.void]: ...
+    def closest_with(
+        self,
+        other: Checker,
+        q: ArrayLike,
+        q_other: ArrayLike,
+        *,
+        exclude: ArrayLike = (),
+        admitted: ArrayLike | None = None,
+        threads: int | None = None,
+        progress: _Progress = None,
+    ) -> NDArray[np.void]: ...
+    @property
+    def engine(self) -> str: ...
     @property
     def dof(self) -> int: ...
     @property

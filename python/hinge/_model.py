@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Model and Checker: points, spheres, capsules or triangles on a tree of links, from arrays."""
+"""Model: points, spheres, capsules or triangles on a tree of links, from arrays."""
 
 import numpy as np
-
-from . import _core
 
 _JOINTS = ("fixed", "revolute", "prismatic")
 _KINDS = ("point", "sphere", "capsule", "triangle")
@@ -25,7 +23,7 @@ def _numbers(name, value, shape, default=None):
     return np.ascontiguousarray(array)
 
 
-def _indices(name, value, shape, end):
+def indices(name, value, shape, end):
     """Integers from 0 to end - 1 of a shape; one number stands for all."""
     array = np.asarray(value)
     if array.size == 0:
@@ -57,7 +55,7 @@ class Model:
 
     def __init__(self, parents, joints="revolute", *, axes=None, points=None, origins=None, names=None):
         n = len(parents)
-        self._parents = _indices("parents", parents, (n,), max(n, 1))
+        self._parents = indices("parents", parents, (n,), max(n, 1))
         if (self._parents > np.arange(n)).any():
             k = int(np.flatnonzero(self._parents > np.arange(n))[0])
             raise ValueError(f"parents[{k}] is {self._parents[k]}, expected 0 to {k}: parents come first")
@@ -78,7 +76,7 @@ class Model:
         self._parts = []  # (kind, links, corners, radii)
 
     def _add(self, kind, links, corners, radii):
-        self._parts.append((kind, _indices("links", links, (len(corners),), self.n_links), corners, radii))
+        self._parts.append((kind, indices("links", links, (len(corners),), self.n_links), corners, radii))
         kinds = {part[0] for part in self._parts}
         if "triangle" in kinds and len(kinds) > 1:
             self._parts.pop()
@@ -167,108 +165,3 @@ def _radii(radii, n):
     if (array < 0).any():
         raise ValueError(f"radii: {array.min()}, expected at least 0")
     return array
-
-
-class Checker(_core.CheckerBase):
-    """Tests configurations of a Model. Any number of threads may use it at the same time.
-
-    model: a Model with primitives; later additions to it have no effect. A pair of primitives collides if it is
-    admitted and its distance is below its threshold; solids (not points) also collide if they touch.
-    threshold: a length for all pairs, or a symmetric matrix of lengths by type, shape (t, t). types: type of each
-    primitive, shape (n_primitives,), with a matrix.
-    exclude: pairs of primitives that are not tested, shape (m, 2). groups: group of each primitive, shape
-    (n_primitives,); default its link. admitted: which groups are tested against each other, symmetric booleans of
-    shape (g, g); default all.
-    free: indices of the joints that move (of n_joints), default all; the others stay at 0.
-    engine: 'simd', 'lazy' or 'brute'; all give the same answers. threads: default of every call.
-
-    Pairs on links that do not move against each other are not tested; constant_contacts lists those that collide.
-    Raises ModelError, TypeError, ValueError, IndexError. Pickling stores the model and the options.
-    """
-
-    def __init__(
-        self,
-        model,
-        threshold=0.0,
-        *,
-        types=None,
-        exclude=(),
-        groups=None,
-        admitted=None,
-        free=None,
-        engine="simd",
-        threads=1,
-    ):
-        if not isinstance(model, Model):
-            raise TypeError(f"model: a {type(model).__name__}, expected a Model")
-        n = model.n_primitives
-        if n == 0:
-            raise ValueError("model: 0 primitives, expected at least one")
-        table = np.asarray(threshold, dtype=np.float64)
-        if table.ndim == 0:
-            table = table.reshape(1, 1)
-            types = np.zeros(n, np.int64) if types is None else types
-        if table.ndim != 2 or table.shape[0] != table.shape[1]:
-            raise ValueError(f"threshold: shape {table.shape}, expected a number or (t, t)")
-        if types is None:
-            raise ValueError("types: None, expected the type of each primitive, because threshold is a matrix")
-        groups = model.links if groups is None else groups
-        count = model.n_links if admitted is None else len(admitted)
-        if admitted is None and np.size(groups):
-            count = max(count, int(np.max(groups)) + 1)
-        admitted = np.ones((count, count), bool) if admitted is None else np.asarray(admitted)
-        if admitted.dtype != bool or admitted.shape != (count, count):
-            raise ValueError(f"admitted: {admitted.dtype} of shape {admitted.shape}, expected booleans of shape (g, g)")
-        exclude = np.asarray(exclude)
-        exclude = exclude.reshape(0, 2) if exclude.size == 0 else exclude
-        if exclude.ndim != 2 or exclude.shape[1] != 2:
-            raise ValueError(f"exclude: shape {exclude.shape}, expected (m, 2)")
-        free = np.arange(model.n_joints) if free is None else np.asarray(free)
-        self._arguments = {
-            "threshold": threshold,
-            "types": types,
-            "exclude": exclude,
-            "groups": groups,
-            "admitted": admitted,
-            "free": free,
-            "engine": engine,
-            "threads": threads,
-        }
-        self._model = model
-        super().__init__(
-            {
-                "kind": model.kind,
-                "parents": model._parents.tolist(),
-                "joints": model._joints,
-                "names": model._names,
-                "axes": model._axes,
-                "points": model._points,
-                "origins": model._origins[:, :3].reshape(-1, 12),
-                "links": model.links.tolist(),
-                "corners": model.corners,
-                "radii": model.radii,
-                "thresholds": table,
-                "types": _indices("types", types, (n,), min(len(table), 65536)).tolist(),
-                "exclude": _indices("exclude", exclude, exclude.shape, n).tolist(),
-                "groups": _indices("groups", groups, (n,), count).tolist(),
-                "admitted": admitted,
-                "free": _indices("free", free, free.shape[:1], model.n_joints).tolist(),
-                "engine": str(engine),
-                "threads": threads,
-            }
-        )
-
-    @property
-    def model(self):
-        """The Model that is tested."""
-        return self._model
-
-    def __reduce__(self):
-        return _rebuild, (type(self), self._model, self._arguments)
-
-    def __repr__(self):
-        return f"<Checker of {self._model.n_primitives} {self._model.kind}s, {self.dof} degrees of freedom>"
-
-
-def _rebuild(cls, model, arguments):
-    return cls(model, **arguments)

@@ -14,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "run_aside.hpp"
+
 namespace hinge::python {
 
 namespace py = pybind11;
@@ -22,7 +24,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto slice_time = std::chrono::milliseconds(10);
-constexpr auto signal_time = std::chrono::milliseconds(20);
 constexpr auto progress_time = std::chrono::milliseconds(100);
 
 /// Ends the work of a thread after stop(). Another thread's exception is the answer of the call.

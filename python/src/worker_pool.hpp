@@ -32,6 +32,8 @@ class WorkerPool {
     std::unique_ptr<Worker> worker_;
   };
 
+  /// Makes one worker, so that the first call need not.
+  void make_one() { const Loan loan(*this); }
   /// The object that workers are copies of. It is never lent, so many threads may read it at once.
   const Worker& prototype() const noexcept { return prototype_; }
 

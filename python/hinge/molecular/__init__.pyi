@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 import os
 from collections.abc import Iterator, Sequence
-from typing import Any, Literal
+from typing import Literal, Protocol, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .. import LoadError, _Progress
+from .. import LoadError, _Booleans, _One, _Progress, _Several
 
 __all__ = [
     "Checker",
@@ -24,6 +24,16 @@ __all__ = [
 _Path = str | os.PathLike[str]
 _Source = _Path | bytes
 _Part = str | NDArray[np.bool_]
+_Placed = _Part | tuple[_Part] | tuple[_Part, float] | tuple[_Part, float, float]
+_Between = tuple[_Part, _Part]
+_Coordinates = Sequence[Sequence[float]]
+
+class _GemmiStructure(Protocol):
+    def make_mmcif_document(self) -> object: ...
+
+class _HasAtoms(Protocol):
+    @property
+    def atoms(self) -> object: ...
 
 pair_dtype: np.dtype[np.void]
 
@@ -44,17 +54,17 @@ class Molecule:
         dictionary: _Path | None = "installed",
         loops: str = "",
         keep_hydrogen_bonds: bool = False,
-        place: _Part | Sequence[_Part | tuple[Any, ...]] = (),
+        place: _Part | Sequence[_Placed] = (),
         held: ArrayLike | None = None,
     ) -> None: ...
     @classmethod
-    def from_gemmi(cls, structure: Any, **options: Any) -> Molecule: ...
+    def from_gemmi(cls, structure: _GemmiStructure, **options: object) -> Molecule: ...
     @classmethod
-    def from_mdanalysis(cls, atoms: Any, **options: Any) -> Molecule: ...
+    def from_mdanalysis(cls, atoms: _HasAtoms, **options: object) -> Molecule: ...
     @property
     def source(self) -> str | bytes: ...
     @property
-    def options(self) -> dict[str, Any]: ...
+    def options(self) -> dict[str, object]: ...
     @property
     def name(self) -> str: ...
     @property
@@ -141,25 +151,54 @@ class Checker:
         hydrogen_bond_allowance: float | None = None,
         exempt_reference: bool = False,
         exempt_interfaces: bool = False,
-        between: Sequence[Any] = (),
+        between: _Between | Sequence[_Between] = (),
         inside: _Part | Sequence[_Part] = (),
         engine: Literal["simd", "lazy", "brute"] = "simd",
         closures: Literal["keep", "open"] = "keep",
         open_closures: Sequence[int] = (),
         threads: int = 1,
     ) -> None: ...
-    # collides...: bool for one conformation, booleans of shape (n,) for several
-    def collides(self, q: ArrayLike, *, threads: int | None = None, progress: _Progress = None) -> Any: ...
+    @overload
+    def collides(
+        self, q: _One, *, threads: int | None = None, progress: _Progress = None
+    ) -> bool: ...
+    @overload
+    def collides(
+        self, q: _Several, *, threads: int | None = None, progress: _Progress = None
+    ) -> NDArray[np.bool_]: ...
+    @overload
+    def collides(
+        self, q: ArrayLike, *, threads: int | None = None, progress: _Progress = None
+    ) -> _Booleans: ...
     def pairs(
         self, q: ArrayLike, *, within: float = 0.0, threads: int | None = None, progress: _Progress = None
     ) -> NDArray[np.void]: ...
     def closest(self, q: ArrayLike, *, threads: int | None = None, progress: _Progress = None) -> NDArray[np.void]: ...
     def positions(
-        self, q: ArrayLike, *, out: Any = None, threads: int | None = None, progress: _Progress = None
+        self, q: ArrayLike, *, out: NDArray[np.float64] | None = None, threads: int | None = None, progress: _Progress = None
     ) -> NDArray[np.float64]: ...
     def closure_residuals(
         self, q: ArrayLike, *, threads: int | None = None, progress: _Progress = None
     ) -> NDArray[np.float64]: ...
+    @overload
+    def collides_coordinates(
+        self,
+        x: _Coordinates,
+        *,
+        decimals: int | None = None,
+        threads: int | None = None,
+        progress: _Progress = None,
+    ) -> bool: ...
+    @overload
+    def collides_coordinates(
+        self,
+        x: Trajectory | Sequence[_Coordinates],
+        *,
+        decimals: int | None = None,
+        threads: int | None = None,
+        progress: _Progress = None,
+    ) -> NDArray[np.bool_]: ...
+    @overload
     def collides_coordinates(
         self,
         x: ArrayLike | Trajectory,
@@ -167,7 +206,7 @@ class Checker:
         decimals: int | None = None,
         threads: int | None = None,
         progress: _Progress = None,
-    ) -> Any: ...
+    ) -> _Booleans: ...
     def pairs_coordinates(
         self,
         x: ArrayLike | Trajectory,
@@ -225,7 +264,7 @@ class Checker:
     @property
     def molecule(self) -> Molecule: ...
     @property
-    def options(self) -> dict[str, Any]: ...
+    def options(self) -> dict[str, object]: ...
     @property
     def dof(self) -> int: ...
     @property

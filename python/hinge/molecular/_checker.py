@@ -9,9 +9,8 @@ import numpy as np
 
 from .. import ModelError
 from .._core import molecular as _core
+from .._paths import named_verdicts, path_options
 from ._molecule import Molecule, one_of, residues_of
-
-_PATH_VERDICTS = np.array(["free", "colliding", "undecided"])
 
 
 @dataclasses.dataclass(frozen=True)
@@ -204,16 +203,8 @@ class Checker(_core.CheckerBase):
         collision or undecided segment, 0 to 1), half_width (of that segment), i, j (its atoms; -1: none known),
         distance, threshold (angstrom), states (number of configurations computed).
         """
-        resolution = None if resolution is None else _number("resolution", resolution)
-        if resolution is not None and not 0 < resolution < np.inf:
-            raise ValueError(f"resolution: {resolution}, expected a finite number above 0, or None")
-        smallest_step = _number("smallest_step", smallest_step)
-        rows = self._certify(a, b, smallest_step, resolution or 0.0, threads, progress)
-        fields = [(name, "U9" if name == "verdict" else rows.dtype[name]) for name in rows.dtype.names]
-        named = np.empty(rows.shape, fields)
-        for name in rows.dtype.names:
-            named[name] = _PATH_VERDICTS[rows[name]] if name == "verdict" else rows[name]
-        return named
+        smallest_step, resolution = path_options(smallest_step, resolution)
+        return named_verdicts(self._certify(a, b, smallest_step, resolution, threads, progress))
 
     def walk(self, steps, *, step_size=np.radians(3.0), changes=1, seed=1, every=100, start=None, progress=None):
         """Make a Monte Carlo walk of collision-free moves, the same as `biocd walk`. Returns a Walk.

@@ -7,13 +7,12 @@ import numpy as np
 
 from .. import ModelError
 from .._core import robotics as _core
+from .._paths import named_verdicts, path_options
 from . import _arguments as _check
 from ._environment import Environment
 from ._matrix import CollisionMatrix
 from ._robot import Robot
 from ._shapes import Shape, matrix
-
-_PATH_VERDICTS = np.array(["free", "colliding", "undecided"])
 
 
 @dataclasses.dataclass(frozen=True)
@@ -131,7 +130,9 @@ class Checker(_core.CheckerBase):
 
     @property
     def names(self):
-        """Names that results refer to by index: the links of the robot, then the bodies ('' for removed ones)."""
+        """Names that results refer to by index, shape (n,): the links of the robot, then the bodies ('' for removed
+        ones).
+        """
         bodies = self._environment._names if self._environment is not None else []
         return np.array([*self._robot.link_names, *bodies])
 
@@ -264,17 +265,9 @@ class Checker(_core.CheckerBase):
             raise ModelError(f"a, b: {a!r}, {b!r}, expected two links, or a link and a body")
 
     def _paths(self, a, b, smallest_step, resolution, threads, progress):
-        smallest_step = _check.number("smallest_step", smallest_step)
-        if not 0 < smallest_step <= 1:
-            raise ValueError(f"smallest_step: {smallest_step}, expected a share of the path above 0, at most 1")
-        if resolution is not None and not _check.number("resolution", resolution) > 0:
-            raise ValueError(f"resolution: {resolution}, expected a number above 0, or None")
-        rows, at = self._certify(a, b, smallest_step, float(resolution or 0.0), threads, progress)
-        fields = [(name, "U9" if name == "verdict" else rows.dtype[name]) for name in rows.dtype.names]
-        named = np.empty(rows.shape, fields)
-        for name in rows.dtype.names:
-            named[name] = _PATH_VERDICTS[rows[name]] if name == "verdict" else rows[name]
-        return named, at
+        smallest_step, resolution = path_options(smallest_step, resolution)
+        rows, at = self._certify(a, b, smallest_step, resolution, threads, progress)
+        return named_verdicts(rows), at
 
     def __reduce__(self):
         return _rebuild, (type(self), self._robot, self._options, self._environment)

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 import dataclasses
 from collections.abc import Iterable, Mapping
-from typing import Any, Literal
+from typing import Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .. import _Progress
+from .. import _Booleans, _Numbers, _One, _Progress, _Several
 from ._environment import Environment
 from ._matrix import CollisionMatrix
 from ._robot import Robot
@@ -69,9 +69,18 @@ class Checker:
     def tested_pairs(self) -> _Names: ...
     @property
     def open_links(self) -> _Names: ...
+    @overload
+    def collides(
+        self, q: _One, *, against: _Against = "all", threads: int | None = None, progress: _Progress = None
+    ) -> bool: ...
+    @overload
+    def collides(
+        self, q: _Several, *, against: _Against = "all", threads: int | None = None, progress: _Progress = None
+    ) -> NDArray[np.bool_]: ...
+    @overload
     def collides(
         self, q: ArrayLike, *, against: _Against = "all", threads: int | None = None, progress: _Progress = None
-    ) -> Any: ...
+    ) -> _Booleans: ...
     def colliding_links(self, q: ArrayLike, *, against: _Against = "all") -> _Names: ...
     def named(self, rows: _Rows) -> _Names: ...
     def pairs(
@@ -95,9 +104,18 @@ class Checker:
     def closest(
         self, q: ArrayLike, *, against: _Against = "all", threads: int | None = None, progress: _Progress = None
     ) -> _Rows: ...
+    @overload
+    def distance(
+        self, q: _One, *, against: _Against = "all", threads: int | None = None, progress: _Progress = None
+    ) -> float: ...
+    @overload
+    def distance(
+        self, q: _Several, *, against: _Against = "all", threads: int | None = None, progress: _Progress = None
+    ) -> _Floats: ...
+    @overload
     def distance(
         self, q: ArrayLike, *, against: _Against = "all", threads: int | None = None, progress: _Progress = None
-    ) -> Any: ...
+    ) -> _Numbers: ...
     def triangle_pairs(self, q: ArrayLike, *, threads: int | None = None, progress: _Progress = None) -> _Rows: ...
     def contained(self, q: ArrayLike, *, threads: int | None = None, progress: _Progress = None) -> _Rows: ...
     def link_poses(self, q: ArrayLike, *, threads: int | None = None, progress: _Progress = None) -> _Floats: ...
@@ -131,6 +149,27 @@ class Checker:
     ) -> str: ...
     def detach(self, body: str, q: ArrayLike | None = None, *, remove: bool = False) -> None: ...
     def allow(self, a: str, b: str) -> None: ...
+    @overload
+    def collides_with(
+        self,
+        other: Checker,
+        q: _One,
+        q_other: _One,
+        *,
+        threads: int | None = None,
+        progress: _Progress = None,
+    ) -> bool: ...
+    @overload
+    def collides_with(
+        self,
+        other: Checker,
+        q: _Several,
+        q_other: _Several,
+        *,
+        threads: int | None = None,
+        progress: _Progress = None,
+    ) -> NDArray[np.bool_]: ...
+    @overload
     def collides_with(
         self,
         other: Checker,
@@ -139,7 +178,7 @@ class Checker:
         *,
         threads: int | None = None,
         progress: _Progress = None,
-    ) -> Any: ...
+    ) -> _Booleans: ...
     def pairs_with(
         self,
         other: Checker,

@@ -17,6 +17,7 @@ class Link:
 
     name: unique, not empty. shapes: collision shapes, each a Shape, or (Shape, pose) with the pose of the shape in the
     link, a matrix of shape (4, 4) or a translation of shape (3,), m. A link without shapes is not tested.
+    Robot() raises TypeError, ValueError or ModelError for a link that is none.
     """
 
     name: str
@@ -25,7 +26,10 @@ class Link:
 
 @dataclasses.dataclass(frozen=True)
 class Mimic:
-    """Lets a joint follow another one: its value is multiplier * value of `joint` + offset (rad or m)."""
+    """Lets a joint follow another one: its value is multiplier * value of `joint` + offset (rad or m).
+
+    Robot() raises ModelError for a joint that does not exist or follows itself.
+    """
 
     joint: str
     multiplier: float = 1.0
@@ -39,6 +43,7 @@ class Joint:
     name: unique, not empty. type: 'fixed', 'revolute', 'continuous' or 'prismatic'. parent, child: names of links.
     origin: shape (4, 4), or a translation of shape (3,), m; None: the identity. axis: shape (3,), in the child's frame.
     lower, upper: limits, rad or m; not used by fixed and continuous joints. mimic: a Mimic, or None.
+    Robot() raises TypeError, ValueError or ModelError for a joint that is none.
     """
 
     name: str

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 import dataclasses
 from collections.abc import Sequence
-from typing import Any, Literal
+from typing import Literal
 
 from numpy.typing import ArrayLike
 
@@ -32,5 +32,5 @@ class Joint:
     upper: float = 0.0
     mimic: Mimic | None = None
 
-def link_data(link: Link | str) -> tuple[str, list[Any]]: ...
-def joint_data(joint: Joint) -> tuple[Any, ...]: ...
+def link_data(link: Link | str) -> tuple[str, list[object]]: ...
+def joint_data(joint: Joint) -> tuple[object, ...]: ...

@@ -58,7 +58,10 @@ class Environment(_core.EnvironmentBase):
         self._allowed = [entry for entry in self._allowed if entry[0] != name]
 
     def set_pose(self, name, pose):
-        """Move a body that is not attached. name: of the body. pose: of its frame in the world."""
+        """Move a body that is not attached.
+
+        name: of the body. pose: of its frame in the world, shape (4, 4) or (3,), m.
+        """
         self._set_pose(self._number(name), matrix("pose", pose))
 
     def pose(self, name):
@@ -73,7 +76,8 @@ class Environment(_core.EnvironmentBase):
     def attach(self, name, robot, link, pose=None, *, may_touch=None):
         """Attach a body to a link of a robot: in every answer for this robot, its pose is link pose * pose.
 
-        name: of the body. robot: a Robot. link: its name. pose: of the body in the link's frame; None: the identity.
+        name: of the body. robot: a Robot. link: its name. pose: of the body in the link's frame, shape (4, 4)
+        or (3,), m; None: the identity.
         may_touch: names of links that the body may touch; None: those of the link's rigid group. A body held by another
         robot stands where it stood before.
         """
@@ -87,7 +91,8 @@ class Environment(_core.EnvironmentBase):
     def detach(self, name, pose=None):
         """Detach a body.
 
-        name: of the body. pose: where it stands now, in the world; None: where it stood before it was attached.
+        name: of the body. pose: where it stands now, shape (4, 4) or (3,), m, in the world; None: where it
+        stood before it was attached.
         """
         number = self._number(name)
         if name not in self._attached:

@@ -20,6 +20,7 @@ class CollisionMatrix(_core.MatrixBase):
     these. cells: boxes of joint values that a proof may use per pair; 0: no proofs. clearance: m; closer links are too
     close. settled: further pairs of names that need no proof.
     Depends on these arguments alone. Pass the result as `disable` of a Checker. Pickling stores the arguments.
+    Raises TypeError, ValueError, and ModelError for unknown links.
     """
 
     def __init__(self, robot, *, samples=100_000, seed=1, cells=20_000, clearance=0.0, settled=(), progress=None):

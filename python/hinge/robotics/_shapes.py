@@ -32,7 +32,10 @@ class Shape:
 
 
 class Box(Shape):
-    """A solid box. size: edge lengths along x, y, z, m, shape (3,)."""
+    """A solid box.
+
+    size: edge lengths along x, y, z, m, shape (3,). Raises TypeError, ValueError, and ModelError for negative lengths.
+    """
 
     def __init__(self, size):
         self._keep(_core.ShapeData.box(size), tuple(np.asarray(size, float).tolist()))
@@ -44,7 +47,7 @@ class Box(Shape):
 
 
 class Sphere(Shape):
-    """A solid sphere. radius: m."""
+    """A solid sphere. radius: m. Raises TypeError, ValueError, and ModelError for a negative radius."""
 
     def __init__(self, radius):
         radius = number("radius", radius)
@@ -73,11 +76,17 @@ class _Round(Shape):
 
 
 class Cylinder(_Round):
-    """A solid cylinder along z. radius, length: m."""
+    """A solid cylinder along z.
+
+    radius, length: m. Raises TypeError, ValueError, and ModelError for negative lengths.
+    """
 
 
 class Capsule(_Round):
-    """A solid capsule: all points within a radius of a segment along z. radius, length of the segment: m."""
+    """A solid capsule: all points within a radius of a segment along z.
+
+    radius, length of the segment: m. Raises TypeError, ValueError, and ModelError for negative lengths.
+    """
 
 
 class Mesh(Shape):
@@ -140,6 +149,7 @@ class PointCloud(Shape):
     """Solid spheres of one radius, such as the points of a depth camera with their uncertainty.
 
     points: shape (n, 3), m, at least one. radius: m.
+    Raises TypeError, ValueError, and ModelError for a negative radius.
     """
 
     def __init__(self, points, radius):
@@ -189,7 +199,8 @@ def _mesh(cls, triangles, scale, solid):
 def pose(xyz=(0.0, 0.0, 0.0), rpy=(0.0, 0.0, 0.0)):
     """Return a pose as a matrix of shape (4, 4), by the same operations as a URDF origin.
 
-    xyz: translation, m, shape (3,). rpy: roll about x, then pitch about y, then yaw about z, fixed axes, rad.
+    xyz: translation, m, shape (3,). rpy: roll about x, then pitch about y, then yaw about z, fixed axes, rad. Raises
+    TypeError and ValueError.
     """
     return _core.matrix_of_rpy(xyz, rpy)
 

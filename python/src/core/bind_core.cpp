@@ -8,31 +8,16 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core_queries.hpp"
+#include "core_checker.hpp"
 #include "hinge/core/error.hpp"
+#include "run_aside.hpp"
 #include "run_slices.hpp"
-#include "worker_pool.hpp"
 
 namespace hinge::python {
 
 namespace py = pybind11;
 
 namespace {
-
-/// One row of the structured arrays of pairs.
-struct CorePairRow {
-  std::int64_t configuration;
-  std::uint32_t i, j;
-  double distance, threshold;
-};
-
-/// A checker of a model from arrays; many threads may call it at once.
-struct CoreChecker {
-  CoreChecker(const CoreQueries& queries, unsigned n) : pool(queries), dof(queries.dof), threads(n) {}
-  WorkerPool<CoreQueries> pool;
-  std::size_t dof;
-  unsigned threads;
-};
 
 Doubles rows_of(const py::dict& from, const char* name, py::ssize_t columns, const char* meaning) {
   const std::vector<Shape> shapes{{any, columns}};
@@ -92,13 +77,15 @@ std::unique_ptr<CoreChecker> make_checker(const py::dict& from) {
   const TypedThresholds thresholds(types, static_cast<std::size_t>(table.shape(0)),
                                    std::vector<double>(table.data(), table.data() + table.size()));
   const TableFilter filter = as_filter(from);
+  const auto groups = from["groups"].cast<std::vector<std::uint32_t>>();
   const unsigned threads = as_threads(from["threads"], 1);
-  const py::gil_scoped_release unlocked;
-  const CoreQueries queries = kind == "point"     ? make_points(model, filter, thresholds)
-                              : kind == "sphere"  ? make_spheres(model, filter, thresholds)
-                              : kind == "capsule" ? make_capsules(model, filter, thresholds)
-                                                  : make_triangles(model, filter, thresholds);
-  return std::make_unique<CoreChecker>(queries, threads);
+  return run_aside([=] {
+    const CoreQueries queries = kind == "point"     ? make_points(model, filter, thresholds)
+                                : kind == "sphere"  ? make_spheres(model, filter, thresholds)
+                                : kind == "capsule" ? make_capsules(model, filter, thresholds)
+                                                    : make_triangles(model, filter, thresholds);
+    return std::make_unique<CoreChecker>(queries, groups, threads);
+  });
 }
 
 py::object collides(CoreChecker& self, const py::object& values, const py::object& threads,
@@ -126,17 +113,9 @@ py::object collides(CoreChecker& self, const py::object& values, const py::objec
   return to_booleans(std::move(verdicts));
 }
 
-CorePairRow row_of(std::size_t configuration, const Hit& hit) {
-  return {static_cast<std::int64_t>(configuration), static_cast<std::uint32_t>(index(hit.first)),
-          static_cast<std::uint32_t>(index(hit.second)), hit.distance, hit.threshold};
-}
-
 /// within: nullopt asks for the closest pair.
 py::object list_pairs(CoreChecker& self, const py::object& values, std::optional<double> within,
                       const py::object& threads, const py::object& progress) {
-  if (within && !(*within >= 0.0 && *within <= 1e300))
-    throw py::value_error("within: " + py::repr(py::float_(*within)).cast<std::string>() +
-                          ", expected a finite length, at least 0");
   const Configurations q = as_configurations(values, "q", self.dof);
   std::vector<std::vector<CorePairRow>> rows(q.count);
   run_slices(self.pool, q.count, as_threads(threads, self.threads), progress,
@@ -150,9 +129,7 @@ py::object list_pairs(CoreChecker& self, const py::object& values, std::optional
                  }
                }
              });
-  std::vector<CorePairRow> all;
-  for (const auto& some : rows) all.insert(all.end(), some.begin(), some.end());
-  return to_array(std::move(all));
+  return to_array(joined(rows));
 }
 
 py::array_t<double> link_poses(CoreChecker& self, const py::object& values, const py::object& threads,
@@ -182,10 +159,18 @@ py::array_t<double> link_poses(CoreChecker& self, const py::object& values, cons
 
 }  // namespace
 
+double as_margin(const py::object& within) {
+  const double margin = as_number(within, "within");
+  if (!(margin >= 0.0 && margin <= 1e300))
+    throw py::value_error("within: " + py::repr(py::float_(margin)).cast<std::string>() +
+                          ", expected a finite length, at least 0");
+  return margin;
+}
+
 void bind_core(py::module_& module) {
   PYBIND11_NUMPY_DTYPE(CorePairRow, configuration, i, j, distance, threshold);
   const auto options = [](auto&& bind) { bind(py::arg("threads") = py::none(), py::arg("progress") = py::none()); };
-  py::class_<CoreChecker> checker(module, "CheckerBase", "A checker; see Checker.");
+  CoreCheckerClass checker(module, "CheckerBase", "A checker; see Checker.");
   options([&](const py::arg_v& threads, const py::arg_v& progress) {
     checker.def(py::init(&make_checker))
         .def("collides", &collides, py::arg("q"), py::kw_only(), threads, progress,
@@ -198,7 +183,7 @@ void bind_core(py::module_& module) {
         .def(
             "pairs",
             [](CoreChecker& self, const py::object& q, const py::object& within, const py::object& n,
-               const py::object& bar) { return list_pairs(self, q, as_number(within, "within"), n, bar); },
+               const py::object& bar) { return list_pairs(self, q, as_margin(within), n, bar); },
             py::arg("q"), py::kw_only(), py::arg("within") = 0.0, threads, progress,
             "pairs(self, q, *, within=0.0, threads=None, progress=None)\n--\n\n"
             "Return the pairs of primitives that collide, or with d < threshold + within.\n\n"
@@ -220,6 +205,8 @@ void bind_core(py::module_& module) {
              "Return the world poses of all links, the world included.\n\n"
              "q: as in collides(). Returns shape (n, links, 4, 4), or (links, 4, 4) for one configuration.");
   });
+  add_core_paths(checker);
+  add_two_models(checker);
   checker
       .def_property_readonly(
           "dof", [](const CoreChecker& self) { return self.dof; }, "Number of values of a configuration.")

@@ -9,11 +9,14 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <typeinfo>
 #include <vector>
 
+#include "cross_table.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/kinematics/joint.hpp"
+#include "hinge/path/path_answer.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/policy/distance_matrix.hpp"
 #include "table_filter.hpp"
@@ -31,6 +34,23 @@ struct CoreDescription {
   std::string engine;           ///< "simd", "lazy" or "brute"
 };
 
+/// Checks a path: from, to, smallest step or resolution, between.
+using CheckPath =
+    std::function<PathAnswer(std::span<const double>, std::span<const double>, double, const std::function<void()>&)>;
+
+/// Proves paths as CertifiedPath does. A copy has a state of its own.
+struct PathProver {
+  CheckPath check;
+  std::function<PathProver()> clone;
+
+  PathProver() = default;
+  PathProver(const PathProver& other) : PathProver(other.clone()) {}
+  PathProver(PathProver&&) = default;
+  PathProver& operator=(const PathProver&) = delete;
+  PathProver& operator=(PathProver&&) = default;
+  ~PathProver() = default;
+};
+
 /// A hierarchy. A copy has a state of its own. Functions throw as Hierarchy does.
 struct CoreQueries {
   std::function<void(std::span<const double>)> update;
@@ -39,6 +59,14 @@ struct CoreQueries {
   std::function<std::optional<Hit>()> closest;
   std::function<Pose(LinkId)> link_pose;
   std::function<std::vector<Hit>()> constant_contacts;
+  CheckPath sample_path;  ///< moves the state
+  std::function<PathProver()> make_prover;
+  // Against another hierarchy of the same kind of primitives and engine, which `kind` tells.
+  std::function<bool(const CoreQueries&, const CrossTable&)> collides_with;
+  std::function<std::vector<Hit>(const CoreQueries&, const CrossTable&, double margin)> within_of;
+  std::function<std::optional<Hit>(const CoreQueries&, const CrossTable&)> closest_of;
+  std::shared_ptr<void> hierarchy;
+  const std::type_info* kind = nullptr;
   std::size_t dof = 0, links = 0;
   std::function<CoreQueries()> clone;
 

@@ -2,7 +2,9 @@
 // make_queries: builds a model of one kind of primitive and a hierarchy with the wanted engine.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <type_traits>
 #include <utility>
 
 #include "core_queries.hpp"
@@ -11,8 +13,33 @@
 #include "hinge/engine/lazy.hpp"
 #include "hinge/engine/simd.hpp"
 #include "hinge/hierarchy.hpp"
+#include "hinge/path/certified_path.hpp"
+#include "hinge/path/check_sampled.hpp"
 
 namespace hinge::python {
+
+template <class Certified>
+PathProver prover_of(std::shared_ptr<Certified> certified) {
+  PathProver prover;
+  prover.check = [certified](std::span<const double> from, std::span<const double> to, double smallest_step,
+                             const std::function<void()>& between) {
+    return certified->check(from, to, smallest_step, between);
+  };
+  prover.clone = [certified] { return prover_of(std::make_shared<Certified>(*certified)); };
+  return prover;
+}
+
+/// Every engine proves the same, so all provers use one.
+template <class P, template <class, class, class> class EngineOf>
+PathProver prover_for(const Hierarchy<P, TableFilter, TypedThresholds, EngineOf>& h) {
+  using Proving = Hierarchy<P, TableFilter, TypedThresholds, Simd>;
+  using Certified = CertifiedPath<P, TableFilter, TypedThresholds, Simd>;
+  if constexpr (std::is_same_v<Proving, std::remove_cvref_t<decltype(h)>>)
+    return prover_of(std::make_shared<Certified>(h));
+  else
+    return prover_of(
+        std::make_shared<Certified>(Proving(h.model().model(), h.model().selection(), h.filter(), h.matrix())));
+}
 
 template <class H>
 CoreQueries queries_of(std::shared_ptr<H> h) {
@@ -25,6 +52,22 @@ CoreQueries queries_of(std::shared_ptr<H> h) {
   queries.constant_contacts = [h] { return h->constant_contacts(); };
   queries.dof = h->dof_count();
   queries.links = h->model().model().tree().link_count();
+  queries.sample_path = [h](std::span<const double> from, std::span<const double> to, double resolution,
+                            const std::function<void()>& between) {
+    return check_sampled(*h, from, to, resolution, between);
+  };
+  queries.make_prover = [h] { return prover_for(*h); };
+  queries.collides_with = [h](const CoreQueries& other, const CrossTable& across) {
+    return h->collides(*static_cast<const H*>(other.hierarchy.get()), across);
+  };
+  queries.within_of = [h](const CoreQueries& other, const CrossTable& across, double margin) {
+    return h->within(*static_cast<const H*>(other.hierarchy.get()), margin, across);
+  };
+  queries.closest_of = [h](const CoreQueries& other, const CrossTable& across) {
+    return h->closest(*static_cast<const H*>(other.hierarchy.get()), across);
+  };
+  queries.hierarchy = h;
+  queries.kind = &typeid(H);
   queries.clone = [h] { return queries_of(std::make_shared<H>(*h)); };
   return queries;
 }

@@ -124,7 +124,7 @@ void add_facts(CheckerClass& checker) {
           "Name of the radii set in use.")
       .def_property_readonly(
           "rho", [](const CheckerHandle& self) { return self.checker().thresholds().rho; },
-          "Threshold / sum of radii; None if the rules are not of that kind.")
+          "The factor threshold / sum of radii; None if the rules are not of that kind.")
       .def_property_readonly(
           "min_bonds", [](const CheckerHandle& self) { return self.checker().min_bonds().heavy; },
           "Number of bonds from which a pair of heavy atoms counts.")
@@ -139,13 +139,13 @@ void add_facts(CheckerClass& checker) {
           [](const CheckerHandle& self) {
             return to_array(std::vector<std::int64_t>(self.kept.closures.begin(), self.kept.closures.end()));
           },
-          "Indices of the closures that samples and walks keep closed.")
+          "Indices of the closures that samples and walks keep closed, shape (n,).")
       .def_property_readonly(
           "held_torsions",
           [](const CheckerHandle& self) {
             return to_array(std::vector<std::int64_t>(self.kept.held.begin(), self.kept.held.end()));
           },
-          "Indices of torsions that cannot move while the closures hold.");
+          "Indices of torsions that cannot move while the closures hold, shape (n,).");
 }
 
 }  // namespace hinge::python

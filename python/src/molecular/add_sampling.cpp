@@ -16,6 +16,7 @@
 #include "hinge/moves/move_checker.hpp"
 #include "hinge/moves/move_closer.hpp"
 #include "hinge/moves/random_move.hpp"
+#include "run_aside.hpp"
 #include "run_slices.hpp"
 
 namespace hinge::python {
@@ -119,14 +120,12 @@ py::tuple sample(CheckerHandle& self, std::uint64_t count, std::uint64_t seed, s
 /// Indices of the closures that random starts do not close.
 py::array_t<std::int64_t> unclosable(CheckerHandle& self, std::uint64_t seed, std::optional<double> sigma) {
   const Sampling sampling = as_sampling(seed, sigma);
-  std::vector<std::size_t> open;
-  {
-    const py::gil_scoped_release unlocked;
-    if (!self.kept.closures.empty())
-      open = find_unclosable(*self.molecule, self.checker().selection(), sampling, self.molecule.ranges,
-                             self.kept.closures);
-  }
-  return to_array(std::vector<std::int64_t>(open.begin(), open.end()));
+  if (self.kept.closures.empty()) return to_array(std::vector<std::int64_t>());
+  return to_array(
+      run_aside([=, molecule = self.molecule, selection = self.checker().selection(), closures = self.kept.closures] {
+        const auto open = find_unclosable(*molecule, selection, sampling, molecule.ranges, closures);
+        return std::vector<std::int64_t>(open.begin(), open.end());
+      }));
 }
 
 using Moves = MoveChecker<Point, BondExclusions, TypedThresholds>;
@@ -140,12 +139,10 @@ struct Walk {
   std::uint64_t accepted = 0, unclosed = 0;
 };
 
-void check_start(const CheckerHandle& self, Moves& moves) {
+void check_start(const Structure& structure, Moves& moves) {
   if (!moves.collides()) return;
   const std::vector<Hit>& hits = moves.collisions();
-  const auto name = [&](PrimitiveId i) {
-    return label(self.molecule.structure(), static_cast<std::uint32_t>(index(i)));
-  };
+  const auto name = [&](PrimitiveId i) { return label(structure, static_cast<std::uint32_t>(index(i))); };
   throw ModelError("walk: the start collides in " + std::to_string(hits.size()) + " pairs, first " +
                    name(hits.front().first) + " and " + name(hits.front().second) +
                    "; expected a start without collisions (exempt_reference=True exempts those of the file)");
@@ -162,21 +159,22 @@ py::tuple walk(CheckerHandle& self, std::uint64_t steps, double sigma, std::uint
     throw py::value_error("changes: " + std::to_string(count) + ", expected 1 to " + std::to_string(dof) +
                           ", the number of free torsions");
   if (every < 1) throw py::value_error("every: 0, expected at least 1");
-  std::optional<Configurations> from;
-  if (!start.is_none()) from = as_configurations(start, "start", dof);
-  if (from && !from->one) throw py::value_error("start: two dimensions, expected shape (" + std::to_string(dof) + ",)");
-  std::optional<Walk> state;
-  {
-    const py::gil_scoped_release unlocked;
-    const Checker& checker = self.checker();
-    const Model<Point>& model = self.molecule->model();
-    state.emplace(Walk{
-        Moves(MolecularHierarchy<Simd>(model, checker.selection(), checker.exclusions(), checker.thresholds().matrix)),
-        MoveCloser(model.tree(), checker.selection(), self.kept.closures)});
-    if (from) state->moves.set((*from)[0]);
-    check_start(self, state->moves);
+  std::vector<double> from(dof, 0.0);
+  if (!start.is_none()) {
+    const Configurations given = as_configurations(start, "start", dof);
+    if (!given.one) throw py::value_error("start: two dimensions, expected shape (" + std::to_string(dof) + ",)");
+    from.assign(given[0].begin(), given[0].end());
   }
-  Walk& w = *state;
+  Walk w =
+      run_aside([from, molecule = self.molecule, closures = self.kept.closures, selection = self.checker().selection(),
+                 exclusions = self.checker().exclusions(), matrix = self.checker().thresholds().matrix] {
+        const Model<Point>& model = molecule->model();
+        Walk made{Moves(MolecularHierarchy<Simd>(model, selection, exclusions, matrix)),
+                  MoveCloser(model.tree(), selection, closures)};
+        made.moves.set(from);
+        check_start(molecule.structure(), made.moves);
+        return made;
+      });
   run_slices(static_cast<std::size_t>(steps), 1, progress, [&]() -> Slice {  // one thread: slices come in order
     return [&](std::size_t begin, std::size_t end) {
       for (std::size_t step = begin; step < end; ++step) {

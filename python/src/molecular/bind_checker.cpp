@@ -9,6 +9,7 @@
 
 #include "arrays.hpp"
 #include "checker_handle.hpp"
+#include "run_aside.hpp"
 #include "run_slices.hpp"
 
 namespace hinge::python {
@@ -64,11 +65,12 @@ std::unique_ptr<CheckerHandle> make_checker(const MoleculeHandle& molecule, cons
     if (closure >= molecule->closure_atoms().size())
       throw py::index_error("open_closures: " + std::to_string(closure) + ", expected an index below " +
                             std::to_string(molecule->closure_atoms().size()));
-  const py::gil_scoped_release unlocked;
-  const KeptClosures kept =
-      find_kept_closures(*molecule, free, closures == "keep" ? Closures::all : Closures::of_loops, open);
-  const Checker checker(molecule.molecule, molecule->select_placed(kept.torsions), options);
-  return std::make_unique<CheckerHandle>(molecule, kept, checker, threads);
+  return run_aside([=] {
+    const KeptClosures kept =
+        find_kept_closures(*molecule, free, closures == "keep" ? Closures::all : Closures::of_loops, open);
+    const Checker checker(molecule.molecule, molecule->select_placed(kept.torsions), options);
+    return std::make_unique<CheckerHandle>(molecule, kept, checker, threads);
+  });
 }
 
 /// Answers "does it collide" for configurations first ... last - 1.

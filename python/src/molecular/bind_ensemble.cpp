@@ -11,6 +11,7 @@
 #include "hinge/molecular/ensemble_groups.hpp"
 #include "hinge/molecular/ensemble_spread.hpp"
 #include "hinge/molecular/fit_torsions.hpp"
+#include "run_aside.hpp"
 #include "run_slices.hpp"
 
 namespace hinge::python {
@@ -24,20 +25,18 @@ py::dict find_groups(const MoleculeHandle& molecule, const py::object& x, const 
                      const py::object& progress) {
   const FrameSource frames(x, "x", molecule, py::none());
   const std::vector<std::size_t> free = as_indices(torsions, "free", molecule->torsions().size());
-  EnsembleSpread spread(*molecule, free);
+  const auto spread = run_aside([=] { return std::make_shared<EnsembleSpread>(*molecule, free); });
   std::vector<Vec3> memory;
   run_slices(frames.size(), 1, progress, [&]() -> Slice {  // one thread: conformations are added in order
     return [&](std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k) spread.add(frames.frame(k, memory));
+      for (std::size_t k = first; k < last; ++k) spread->add(frames.frame(k, memory));
     };
   });
-  EnsembleGroups found;
-  std::vector<HeldPlacement> held;
-  {
-    const py::gil_scoped_release unlocked;
-    found = find_ensemble_groups(spread, tolerance);
-    held = held_placements(*molecule, found);
-  }
+  auto [found, held] = run_aside([=] {
+    EnsembleGroups groups = find_ensemble_groups(*spread, tolerance);
+    std::vector<HeldPlacement> placements = held_placements(*molecule, groups);
+    return std::pair(std::move(groups), std::move(placements));
+  });
   py::list segments, spreads;
   for (const EnsembleGroup& group : found.groups) {
     py::list of_group;
@@ -104,7 +103,7 @@ void bind_ensemble(py::module_& module) {
       "superpose", &superposed, py::arg("moved"), py::arg("onto"),
       "superpose(moved, onto)\n--\n\nReturn (rmsd, farthest, atom): root mean square distance and largest distance "
       "after the best\nrigid superposition, angstrom, and the atom with the latter.\n\nmoved, onto: shape (n, 3), "
-      "angstrom.");
+      "angstrom. Raises TypeError and ValueError.");
 }
 
 }  // namespace hinge::python

@@ -16,6 +16,7 @@
 #include "hinge/molecular/join_structures.hpp"
 #include "hinge/molecular/selection.hpp"
 #include "molecule_handle.hpp"
+#include "run_aside.hpp"
 
 namespace hinge::python {
 
@@ -60,13 +61,14 @@ std::vector<HeldPlacement> as_held(const py::object& value, std::size_t atoms) {
 }
 
 Structure read_files(const MoleculeArguments& given) {
-  const py::gil_scoped_release unlocked;
-  std::vector<Structure> structures{read_structure(given.paths.front(), given.read)};
-  ReadOptions whole = given.read;
-  whole.model.reset();
-  whole.hetero = true;
-  for (std::size_t k = 1; k < given.paths.size(); ++k) structures.push_back(read_structure(given.paths[k], whole));
-  return join_structures(std::move(structures));
+  return run_aside([paths = given.paths, read = given.read] {
+    std::vector<Structure> structures{read_structure(paths.front(), read)};
+    ReadOptions whole = read;
+    whole.model.reset();
+    whole.hetero = true;
+    for (std::size_t k = 1; k < paths.size(); ++k) structures.push_back(read_structure(paths[k], whole));
+    return join_structures(std::move(structures));
+  });
 }
 
 std::unique_ptr<MoleculeHandle> make_molecule(const MoleculeArguments& given) {
@@ -85,8 +87,9 @@ std::unique_ptr<MoleculeHandle> make_molecule(const MoleculeArguments& given) {
   if (!given.loops.empty()) options.loops = find_loops(structure, given.loops);
   options.keep_hydrogen_bonds = given.keep_hydrogen_bonds;
   options.held = as_held(given.held, structure.atoms.size());
-  const py::gil_scoped_release unlocked;
-  handle->molecule = std::make_shared<const Molecule>(std::move(structure), options);
+  handle->molecule = run_aside([structure = std::move(structure), options]() mutable {
+    return std::make_shared<const Molecule>(std::move(structure), options);
+  });
   return handle;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "frame_source.hpp"
+#include "run_aside.hpp"
 #include "run_slices.hpp"
 
 namespace hinge::python {
@@ -89,9 +90,10 @@ Doubles read_frames(const TrajectoryHandle& self, std::size_t first, std::size_t
 void bind_trajectory(py::module_& module) {
   py::class_<TrajectoryHandle>(module, "TrajectoryBase", "A trajectory; see Trajectory.")
       .def(py::init([](const MoleculeHandle& molecule, const std::string& path, bool may_have_more) {
-        const py::gil_scoped_release unlocked;
-        auto frames = std::make_shared<Trajectory>(path, molecule.structure(), molecule.read, may_have_more);
-        return TrajectoryHandle{path, molecule, std::move(frames)};
+        return run_aside([=] {
+          auto frames = std::make_shared<Trajectory>(path, molecule.structure(), molecule.read, may_have_more);
+          return TrajectoryHandle{path, molecule, std::move(frames)};
+        });
       }))
       .def("__len__", [](const TrajectoryHandle& self) { return self.opened().size(); })
       .def(

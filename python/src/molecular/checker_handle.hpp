@@ -27,6 +27,7 @@ struct PairRow {
 
 /// A checker with what its molecule needs for samples and moves.
 struct CheckerHandle {
+  using MadeByInit = void;
   CheckerHandle(MoleculeHandle of, molecular::KeptClosures kept_closures, const molecular::Checker& checker, unsigned n)
       : molecule(std::move(of)), kept(std::move(kept_closures)), pool(checker), threads(n) {}
 

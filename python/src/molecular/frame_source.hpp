@@ -18,6 +18,7 @@ namespace hinge::python {
 
 /// A trajectory as Python holds it. Its molecule lives as long as it.
 struct TrajectoryHandle {
+  using MadeByInit = void;
   std::string path;
   MoleculeHandle molecule;
   std::shared_ptr<const molecular::Trajectory> frames;  ///< null: closed

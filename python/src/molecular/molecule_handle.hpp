@@ -17,11 +17,13 @@
 #include "hinge/molecular/part.hpp"
 #include "hinge/molecular/read_structure.hpp"
 #include "hinge/molecular/sampler.hpp"
+#include "made_caster.hpp"
 
 namespace hinge::python {
 
 /// A molecule that Python objects share. It does not change.
 struct MoleculeHandle {
+  using MadeByInit = void;
   std::shared_ptr<const molecular::Molecule> molecule;
   std::vector<molecular::PlacementRange> ranges{};  ///< one per placed part
   molecular::ReadOptions read{};                    ///< how its files were read

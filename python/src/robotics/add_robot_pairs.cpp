@@ -141,12 +141,11 @@ py::object contained(RobotCheckerHandle& self, const py::object& values, const p
 }
 
 std::vector<std::pair<std::string, std::string>> open_links(RobotCheckerHandle& self) {
-  std::vector<std::pair<std::string, std::string>> open;
-  RobotCall call(self);
-  RobotPool::Loan worker(call.pool());
-  for (const OpenLink& link : worker->checker.not_closed())
-    open.emplace_back(self.robot->link_name(link.link), link.edge.text());
-  return open;
+  return run_aside([robot = self.robot.robot, checker = self.checker()]() mutable {
+    std::vector<std::pair<std::string, std::string>> open;
+    for (const OpenLink& link : checker.not_closed()) open.emplace_back(robot->link_name(link.link), link.edge.text());
+    return open;
+  });
 }
 
 constexpr const char* pairs_doc =

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "hinge/robotics/path_checker.hpp"
+#include "path_rows.hpp"
 #include "robot_checker_handle.hpp"
 
 namespace hinge::python {
@@ -49,27 +50,24 @@ RobotPathRow robot_path_row(const RobotCheckerHandle& self, const RobotPathAnswe
 /// resolution: 0 proves the verdict; otherwise states at most this far apart are tested.
 py::tuple certify(RobotCheckerHandle& self, const py::object& from, const py::object& to, double smallest_step,
                   double resolution, const py::object& threads, const py::object& progress) {
-  const Configurations a = as_configurations(from, "a", self.dof()), b = as_configurations(to, "b", self.dof());
-  if (a.count != b.count && !a.one && !b.one)
-    throw py::value_error("a and b: " + std::to_string(a.count) + " and " + std::to_string(b.count) +
-                          " configurations, expected the same number, or one");
-  const std::size_t count = a.one ? b.count : a.count, dof = self.dof();
+  const Paths paths(from, to, self.dof());
+  const std::size_t count = paths.count, dof = self.dof();
   std::vector<RobotPathRow> rows(count);
   std::vector<double> states(count * dof);
   RobotCall call(self);
-  run_slices(count, as_threads(threads, self.threads), progress, [&]() -> Slice {
-    const auto checker = std::make_shared<PathChecker>(*self.path_checker(call.shared_pool()));
-    return [&, checker](std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k) {
-        const auto start = a[a.one ? 0 : k], end = b[b.one ? 0 : k];
-        const RobotPathAnswer answer = resolution > 0.0 ? checker->sample(start, end, resolution, poll)
-                                                        : checker->certify(start, end, smallest_step, poll);
-        rows[k] = robot_path_row(self, answer);
-        const std::span<const double> state = answer.is_free() ? end : std::span<const double>(answer.configuration);
-        std::copy(state.begin(), state.end(), states.begin() + static_cast<std::ptrdiff_t>(k * dof));
-      }
-    };
-  });
+  const auto checkers = self.path_checkers(call.shared_pool());
+  run_slices(*checkers, count, as_threads(threads, self.threads), progress,
+             [&](PathChecker& checker, std::size_t first, std::size_t last) {
+               for (std::size_t k = first; k < last; ++k) {
+                 const auto start = paths.start(k), end = paths.end(k);
+                 const RobotPathAnswer answer = resolution > 0.0 ? checker.sample(start, end, resolution, poll)
+                                                                 : checker.certify(start, end, smallest_step, poll);
+                 rows[k] = robot_path_row(self, answer);
+                 const std::span<const double> state =
+                     answer.is_free() ? end : std::span<const double>(answer.configuration);
+                 std::copy(state.begin(), state.end(), states.begin() + static_cast<std::ptrdiff_t>(k * dof));
+               }
+             });
   return py::make_tuple(to_array(std::move(rows)),
                         to_array(std::move(states), {static_cast<py::ssize_t>(count), static_cast<py::ssize_t>(dof)}));
 }

@@ -18,41 +18,51 @@ using namespace hinge::robotics;
 
 namespace {
 
-py::dict link_columns(const RobotHandle& self) {
-  const Robot& robot = *self;
+struct LinkTable {
+  std::vector<std::string> names, parents;
+  std::vector<std::int64_t> group, count, degenerate, rounded;
+  std::vector<std::uint8_t> is_closed;
+};
+
+LinkTable link_table(const Robot& robot) {
   const KinematicTree& tree = robot.model().tree();
   const RigidGroups groups(tree, DofSelection::all(tree));
   const std::span<const double> radii = robot.radii();
   const std::size_t n = robot.link_count() - 1;
-  std::vector<std::string> names(n), parents(n);
-  std::vector<std::int64_t> group(n), count(n), degenerate(n), rounded(n);
-  std::vector<std::uint8_t> is_closed(n);
+  LinkTable table;
+  table.degenerate.assign(n, 0);
+  table.rounded.assign(n, 0);
   std::vector<std::vector<Triangle>> triangles(n);
   for (std::size_t i = 0; i < robot.model().size(); ++i) {
     const Triangle& t = robot.model().primitives()[i];
     const auto row = static_cast<std::size_t>(link_row(robot.model().links()[i]));
     const bool is_rounded = !radii.empty() && radii[i] > 0.0;
     const bool is_flat = squared_norm(cross(Vec3(t.b - t.a), Vec3(t.c - t.a))) == 0.0;
-    rounded[row] += is_rounded ? 1 : 0;
-    degenerate[row] += is_flat && !is_rounded ? 1 : 0;
+    table.rounded[row] += is_rounded ? 1 : 0;
+    table.degenerate[row] += is_flat && !is_rounded ? 1 : 0;
     triangles[row].push_back(t);
   }
   for (std::size_t row = 0; row < n; ++row) {
     const auto link = id<LinkId>(row + 1);
-    names[row] = robot.link_name(link);
-    parents[row] = robot.link_name(tree.parent(link));
-    group[row] = static_cast<std::int64_t>(index(groups.group_of(link)));
-    count[row] = static_cast<std::int64_t>(robot.triangle_count(link));
-    is_closed[row] = !triangles[row].empty() && closed(triangles[row]) ? 1 : 0;
+    table.names.push_back(robot.link_name(link));
+    table.parents.push_back(robot.link_name(tree.parent(link)));
+    table.group.push_back(static_cast<std::int64_t>(index(groups.group_of(link))));
+    table.count.push_back(static_cast<std::int64_t>(robot.triangle_count(link)));
+    table.is_closed.push_back(!triangles[row].empty() && closed(triangles[row]) ? 1 : 0);
   }
+  return table;
+}
+
+py::dict link_columns(const RobotHandle& self) {
+  LinkTable table = run_aside([robot = self.robot] { return link_table(*robot); });
   py::dict columns;
-  columns["name"] = names;
-  columns["parent"] = parents;
-  columns["group"] = to_array(std::move(group));
-  columns["triangles"] = to_array(std::move(count));
-  columns["degenerate"] = to_array(std::move(degenerate));
-  columns["rounded"] = to_array(std::move(rounded));
-  columns["closed"] = to_booleans(std::move(is_closed));
+  columns["name"] = table.names;
+  columns["parent"] = table.parents;
+  columns["group"] = to_array(std::move(table.group));
+  columns["triangles"] = to_array(std::move(table.count));
+  columns["degenerate"] = to_array(std::move(table.degenerate));
+  columns["rounded"] = to_array(std::move(table.rounded));
+  columns["closed"] = to_booleans(std::move(table.is_closed));
   return columns;
 }
 

@@ -5,6 +5,8 @@
 #include <pybind11/stl.h>
 
 #include <optional>
+#include <tuple>
+#include <utility>
 
 #include "environment_handle.hpp"
 #include "hinge/core/error.hpp"
@@ -30,9 +32,18 @@ std::optional<std::vector<LinkId>> as_links(const Robot& robot, const std::optio
 std::uint32_t add(EnvironmentHandle& self, const ShapeHandle& shape, const py::object& pose, const std::string& name) {
   const Pose at = as_pose(pose, "pose");
   BodyId body{};
+  const auto add_to = [shape = shape.shape, at, name, tessellation = self.tessellation()](Environment& bodies) {
+    return bodies.add(shape, at, name, tessellation);
+  };
   self.rebuild([&](Environment& bodies) {
-    const py::gil_scoped_release unlocked;
-    body = bodies.add(shape.shape, at, name, self.tessellation());
+    if (!is_large(shape.shape)) {
+      body = add_to(bodies);
+      return;
+    }
+    std::tie(bodies, body) = run_aside([copy = bodies, add_to]() mutable {
+      const BodyId added = add_to(copy);
+      return std::pair(std::move(copy), added);
+    });
   });
   return static_cast<std::uint32_t>(body);
 }

@@ -29,6 +29,7 @@ struct MatrixRow {
 
 /// A matrix with the robot it is of.
 struct MatrixHandle {
+  using MadeByInit = void;
   RobotHandle robot;
   CollisionMatrix matrix;
 };

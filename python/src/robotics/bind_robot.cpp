@@ -62,37 +62,42 @@ std::string bytes_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+std::unique_ptr<RobotHandle> read_sources(const Source& urdf, const std::optional<Source>& srdf,
+                                          const UrdfOptions& options, const Tessellation& tessellation, bool solid,
+                                          bool note_unknown) {
+  RobotDescription description = urdf.text ? parse_urdf(*urdf.text, urdf.path, options) : read_urdf(urdf.path, options);
+  auto made = std::make_unique<RobotHandle>();
+  made->notes = description.notes;
+  if (solid)
+    for (std::string& note : fill_closed_meshes(description)) made->notes.push_back(std::move(note));
+  try {
+    made->robot = std::make_shared<const Robot>(std::move(description), tessellation);
+  } catch (const ModelError& error) {  // the fault is in the file, not in the arguments
+    throw LoadError(urdf.path.string() + ": " + error.what());
+  }
+  made->srdf.disabled = made->srdf.enabled = LinkPairs(made->robot->link_count());
+  if (srdf) {
+    const UnknownLinks unknown = note_unknown ? UnknownLinks::noted : UnknownLinks::refused;
+    made->srdf = srdf->text ? parse_srdf(*srdf->text, srdf->path, *made->robot, unknown)
+                            : read_srdf(srdf->path, *made->robot, unknown);
+    made->srdf_text = srdf->text ? *srdf->text : bytes_of(srdf->path);
+    made->notes.insert(made->notes.end(), made->srdf.notes.begin(), made->srdf.notes.end());
+  }
+  return made;
+}
+
 std::unique_ptr<RobotHandle> read_robot(const py::tuple& urdf, const py::object& srdf,
                                         const std::vector<std::string>& packages, bool skip_missing,
                                         const std::string& primitives, double tolerance, bool solid,
                                         bool note_unknown) {
   const Source source = as_source(urdf);
   const std::optional<Source> pairs = srdf.is_none() ? std::nullopt : std::optional(as_source(srdf));
-  const py::gil_scoped_release unlocked;
   UrdfOptions options;
   options.package_folders.assign(packages.begin(), packages.end());
   for (std::filesystem::path& folder : ros_package_path()) options.package_folders.push_back(std::move(folder));
   options.skip_missing_meshes = skip_missing;
-  RobotDescription description =
-      source.text ? parse_urdf(*source.text, source.path, options) : read_urdf(source.path, options);
-  auto made = std::make_unique<RobotHandle>();
-  made->notes = description.notes;
-  if (solid)
-    for (std::string& note : fill_closed_meshes(description)) made->notes.push_back(std::move(note));
-  try {
-    made->robot = std::make_shared<const Robot>(std::move(description), as_tessellation(primitives, tolerance));
-  } catch (const ModelError& error) {  // the fault is in the file, not in the arguments
-    throw LoadError(source.path.string() + ": " + error.what());
-  }
-  made->srdf.disabled = made->srdf.enabled = LinkPairs(made->robot->link_count());
-  if (pairs) {
-    const UnknownLinks unknown = note_unknown ? UnknownLinks::noted : UnknownLinks::refused;
-    made->srdf = pairs->text ? parse_srdf(*pairs->text, pairs->path, *made->robot, unknown)
-                             : read_srdf(pairs->path, *made->robot, unknown);
-    made->srdf_text = pairs->text ? *pairs->text : bytes_of(pairs->path);
-    made->notes.insert(made->notes.end(), made->srdf.notes.begin(), made->srdf.notes.end());
-  }
-  return made;
+  const Tessellation tessellation = as_tessellation(primitives, tolerance);
+  return run_aside([=] { return read_sources(source, pairs, options, tessellation, solid, note_unknown); });
 }
 
 JointType as_joint_type(const std::string& type) {
@@ -132,12 +137,14 @@ std::unique_ptr<RobotHandle> make_robot(const std::string& name, const py::list&
       made.mimic = Mimic{followed, multiplier, offset};
     }
   }
-  const py::gil_scoped_release unlocked;
-  auto made = std::make_unique<RobotHandle>();
-  if (solid) made->notes = fill_closed_meshes(description);
-  made->robot = std::make_shared<const Robot>(std::move(description), as_tessellation(primitives, tolerance));
-  made->srdf.disabled = made->srdf.enabled = LinkPairs(made->robot->link_count());
-  return made;
+  const Tessellation tessellation = as_tessellation(primitives, tolerance);
+  return run_aside([description = std::move(description), tessellation, solid]() mutable {
+    auto made = std::make_unique<RobotHandle>();
+    if (solid) made->notes = fill_closed_meshes(description);
+    made->robot = std::make_shared<const Robot>(std::move(description), tessellation);
+    made->srdf.disabled = made->srdf.enabled = LinkPairs(made->robot->link_count());
+    return made;
+  });
 }
 
 std::unique_ptr<RobotHandle> tiered(const RobotHandle& self, const std::string& all,
@@ -145,10 +152,11 @@ std::unique_ptr<RobotHandle> tiered(const RobotHandle& self, const std::string& 
                                     double tolerance) {
   Tiers tiers{tier_named(all), {}, most_spheres, tolerance};
   for (const auto& [link, tier] : links) tiers.links[link] = tier_named(tier);
-  const py::gil_scoped_release unlocked;
-  auto made = std::make_unique<RobotHandle>(self);  // links keep their order, so the SRDF still fits
-  made->robot = std::make_shared<const Robot>(with_tiers(self->description(), tiers), self->tessellation());
-  return made;
+  return run_aside([robot = self, tiers] {
+    auto made = std::make_unique<RobotHandle>(robot);  // links keep their order, so the SRDF still fits
+    made->robot = std::make_shared<const Robot>(with_tiers(robot->description(), tiers), robot->tessellation());
+    return made;
+  });
 }
 
 py::array_t<double> sample(const RobotHandle& self, std::size_t n, std::uint64_t seed, std::uint64_t first,

@@ -45,13 +45,13 @@ std::unique_ptr<RobotCheckerHandle> make_checker(
   const bool placed = !base.is_none();
   auto made = std::make_unique<RobotCheckerHandle>();
   made->threads = as_threads(threads, 1);
-  const py::gil_scoped_release unlocked;
-  RobotChecker checker(robot.robot, tested_pairs(*robot, disabled), LinkMargins(*robot, clearance, clearances),
-                       {engine});
-  if (placed && !(at == Pose{})) checker.set_base(at);
   made->robot = robot;
   made->environment = environment;
-  made->replace(checker);
+  made->pool = run_aside([=, robot = robot.robot] {
+    RobotChecker checker(robot, tested_pairs(*robot, disabled), LinkMargins(*robot, clearance, clearances), {engine});
+    if (placed && !(at == Pose{})) checker.set_base(at);
+    return std::make_shared<RobotPool>(RobotWorker{checker});
+  });
   return made;
 }
 
@@ -117,15 +117,16 @@ void calibrate(RobotCheckerHandle& self, const py::object& values) {
   const Configurations q = as_configurations(values, "q", self.dof());
   RobotCall call(self);
   RobotWorker worker{self.checker()};
-  {
-    const py::gil_scoped_release unlocked;
+  run_slices(q.count, 1, py::none(), [&]() -> Slice {
     Environment* bodies = call.bodies(worker);
-    for (std::size_t k = 0; k < q.count; ++k) {
-      worker.update(q, k);
-      worker.checker.calibrate_pair_order();
-      if (bodies != nullptr) worker.checker.calibrate_pair_order(*bodies);
-    }
-  }
+    return [&, bodies](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) {
+        worker.update(q, k);
+        worker.checker.calibrate_pair_order();
+        if (bodies != nullptr) worker.checker.calibrate_pair_order(*bodies);
+      }
+    };
+  });
   self.replace(worker.checker);
 }
 
@@ -134,9 +135,12 @@ void allow_links(RobotCheckerHandle& self, const std::string& a, const std::stri
   const LinkId first = link_named(*self.robot, a, "a"), second = link_named(*self.robot, b, "b");
   LinkPairs tested = now.tested();
   tested.erase(first, second);
-  RobotChecker next(self.robot.robot, std::move(tested), now.margins(), {now.engine()});
-  if (!(now.base() == Pose{})) next.set_base(now.base());
-  self.replace(next);
+  self.replace(
+      run_aside([=, robot = self.robot.robot, margins = now.margins(), engine = now.engine(), base = now.base()] {
+        RobotChecker next(robot, tested, margins, {engine});
+        if (!(base == Pose{})) next.set_base(base);
+        return next;
+      }));
 }
 
 NamedPairs tested_names(const RobotCheckerHandle& self) {

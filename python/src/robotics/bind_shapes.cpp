@@ -62,8 +62,10 @@ Vec3 as_vector(py::handle value, const char* name) {
 
 /// Returns the shape if it is valid; see tessellate().
 ShapeHandle checked(robotics::Shape shape) {
-  tessellate(shape);
-  return {std::move(shape)};
+  return run_if_large(shape, [shape] {
+    tessellate(shape);
+    return ShapeHandle{shape};
+  });
 }
 
 /// vertices: shape (n, 3). faces: shape (m, 3); None: vertices has shape (m, 3, 3).
@@ -115,8 +117,10 @@ py::object points_of(const py::object& self) {
 }
 
 std::optional<std::string> open_edge_of(const ShapeHandle& self) {
-  const auto edge = open_edge(tessellate(self.shape, {Tessellation::Manner::inscribed, 1e-3}).triangles);
-  return edge ? std::optional(edge->text()) : std::nullopt;
+  return run_if_large(self.shape, [shape = self.shape] {
+    const auto edge = open_edge(tessellate(shape, {Tessellation::Manner::inscribed, 1e-3}).triangles);
+    return edge ? std::optional(edge->text()) : std::nullopt;
+  });
 }
 
 }  // namespace
@@ -139,13 +143,12 @@ void bind_shapes(py::module_& module) {
                   })
       .def_static("read_mesh",
                   [](const std::string& path, const py::object& scale, bool solid) {
-                    std::vector<std::string> notes;
                     const Vec3 factors = as_vector(scale, "scale");
-                    std::shared_ptr<const TriangleMesh> mesh;
-                    {
-                      const py::gil_scoped_release unlocked;
-                      mesh = std::make_shared<const TriangleMesh>(read_mesh(path, &notes));
-                    }
+                    const auto [mesh, notes] = run_aside([path] {
+                      std::vector<std::string> skipped;
+                      auto read = std::make_shared<const TriangleMesh>(read_mesh(path, &skipped));
+                      return std::pair(std::move(read), std::move(skipped));
+                    });
                     return py::make_tuple(checked(MeshShape{mesh, factors, path, solid}), notes);
                   })
       .def_static("point_cloud",
@@ -158,7 +161,9 @@ void bind_shapes(py::module_& module) {
                     return cloud_of(std::move(all), radius);
                   })
       .def_static("read_points",
-                  [](const std::string& path, double radius) { return cloud_of(read_points(path), radius); })
+                  [](const std::string& path, double radius) {
+                    return cloud_of(run_aside([path] { return read_points(path); }), radius);
+                  })
       .def_property_readonly("triangles", &triangles_of)
       .def_property_readonly("points", &points_of)
       .def_property_readonly("open_edge", &open_edge_of);

@@ -15,6 +15,7 @@
 
 #include "hinge/robotics/environment.hpp"
 #include "hinge/robotics/tessellate.hpp"
+#include "made_caster.hpp"
 
 namespace hinge::python {
 
@@ -29,6 +30,7 @@ struct EnvironmentCopy {
 /// call is for one state of the bodies.
 class EnvironmentHandle {
  public:
+  using MadeByInit = void;
   EnvironmentHandle(double clearance, const std::string& engine, robotics::Tessellation tessellation)
       : bodies_(clearance, engine), tessellation_(tessellation) {}
 

@@ -19,19 +19,24 @@ void RobotCheckerHandle::replace(const RobotChecker& checker) {
   pool = std::make_shared<RobotPool>(RobotWorker{checker});
 }
 
-std::shared_ptr<const PathChecker> RobotCheckerHandle::path_checker(const std::shared_ptr<RobotPool>& of) {
-  const std::lock_guard lock(mutex_);
-  const bool around = environment != nullptr && environment->bodies().size() > 0;
-  const std::uint64_t version = around ? environment->version() : 0;
-  if (!paths_ || paths_of_ != of || paths_through_ != environment || paths_at_ != version) {
+std::shared_ptr<PathPool> RobotCheckerHandle::path_checkers(const std::shared_ptr<RobotPool>& of) {
+  const std::shared_ptr<EnvironmentHandle> through = environment;  // another thread may replace it meanwhile
+  const bool around = through != nullptr && through->bodies().size() > 0;
+  const std::uint64_t version = around ? through->version() : 0;
+  if (paths_ && paths_of_ == of && paths_through_ == through && paths_at_ == version) return paths_;
+  std::optional<Environment> bodies;
+  if (around) bodies = through->bodies();
+  auto made = run_aside([of, bodies] {
     const RobotChecker& alone = of->prototype().checker;
-    paths_ = around ? std::make_shared<const PathChecker>(alone, environment->bodies())
-                    : std::make_shared<const PathChecker>(alone);
-    paths_of_ = of;
-    paths_through_ = environment;
-    paths_at_ = version;
-  }
-  return paths_;
+    auto checkers = std::make_shared<PathPool>(bodies ? PathChecker(alone, *bodies) : PathChecker(alone));
+    checkers->make_one();
+    return checkers;
+  });
+  paths_ = made;
+  paths_of_ = of;
+  paths_through_ = through;
+  paths_at_ = version;
+  return made;
 }
 
 LinkDistanceRow distance_row(std::size_t configuration, const ClosestLinks& found) {

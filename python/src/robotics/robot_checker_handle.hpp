@@ -7,7 +7,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +37,7 @@ struct RobotWorker {
 };
 
 using RobotPool = WorkerPool<RobotWorker>;
+using PathPool = WorkerPool<robotics::PathChecker>;
 
 /// A row of the structured arrays of pairs. first, second: rows of Robot.links; from link_count on: bodies.
 struct LinkPairRow {
@@ -67,6 +67,7 @@ Against as_against(const std::string& text);
 
 /// A checker. What changes it (set_base, allow, calibrate) puts another pool in place, so running calls keep theirs.
 struct RobotCheckerHandle {
+  using MadeByInit = void;
   RobotHandle robot;
   std::shared_ptr<RobotPool> pool;
   std::shared_ptr<EnvironmentHandle> environment;  ///< may be null
@@ -80,12 +81,12 @@ struct RobotCheckerHandle {
     return static_cast<std::int32_t>(robot->link_count() - 1 + static_cast<std::size_t>(body));
   }
 
-  /// A checker of paths through the present environment, made when first needed. Call it while a Use exists.
-  std::shared_ptr<const robotics::PathChecker> path_checker(const std::shared_ptr<RobotPool>& of);
+  /// Checkers of paths through the present environment, made when first needed. The interpreter's lock is held. Call it
+  /// while a Use exists.
+  std::shared_ptr<PathPool> path_checkers(const std::shared_ptr<RobotPool>& of);
 
  private:
-  std::mutex mutex_;
-  std::shared_ptr<const robotics::PathChecker> paths_;
+  std::shared_ptr<PathPool> paths_;  // this and the next: guarded by the interpreter's lock
   std::shared_ptr<const RobotPool> paths_of_;
   std::shared_ptr<const EnvironmentHandle> paths_through_;
   std::uint64_t paths_at_ = 0;

@@ -7,7 +7,9 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "arrays.hpp"
@@ -15,11 +17,14 @@
 #include "hinge/robotics/read_srdf.hpp"
 #include "hinge/robotics/robot.hpp"
 #include "hinge/robotics/shape.hpp"
+#include "made_caster.hpp"
+#include "run_aside.hpp"
 
 namespace hinge::python {
 
 /// A robot with the contents of its SRDF. Constant, so any thread may use it.
 struct RobotHandle {
+  using MadeByInit = void;
   std::shared_ptr<const robotics::Robot> robot;
   robotics::Srdf srdf;                   ///< without a file: nothing disabled
   std::optional<std::string> srdf_text;  ///< contents of the SRDF file
@@ -32,8 +37,23 @@ struct RobotHandle {
 
 /// A shape as Python holds it.
 struct ShapeHandle {
+  using MadeByInit = void;
   robotics::Shape shape;
 };
+
+/// Returns true if the shape has so many parts that work on it is better interruptible.
+inline bool is_large(const robotics::Shape& shape) {
+  constexpr std::size_t many = 10'000;
+  const auto* mesh = std::get_if<robotics::MeshShape>(&shape);
+  const auto* cloud = std::get_if<robotics::PointCloudShape>(&shape);
+  return (mesh != nullptr && mesh->mesh->triangles.size() > many) || (cloud != nullptr && cloud->points->size() > many);
+}
+
+/// Calls work(), which owns what it uses: by run_aside() if the shape is large.
+template <class Work>
+std::invoke_result_t<Work&> run_if_large(const robotics::Shape& shape, Work work) {
+  return is_large(shape) ? run_aside(std::move(work)) : work();
+}
 
 /// Returns a pose from a matrix of shape (4, 4) with the last row (0, 0, 0, 1); None is the identity. It is not checked
 /// for rigidity. Throws TypeError and ValueError that name the argument.
