@@ -12,6 +12,9 @@ import pytest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))  # modules that tests share
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SHARED = ROOT.parent / "shared" / "data"
+# Seconds within which Ctrl-C must end a call while other tests use the cores. An idle machine takes less than 0.2 s,
+# which the long tests of test_interrupts.py demand. Every call that is interrupted would take longer than this.
+PROMPT = 0.5
 
 
 def pytest_configure(config):
