@@ -68,7 +68,7 @@ pybind11::array_t<T> to_array(std::vector<T> values, std::vector<pybind11::ssize
   auto owned = std::make_unique<std::vector<T>>(std::move(values));
   T* data = owned->data();
   const pybind11::capsule owner(owned.get(), [](void* pointer) { delete static_cast<std::vector<T>*>(pointer); });
-  owned.release();
+  static_cast<void>(owned.release());
   return pybind11::array_t<T>(std::move(shape), data, owner);
 }
 /// The same in one dimension.

@@ -35,7 +35,7 @@ class type_caster<T, enable_if_t<hinge::python::Bound<T>>> : public type_caster_
   }
   void load_value(value_and_holder&& object) {  // hides the function of the base, which load_impl() would call
     hinge::python::require_made(object);
-    type_caster_base<T>::load_value(std::move(object));
+    type_caster_base<T>::load_value(static_cast<value_and_holder&&>(object));
   }
 };
 
@@ -51,7 +51,7 @@ class type_caster<std::shared_ptr<T>> : public copyable_holder_caster<T, std::sh
   friend class type_caster_generic;
   bool load_value(value_and_holder&& object) {
     hinge::python::require_made(object);
-    return Base::load_value(std::move(object));
+    return Base::load_value(static_cast<value_and_holder&&>(object));
   }
 };
 
