@@ -37,7 +37,7 @@ class SharedWork {
   /// Works on slices until none is left or the work ends early. between(): called after every slice.
   template <class Between>
   void work(const Slice& slice, const Between& between) {
-    std::size_t length = 16;
+    std::size_t length = 1;  // items may take long; Ctrl-C waits for the end of a slice
     while (true) {
       const std::size_t first = next_.fetch_add(length);
       const std::size_t end = end_.load();
