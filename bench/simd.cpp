@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// hinge::detail::simd against Highway: two inner loops with both, interleaved, at three levels.
+// The choice of <experimental/simd> for hinge::simd: two inner loops with it and with Highway, interleaved, at three
+// levels.
 #include <algorithm>
 #include <bit>
 #include <chrono>
