@@ -7,7 +7,6 @@
 #include <cstdint>
 
 #include "hinge/detail/bounds/float_box.hpp"
-#include "hinge/detail/core/function_ref.hpp"
 #include "hinge/detail/engine/simd/candidate_list.hpp"
 #include "hinge/detail/engine/simd/cross_model_transform.hpp"
 #include "hinge/detail/engine/simd/threshold_classes.hpp"
@@ -44,15 +43,14 @@ class Thresholds16 {
   std::array<float, simd::width> largest_plain_{}, largest_squares_{};
 };
 
-/// Takes the position of the single primitive, the position of the block, and the lanes; returns false to stop.
-using VisitCandidate = FunctionRef<bool(std::uint32_t, std::uint32_t, simd::Bits)>;
-
-/// Visits every candidate that floats cannot rule out. The visit may lower the thresholds. The first loop tests all
-/// candidates against the largest threshold of the single primitive's class. The second loop tests the rest lane by
-/// lane. Side: SimdSide, or any type that holds floats of P under threshold classes.
-template <Primitive P, class Side, class Convert>
+/// Calls visit(position of the single primitive, position of the block, lanes) for every candidate that floats cannot
+/// rule out. visit may lower the thresholds; it returns false to stop. It is called for most of what is left in lists
+/// of pairs, so it is inlined: an indirect call would cost such lists a tenth. The first loop tests all candidates
+/// against the largest threshold of the single primitive's class. The second loop tests the rest lane by lane. Side:
+/// SimdSide, or any type that holds floats of P under threshold classes.
+template <Primitive P, class Side, class Convert, class Visit>
 void narrow_phase(CandidateList& candidates, const Side& one, const Side& sixteen, const Convert& convert,
-                  const Thresholds16& thresholds, VisitCandidate visit) {
+                  const Thresholds16& thresholds, const Visit& visit) {
   const float *single = one.packed(), *packed = sixteen.packed();
   const std::uint8_t *single_class = one.position_class(), *classes = sixteen.position_class();
   const std::uint32_t *ones = candidates.ones(), *sixteens = candidates.sixteens();
