@@ -18,7 +18,7 @@ inline void require_made(const pybind11::detail::value_and_holder& object) {
 }
 
 template <class T>
-concept Bound = requires {
+inline constexpr bool made_by_init = requires {
   typename T::MadeByInit;
 };
 
@@ -27,7 +27,7 @@ concept Bound = requires {
 namespace pybind11::detail {
 
 template <class T>
-class type_caster<T, enable_if_t<hinge::python::Bound<T>>> : public type_caster_base<T> {
+class type_caster<T, enable_if_t<hinge::python::made_by_init<T>>> : public type_caster_base<T> {
  public:
   using type_caster_base<T>::type_caster_base;
   bool load(handle source, bool convert) {
@@ -39,7 +39,8 @@ class type_caster<T, enable_if_t<hinge::python::Bound<T>>> : public type_caster_
   }
 };
 
-template <hinge::python::Bound T>
+template <class T>
+requires hinge::python::made_by_init<T>
 class type_caster<std::shared_ptr<T>> : public copyable_holder_caster<T, std::shared_ptr<T>> {
   using Base = copyable_holder_caster<T, std::shared_ptr<T>>;
 
