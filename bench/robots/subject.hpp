@@ -13,7 +13,7 @@
 #include "hinge/core/id.hpp"
 #include "hinge/core/philox.hpp"
 #include "hinge/core/pose.hpp"
-#include "hinge/detail/kinematics/pose_source.hpp"
+#include "hinge/detail/kinematics/forward_kinematics.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 #include "hinge/robotics/link_pairs.hpp"
@@ -68,7 +68,7 @@ class Subject {
   std::vector<Posture> postures_at(std::span<const std::vector<double>> configurations) const {
     const KinematicTree& tree = robot_.model().tree();
     const auto groups = std::make_shared<const RigidGroups>(tree, DofSelection::all(tree));
-    detail::PoseSource source(groups, tree.dof_count());
+    detail::ForwardKinematics source(groups, tree.dof_count());
     std::vector<Posture> postures;
     for (const std::vector<double>& q : configurations) {
       source.set_configuration(q);

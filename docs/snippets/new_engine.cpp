@@ -13,7 +13,7 @@ struct SweepX {
   // The rules hold the state, the filter, the matrix and the options of one query.
   template <hinge::Collector C>
   void self_query(const hinge::SelfRules<P, F, D>& rules, C& collector) {
-    const std::span<const P> placed = rules.placement.place_all();
+    const std::span<const P> placed = rules.state.place_all();
     for (std::size_t i = 0; i < placed.size(); ++i) boxes_[i] = box(rules, hinge::id<hinge::PrimitiveId>(i), placed[i]);
     const auto x = [&](hinge::PrimitiveId i) { return boxes_[index(i)].lower[0]; };
     std::sort(order_.begin(), order_.end(), [&](auto a, auto b) { return x(a) < x(b); });

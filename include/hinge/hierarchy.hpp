@@ -22,8 +22,8 @@
 #include "hinge/engine/simd.hpp"
 #include "hinge/kinematics/frame.hpp"
 #include "hinge/model/model.hpp"
-#include "hinge/model/placement.hpp"
 #include "hinge/model/selected_model.hpp"
+#include "hinge/model/state.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/policy/distance_matrix.hpp"
 #include "hinge/policy/laws.hpp"
@@ -53,22 +53,22 @@ class Hierarchy {
   Hierarchy(Model<P> model, DofSelection selection, F filter, D matrix)
       : filter_(std::move(filter)),
         matrix_(std::move(matrix)),
-        placement_(std::make_shared<const SelectedModel<P>>(checked(std::move(model), filter_, matrix_),
-                                                            std::move(selection))),
-        engine_(placement_.model(), filter_, matrix_),
-        largest_threshold_(matrix_, placement_.model().size()) {}
+        state_(std::make_shared<const SelectedModel<P>>(checked(std::move(model), filter_, matrix_),
+                                                        std::move(selection))),
+        engine_(state_.model(), filter_, matrix_),
+        largest_threshold_(matrix_, state_.model().size()) {}
 
   // --- State. Invalid input throws ConfigurationError, names the faulty element and keeps the previous state. ---
 
   /// q: one value per selected DOF, in the selection's order; rad or model length unit. The initial state is all 0.
-  void update(std::span<const double> q) { placement_.update(q); }
+  void update(std::span<const double> q) { state_.update(q); }
   /// The same for values written out: update({0.0, 3.0}).
-  void update(std::initializer_list<double> q) { placement_.update(std::span(q.begin(), q.size())); }
+  void update(std::initializer_list<double> q) { state_.update(std::span(q.begin(), q.size())); }
   /// poses: one world pose per rigid group, computed by the caller. Group 0 is the world and must be the identity.
-  void update_poses(std::span<const Pose> poses) { placement_.update_poses(poses); }
+  void update_poses(std::span<const Pose> poses) { state_.update_poses(poses); }
   /// placed: world coordinates of every primitive, computed by the caller. Queries then test every admitted pair,
   /// including pairs of constant distance.
-  void update_placed(std::span<const P> placed) { placement_.update_placed(placed); }
+  void update_placed(std::span<const P> placed) { state_.update_placed(placed); }
 
   /// Learns from the current state: engines that can order their work then start yes/no queries with the pairs that
   /// collide most often. Call it at some hundred typical states. Answers do not change. Costs about one query over all
@@ -159,19 +159,19 @@ class Hierarchy {
   // --- Constant data, and coordinates at the current state ---
 
   /// The model under its DOF selection. The reference is valid while a copy of this object lives.
-  const SelectedModel<P>& model() const noexcept { return placement_.model(); }
+  const SelectedModel<P>& model() const noexcept { return state_.model(); }
   /// Returns the number of selected DOF: the length of q in update().
   std::size_t dof_count() const noexcept { return model().selection().size(); }
   /// Returns the world coordinates of all primitives; queries use the same numbers. The next update changes the span's
   /// contents.
-  std::span<const P> placed() const { return placement_.place_all(); }
+  std::span<const P> placed() const { return state_.place_all(); }
   /// Returns the world coordinates of primitive i, without placing the others.
   P placed(PrimitiveId i) const noexcept {
-    return placement_.groups_may_deform() ? placement_.placed()[index(i)] : placement_.alone(i);
+    return state_.groups_may_deform() ? state_.placed()[index(i)] : state_.alone(i);
   }
   /// Returns the world frame of each rigid group at the last configuration or poses, valid until the next update.
   std::span<const Frame> frames() const noexcept {
-    return placement_.frames_through(id<GroupId>(model().groups()->size() - 1));
+    return state_.frames_through(id<GroupId>(model().groups()->size() - 1));
   }
   /// The pair filter.
   const F& filter() const noexcept { return filter_; }
@@ -183,7 +183,7 @@ class Hierarchy {
       throw ModelError("link " + std::to_string(index(link)) + ": the model has " +
                        std::to_string(model().model().tree().link_count()) + " links");
     const RigidGroups& groups = *model().groups();
-    return placement_.pose(groups.group_of(link)) * groups.link_in_group(link);
+    return state_.pose(groups.group_of(link)) * groups.link_in_group(link);
   }
   /// Returns the pairs that collide at the reference and whose distance cannot change, sorted. Queries at a
   /// configuration do not report them. Costs one query over all pairs of the model.
@@ -242,7 +242,7 @@ class Hierarchy {
   }
 
   SelfRules<P, F, D> self_rules(const QueryOptions& options) const noexcept {
-    return {placement_, filter_, matrix_, options};
+    return {state_, filter_, matrix_, options};
   }
   /// Calls visit(engine of the other model, rules).
   template <class G, class Visit>
@@ -251,7 +251,7 @@ class Hierarchy {
     if (!matrix_.compatible(other.matrix_)) throw ModelError("the two models use different distance matrices");
     if (this == &other)
       return with_other(Hierarchy(other), across, options, visit);  // engines use memory on both sides
-    visit(other.engine_, CrossRules<P, G, D>{placement_, other.placement_, across, matrix_, other.matrix_, options});
+    visit(other.engine_, CrossRules<P, G, D>{state_, other.state_, across, matrix_, other.matrix_, options});
   }
 
   template <Collector C>
@@ -267,8 +267,8 @@ class Hierarchy {
 
   F filter_;
   D matrix_;
-  mutable Placement<P> placement_;  // queries compute what they need of the state
-  mutable E engine_;                // scratch
+  mutable State<P> state_;  // queries compute what they need of the state
+  mutable E engine_;        // scratch
   detail::LargestThreshold<D> largest_threshold_;
 };
 

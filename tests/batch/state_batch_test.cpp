@@ -18,7 +18,7 @@
 
 #include "engine/own_filters.hpp"
 #include "engine/random_mechanism.hpp"
-#include "hinge/detail/kinematics/pose_source.hpp"
+#include "hinge/detail/kinematics/forward_kinematics.hpp"
 #include "hinge/engine/brute.hpp"
 #include "hinge/hierarchy.hpp"
 #include "hinge/primitive/sphere.hpp"
@@ -54,7 +54,7 @@ TEST(FrameLanes, HaveTheBitsOfPoseSource) {
     const std::vector<double> block = neighbours(random, dof, count, 3.0);
     detail::FrameLanes lanes(*groups);
     lanes.set(block, dof, [](GroupId) {});
-    detail::PoseSource single(groups, dof);
+    detail::ForwardKinematics single(groups, dof);
     for (std::size_t k = 0; k < detail::FrameLanes::size; ++k) {
       single.set_configuration(std::span(block).subspan(std::min(k, count - 1) * dof, dof));
       for (std::size_t g = 0; g < groups->size(); ++g)

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/placed_blocks.hpp"
+#include "engine/model_in_blocks.hpp"
 #include "engine/random_mechanism.hpp"
 #include "hinge/detail/engine/simd/cross_model_transform.hpp"
 #include "hinge/detail/primitive/batch.hpp"
@@ -28,7 +28,7 @@ using test::Random;
 constexpr std::size_t n = detail::simd::width;
 constexpr double u = 0x1p-24;
 
-using Placed = test::PlacedBlocks<Point>;
+using Placed = test::ModelInBlocks<Point>;
 
 /// Largest share of the band that an error used, by the kind of blocks of the two points.
 struct Worst {
@@ -54,7 +54,7 @@ void check_pairs(Placed& m, Random& random, std::size_t count, Worst& worst) {
     const Vec3 x = m.primitive(i).position;
     for (std::size_t lane = 0; lane < n; ++lane) {
       const double d = std::sqrt(squared_norm(Vec3(x - m.primitive(b * n + lane).position))) * scale;
-      const double share = std::abs(static_cast<double>(std::sqrt(squared[lane])) - d) / m.side.state().band(d);
+      const double share = std::abs(static_cast<double>(std::sqrt(squared[lane])) - d) / m.side.blocks().band(d);
       worst.take(m.rigid(i) && m.rigid(b * n) ? worst.rigid : worst.mixed, share);
     }
   }
@@ -63,12 +63,12 @@ void check_pairs(Placed& m, Random& random, std::size_t count, Worst& worst) {
 /// How far points are outside their float boxes. Each of two boxes may use half of the band.
 void check_boxes(Placed& m, Worst& worst) {
   const detail::BlockLayout& layout = m.side.layout();
-  const double half_band = m.side.state().band(0.0) / 2;
+  const double half_band = m.side.blocks().band(0.0) / 2;
   const auto outside = [&](const detail::FloatBox& box, std::uint32_t block) {
     double out = 0.0;
     for (std::size_t lane = 0; lane < n; ++lane)
       for (int k = 0; k < 3; ++k) {
-        const double x = (m.primitive(block * n + lane).position[k] - m.side.state().origin()[k]) * layout.scale;
+        const double x = (m.primitive(block * n + lane).position[k] - m.side.blocks().origin()[k]) * layout.scale;
         const auto axis = static_cast<std::size_t>(k);
         out = std::max({out, x - static_cast<double>(box.upper[axis]), static_cast<double>(box.lower[axis]) - x});
       }
@@ -77,14 +77,14 @@ void check_boxes(Placed& m, Worst& worst) {
   for (std::size_t w = 0; w < layout.entries.size(); ++w) {
     const detail::SweepEntry& unit = layout.entries[w];
     for (std::uint32_t b = unit.first_block; b < unit.first_block + unit.block_count; ++b) {
-      worst.take(worst.boxes, outside(m.side.state().entries().get(w), b));
+      worst.take(worst.boxes, outside(m.side.blocks().entries().get(w), b));
       if (unit.block_count == 1) continue;
       const std::uint32_t child = b - unit.first_block;
       const auto& levels = m.side.parts().rigid.tree[w].levels;
       std::uint32_t place = child;
       for (const detail::BlockTree::Level& level : levels) {
         const detail::BoxRow& row =
-            m.side.state().tree_row(w, level.first_row + place / static_cast<std::uint32_t>(n), m.placement);
+            m.side.blocks().tree_row(w, level.first_row + place / static_cast<std::uint32_t>(n), m.state);
         worst.take(worst.trees, outside(row.get(place % n), b));
         place /= static_cast<std::uint32_t>(n);
       }
@@ -98,7 +98,7 @@ Model<Point> model_of(std::size_t links, std::size_t per_link, double size, cons
 }
 
 void turn(Placed& m, const Vec3& offset, double travel, Random& random) {
-  m.placement.update_poses(test::turned(m.selected->groups()->size(), offset, travel, random));
+  m.state.update_poses(test::turned(m.selected->groups()->size(), offset, travel, random));
   m.make();
 }
 
@@ -141,7 +141,7 @@ TEST(FloatFilter, BandCoversConfigurations) {
     std::vector<double> q(m.selected->selection().size());
     for (int k = 0; k < 5; ++k) {
       for (double& value : q) value = random.uniform(-4, 4);
-      m.placement.update(q);
+      m.state.update(q);
       m.make();
       check_pairs(m, random, 200, worst);
       check_boxes(m, worst);
@@ -164,7 +164,7 @@ TEST(FloatFilter, BandCoversAlignedRoundings) {
         const double x = size - ulp * (std::floor(random.uniform(1, 1000)) + 0.499999);
         points[i].position[k] = sign * x;
       }
-    m.placement.update_placed(points);
+    m.state.update_placed(points);
     m.make();
     check_pairs(m, random, 200, worst);
     check_boxes(m, worst);
@@ -182,8 +182,8 @@ void check_bounds(const char* what, const Make& make) {
     for (int repetition = 0; repetition < 60; ++repetition) {
       const Vec3 offset = random.vector(far);
       const std::size_t per_link = repetition % 3 == 0 ? 5 : repetition % 3 == 1 ? 16 : 100;
-      test::PlacedBlocks<P> m(test::separate_links<P>(6, per_link, offset, random, make), false);
-      m.placement.update_poses(test::turned(m.selected->groups()->size(), offset, 4.0, random));
+      test::ModelInBlocks<P> m(test::separate_links<P>(6, per_link, offset, random, make), false);
+      m.state.update_poses(test::turned(m.selected->groups()->size(), offset, 4.0, random));
       m.make();
       const double scale = m.side.layout().scale;
       using Batch = detail::Batch<P>;
@@ -199,7 +199,7 @@ void check_bounds(const char* what, const Make& make) {
             const float f = detail::float_above(x);
             return detail::simd::Float16(Batch::squared_limits ? f * f : f);
           };
-          const double band = m.side.state().band(d);
+          const double band = m.side.blocks().band(d);
           // A pair at exactly its threshold is never ruled out.
           EXPECT_NE(one.near(m.floats(first), limit(d + band)) >> lane & 1U, 0U) << what;
           const double bound = std::sqrt(static_cast<double>(squared[lane])) -
@@ -263,7 +263,7 @@ TEST(FloatFilter, BandCoversTwoModels) {
               std::sqrt(squared_norm(Vec3(a.primitive(i).position - b.primitive(block * n + lane).position))) * scale;
           double largest = d;
           for (const float s : into.shift) largest += 2 * std::abs(static_cast<double>(s));
-          const double band = b.side.state().band(largest) + 2 * ratio * a.side.state().band(0.0);
+          const double band = b.side.blocks().band(largest) + 2 * ratio * a.side.blocks().band(0.0);
           worst = std::max(worst, std::abs(static_cast<double>(std::sqrt(squared[lane])) - d) / band);
         }
       }

@@ -303,17 +303,17 @@ TEST(Crowds, OnManyAxesAreConstantExactlyWhenTheyNeverMoveApart) {
     }
     const Model<Point> built = builder.finish();
     const auto model = std::make_shared<const SelectedModel<Point>>(built, DofSelection::all(built.tree()));
-    Placement<Point> placement(model);
+    State<Point> state(model);
     const std::size_t n = built.size();
     std::vector<double> least(n * n, 1e9), most(n * n, 0.0);
     for (int trial = 0; trial < 4; ++trial) {
       std::vector<double> q;
       for (std::size_t k = 0; k < n; ++k) q.push_back(random.uniform(-3.0, 3.0));
-      placement.update(q);
-      for (std::size_t g = 0; g < model->groups()->size(); ++g) placement.place(id<GroupId>(g));
+      state.update(q);
+      for (std::size_t g = 0; g < model->groups()->size(); ++g) state.place(id<GroupId>(g));
       for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < n; ++j) {
-          const double d = norm(Vec3(placement.placed()[i].position - placement.placed()[j].position));
+          const double d = norm(Vec3(state.placed()[i].position - state.placed()[j].position));
           least[i * n + j] = std::min(least[i * n + j], d);
           most[i * n + j] = std::max(most[i * n + j], d);
         }

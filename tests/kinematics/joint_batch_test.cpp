@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "engine/random_mechanism.hpp"
-#include "hinge/detail/kinematics/pose_source.hpp"
+#include "hinge/detail/kinematics/forward_kinematics.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 
 namespace hinge {
@@ -132,7 +132,7 @@ struct Mechanism {
   KinematicTree tree;
   DofSelection selection;
   std::shared_ptr<const RigidGroups> groups;
-  detail::PoseSource source;
+  detail::ForwardKinematics source;
   std::vector<double> q;
 };
 
@@ -163,7 +163,7 @@ TEST(JointBatch, HasTheBitsOfEachJointsMotion) {
   }
 }
 
-TEST(PoseSource, HasTheBitsOfOneJointAtATime) {
+TEST(ForwardKinematics, HasTheBitsOfOneJointAtATime) {
   Random random(2);
   for (int round = 0; round < 30; ++round)
     for (const std::size_t joints : joint_counts) {
@@ -179,7 +179,7 @@ TEST(PoseSource, HasTheBitsOfOneJointAtATime) {
     }
 }
 
-TEST(PoseSource, HasTheseBitsWhateverChangedAndWasAskedBefore) {
+TEST(ForwardKinematics, HasTheseBitsWhateverChangedAndWasAskedBefore) {
   Random random(3);
   for (int round = 0; round < 10; ++round)
     for (const std::size_t joints : joint_counts) {
@@ -214,7 +214,7 @@ TEST(PoseSource, HasTheseBitsWhateverChangedAndWasAskedBefore) {
 }
 
 /// A group counts as moved if the bits of its values differ, and every group counts as moved after forget().
-TEST(PoseSource, KnowsWhatMovedFromTheValues) {
+TEST(ForwardKinematics, KnowsWhatMovedFromTheValues) {
   Random random(4);
   for (int round = 0; round < 10; ++round)
     for (const std::size_t joints : joint_counts) {
@@ -253,7 +253,7 @@ TEST(PoseSource, KnowsWhatMovedFromTheValues) {
     }
 }
 
-TEST(PoseSource, KeepsItsBitsWhenAConfigurationIsRefused) {
+TEST(ForwardKinematics, KeepsItsBitsWhenAConfigurationIsRefused) {
   Random random(5);
   Mechanism m(40, random);
   m.change_all(random);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/random_mechanism.hpp"
-#include "hinge/detail/kinematics/pose_source.hpp"
+#include "hinge/detail/kinematics/forward_kinematics.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 #include "hinge/primitive/point.hpp"
 
@@ -80,14 +80,14 @@ TEST(DofSelection, RefusesUnknownAndRepeatedDofs) {
   EXPECT_EQ(DofSelection(tree, {}).size(), 0U);
 }
 
-TEST(PoseSource, EqualsTheProductOfTransformsForEverySelection) {
+TEST(ForwardKinematics, EqualsTheProductOfTransformsForEverySelection) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     Random random(seed);
     const auto model = test::random_model(random, 30, 1, false, any_point);
     const KinematicTree& tree = model.tree();
     const DofSelection selection = test::random_selection(tree, random);
     const auto groups = std::make_shared<const RigidGroups>(tree, selection);
-    detail::PoseSource source(groups, selection.size());
+    detail::ForwardKinematics source(groups, selection.size());
     std::vector<double> q(selection.size()), full(tree.dof_count(), 0.0);
     for (std::size_t k = 0; k < q.size(); ++k) full[index(selection.dofs()[k])] = q[k] = random.uniform(-3.0, 3.0);
     source.set_configuration(q);
@@ -110,13 +110,13 @@ TEST(RigidGroups, AreMaximal) {
   EXPECT_EQ(RigidGroups(tree, DofSelection::all(tree)).size(), 1U + tree.dof_count());
 }
 
-TEST(PoseSource, KnowsWhatMovedAndWhatMovedTogether) {
+TEST(ForwardKinematics, KnowsWhatMovedAndWhatMovedTogether) {
   KinematicTree tree;
   const LinkId a = tree.add_link(world, Revolute{}),
                b = tree.add_link(a, Revolute{Vec3::UnitX(), Vec3(1, 0, 0), {}, {}});
   tree.add_link(b, Revolute{Vec3::UnitY(), Vec3(2, 0, 0), {}, {}});
   const DofSelection all = DofSelection::all(tree);
-  detail::PoseSource source(std::make_shared<const RigidGroups>(tree, all), 3);
+  detail::ForwardKinematics source(std::make_shared<const RigidGroups>(tree, all), 3);
   const double first[] = {0.1, 0.2, 0.3}, second[] = {0.1, 0.5, 0.3};
   source.set_configuration(first);
   EXPECT_TRUE(source.moved(id<GroupId>(1)));
@@ -130,11 +130,11 @@ TEST(PoseSource, KnowsWhatMovedAndWhatMovedTogether) {
   EXPECT_NE(source.component(id<GroupId>(1)), source.component(id<GroupId>(2)));
 }
 
-TEST(PoseSource, CallsEverythingMovedOnceItWasToldToForget) {
+TEST(ForwardKinematics, CallsEverythingMovedOnceItWasToldToForget) {
   KinematicTree tree;
   tree.add_link(world, Revolute{});
   const DofSelection all = DofSelection::all(tree);
-  detail::PoseSource source(std::make_shared<const RigidGroups>(tree, all), 1);
+  detail::ForwardKinematics source(std::make_shared<const RigidGroups>(tree, all), 1);
   const std::vector<Pose> poses(2);
   source.set_poses(poses);
   source.set_poses(poses);
@@ -145,11 +145,11 @@ TEST(PoseSource, CallsEverythingMovedOnceItWasToldToForget) {
   EXPECT_NE(source.component(id<GroupId>(0)), source.component(id<GroupId>(1)));
 }
 
-TEST(PoseSource, RefusesBadInputAndKeepsItsState) {
+TEST(ForwardKinematics, RefusesBadInputAndKeepsItsState) {
   KinematicTree tree;
   tree.add_link(world, Revolute{});
   const DofSelection all = DofSelection::all(tree);
-  detail::PoseSource source(std::make_shared<const RigidGroups>(tree, all), 1);
+  detail::ForwardKinematics source(std::make_shared<const RigidGroups>(tree, all), 1);
   const double good[] = {0.5}, bad[] = {nan}, infinite[] = {INFINITY};
   source.set_configuration(good);
   const Pose before = source.pose(id<GroupId>(1));
@@ -161,7 +161,7 @@ TEST(PoseSource, RefusesBadInputAndKeepsItsState) {
   EXPECT_EQ(source.pose(id<GroupId>(1)), before);
 }
 
-TEST(PoseSource, IsDoubleAndWithoutRecursionOnAHundredThousandJoints) {
+TEST(ForwardKinematics, IsDoubleAndWithoutRecursionOnAHundredThousandJoints) {
   KinematicTree tree;
   LinkId parent = world;
   Pose step;
@@ -170,7 +170,7 @@ TEST(PoseSource, IsDoubleAndWithoutRecursionOnAHundredThousandJoints) {
   for (std::size_t k = 0; k < n; ++k)
     parent = tree.add_link(parent, Revolute{k % 2 == 0 ? Vec3::UnitX() : Vec3::UnitZ(), Vec3::Zero(), step, {}});
   const DofSelection all = DofSelection::all(tree);
-  detail::PoseSource source(std::make_shared<const RigidGroups>(tree, all), n);
+  detail::ForwardKinematics source(std::make_shared<const RigidGroups>(tree, all), n);
   // Only joints about x rotate, so the chain stays straight along x.
   std::vector<double> q(n, 0.0);
   for (std::size_t k = 0; k < n; k += 2) q[k] = 0.3;

@@ -21,8 +21,8 @@
 #include "hinge/detail/batch/sphere_bodies.hpp"
 #include "hinge/detail/simd/lanes.hpp"
 #include "hinge/model/model.hpp"
-#include "hinge/model/placement.hpp"
 #include "hinge/model/selected_model.hpp"
+#include "hinge/model/state.hpp"
 #include "hinge/policy/pair_filter.hpp"
 #include "hinge/primitive/sphere.hpp"
 
@@ -128,7 +128,7 @@ class SphereBatch {
   }
 
   detail::SphereBodies bodies_;
-  Placement<Sphere> exact_;
+  State<Sphere> exact_;
   std::span<const double> block_{};  // while a query runs
   std::size_t exact_lane_ = size;    // lane that exact_ is placed at; `size`: no lane of this block
   std::uint64_t decided_ = 0;

@@ -21,7 +21,7 @@ struct Brute {
   /// Hands the admitted pairs i < j within the cutoff to `collector` (see Collector), until it is done.
   template <Collector C>
   void self_query(const SelfRules<P, F, D>& rules, C& collector) {
-    const std::span<const P> placed = rules.placement.place_all();
+    const std::span<const P> placed = rules.state.place_all();
     for (std::size_t i = 0; i < placed.size(); ++i)
       for (std::size_t j = i + 1; j < placed.size(); ++j) {
         rules.test(collector, id<PrimitiveId>(i), id<PrimitiveId>(j), placed[i], placed[j]);

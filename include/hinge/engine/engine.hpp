@@ -16,8 +16,8 @@ namespace hinge {
 
 /// E answers queries about primitives P under filter F and matrix D. In every mode, every engine gives the same answers
 /// as engine/brute. The constructor sees the model, filter and matrix of all later queries. The engine may keep scratch
-/// memory and what it computed from a state: Placement::version() says whether that is still current. One engine
-/// belongs to one thread and to one Placement.
+/// memory and what it computed from a state: State::version() says whether that is still current. One engine
+/// belongs to one thread and to one State.
 template <class E, class P, class F, class D>
 concept Engine = std::copyable<E> && Primitive<P> && PairFilter<F> && DistanceMatrix<D> && std::constructible_from < E,
         const SelectedModel<P>

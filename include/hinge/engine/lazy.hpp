@@ -17,7 +17,7 @@
 #include "hinge/detail/engine/traversal.hpp"
 #include "hinge/detail/query/test_pair.hpp"
 #include "hinge/engine/engine.hpp"
-#include "hinge/model/placement.hpp"
+#include "hinge/model/state.hpp"
 #include "hinge/query/pair_rules.hpp"
 #include "hinge/query/query_options.hpp"
 
@@ -50,7 +50,7 @@ class Lazy {
   void self_query(const SelfRules<P, F, D>& rules, C& collector) {
     if (trees_.empty()) return;
     QueryCounts counts;
-    refresh(rules.placement);
+    refresh(rules.state);
     run_self(collector, rules, counts);
     add(rules.options.counts, counts);
   }
@@ -108,24 +108,24 @@ class Lazy {
   }
 
   /// Renews the leaf boxes and the root of every body that moved since its tree was built.
-  void refresh(Placement<P>& placement) {
+  void refresh(State<P>& state) {
     for (std::size_t b = 0; b < trees_.size(); ++b) {
       std::uint64_t version = 0;  // Versions only grow, so the sum changes when any of them does.
-      for (const GroupId g : layout_->groups(b)) version += placement.version(g);
+      for (const GroupId g : layout_->groups(b)) version += state.version(g);
       if (version == built_[b]) continue;
       built_[b] = version;
-      for (const GroupId g : layout_->groups(b)) placement.place(g);
-      trees_[b].reset(boxes_of(b, placement), idle_of(b));
+      for (const GroupId g : layout_->groups(b)) state.place(g);
+      trees_[b].reset(boxes_of(b, state), idle_of(b));
     }
   }
 
   /// BioCD eq. (2)-(4): the box of a leaf holds the bounds of its primitives, each inflated by its reach.
-  std::span<const Aabb> boxes_of(std::size_t body, const Placement<P>& placement) {
+  std::span<const Aabb> boxes_of(std::size_t body, const State<P>& state) {
     boxes_.clear();
     for (std::uint32_t l = layout_->first_leaf(body); l < layout_->first_leaf(body + 1); ++l) {
       Aabb box;
       for (const PrimitiveId i : layout_->primitives(l))
-        box.extend(placement.placed()[index(i)].bounds().inflated(matrix_.reach(i)));
+        box.extend(state.placed()[index(i)].bounds().inflated(matrix_.reach(i)));
       boxes_.push_back(box);
     }
     return boxes_;
@@ -166,7 +166,7 @@ class Lazy {
     const QueryOptions& options = rules.options;
     const bool skip_never_colliding = without_margin(collector, options);
     for (std::uint32_t b = 0; b < trees_.size(); ++b) {
-      const bool deforms = rules.placement.groups_may_deform();
+      const bool deforms = rules.state.groups_may_deform();
       if (layout_->groups(b).size() > 1 || deforms)
         for (std::uint32_t l = layout_->first_leaf(b); l < layout_->first_leaf(b + 1); ++l)
           if (!(skip_never_colliding && never_collides_[l] != 0) && !test_leaves(l, l, collector, rules, counts))
@@ -177,16 +177,15 @@ class Lazy {
     traverse(
         upper_, upper_, stack_, counts, [&] { return collector.cutoff(); },
         [&](std::uint32_t a, std::uint32_t b) {
-          return (options.moved_only && !moved_apart(a, b, rules.placement)) ||
-                 test_bodies(a, b, collector, rules, counts);
+          return (options.moved_only && !moved_apart(a, b, rules.state)) || test_bodies(a, b, collector, rules, counts);
         },
         skip_never_colliding);
   }
 
-  bool moved_apart(std::uint32_t a, std::uint32_t b, Placement<P>& placement) const noexcept {
+  bool moved_apart(std::uint32_t a, std::uint32_t b, State<P>& state) const noexcept {
     for (const GroupId g : layout_->groups(a))
       for (const GroupId h : layout_->groups(b))
-        if (placement.moved_apart(g, h)) return true;
+        if (state.moved_apart(g, h)) return true;
     return false;
   }
 
@@ -206,7 +205,7 @@ class Lazy {
   /// done.
   template <Collector C>
   bool test_leaves(std::uint32_t a, std::uint32_t b, C& collector, const Rules& rules, QueryCounts& counts) {
-    const std::span<const P> placed = rules.placement.placed();
+    const std::span<const P> placed = rules.state.placed();
     const auto test = [&](PrimitiveId i, PrimitiveId j) {
       detail::test_pair(collector, i, j, placed[index(i)], placed[index(j)], rules.threshold(i, j),
                         [&] { return rules.admits(i, j); });

@@ -24,7 +24,7 @@
 #include "hinge/detail/engine/simd/work_budget.hpp"
 #include "hinge/detail/query/test_pair.hpp"
 #include "hinge/engine/engine.hpp"
-#include "hinge/model/placement.hpp"
+#include "hinge/model/state.hpp"
 #include "hinge/query/pair_rules.hpp"
 #include "hinge/query/query_options.hpp"
 
@@ -51,42 +51,42 @@ class Simd {
   template <Collector C>
   void self_query(const SelfRules<P, F, D>& rules, C& collector) {
     detail::WorkBudget budget;
-    Placement<P>& placement = rules.placement;
+    State<P>& state = rules.state;
     const QueryOptions& options = rules.options;
     if constexpr (detail::UsesStaticBvh<P>)
-      if (by_trees(placement)) {
-        trees_->self_query(placement, detail::tree_pair_test(collector, rules), collector, options, budget.counts);
+      if (by_trees(state)) {
+        trees_->self_query(state, detail::tree_pair_test(collector, rules), collector, options, budget.counts);
         return budget.report(options.counts);
       }
-    Side& side = present_side(placement, without_margin(collector, options));
-    side.begin(placement, options.moved_only, options.clearance);
+    Side& side = present_side(state, without_margin(collector, options));
+    side.begin(state, options.moved_only, options.clearance);
     const detail::SelfPairTest test_pair{
         collector, rules, [&](PrimitiveId first, PrimitiveId second) { return rules.admits(first, second); }};
     if constexpr (C::ranks) {
       // The previous closest pair gives a first upper bound. test_pair decides whether it belongs to the answer.
       if (witness_)
-        test_pair(witness_->first, witness_->second, side.exact(witness_->first, placement),
-                  side.exact(witness_->second, placement));
+        test_pair(witness_->first, witness_->second, side.exact(witness_->first, state),
+                  side.exact(witness_->second, state));
     }
     const detail::BlockLayout& layout = side.layout();
     budget.blocks_in = layout.block_count();
     begin();
     const detail::Identity<P> as_is;
-    const auto run_listed = [&] { run(side, placement, side, placement, side.table(), as_is, test_pair, budget); };
+    const auto run_listed = [&] { run(side, state, side, state, side.table(), as_is, test_pair, budget); };
     std::size_t patience = 1;
     float extent = -1.0F;
     double cutoff = 0.0;
-    std::size_t u = side.state().first_entry();
+    std::size_t u = side.blocks().first_entry();
     for (; u < layout.entries.size() && !collector.done() && !budget.is_too_much(); ++u) {
-      side.refresh(u, placement);
+      side.refresh(u, state);
       if (u < layout.static_entries) continue;
       // The margin depends on the cutoff and on the extent of the placed coordinates (a power of two).
-      if (side.state().extent() != extent || collector.cutoff() != cutoff) {
-        extent = side.state().extent();
+      if (side.blocks().extent() != extent || collector.cutoff() != cutoff) {
+        extent = side.blocks().extent();
         cutoff = collector.cutoff();
         set_thresholds(side, side, side.table(), as_is, cutoff);
       }
-      if (!broad_phase_.within(side, u, placement, thresholds_, budget.counts, relief(run_listed, collector, budget)))
+      if (!broad_phase_.within(side, u, state, thresholds_, budget.counts, relief(run_listed, collector, budget)))
         break;
       broad_phase_.resume_point.reach(u + 1);
       // The first runs are short: a hit near the root saves placing the rest. Longer runs cost less per candidate.
@@ -96,8 +96,8 @@ class Simd {
     }
     if (!collector.done()) run_listed();
     if (u < layout.entries.size() && !collector.done()) {
-      search_.place(layout, placement, matrix_, options.clearance);
-      const auto placed = placement.placed();
+      search_.place(layout, state, matrix_, options.clearance);
+      const auto placed = state.placed();
       const detail::SelfPairTest rest{collector, rules, [&](PrimitiveId first, PrimitiveId second) {
                                         return !broad_phase_.resume_point.passed(layout, first, second) &&
                                                rules.admits(first, second);
@@ -118,9 +118,9 @@ class Simd {
   /// Answers do not change. It has an effect only for primitives that are kept in static trees, such as triangles.
   void calibrate_pair_order(const SelfRules<P, F, D>& rules) {
     if constexpr (detail::UsesStaticBvh<P>) {
-      if (!by_trees(rules.placement)) return;
+      if (!by_trees(rules.state)) return;
       AnyHit any;
-      trees_->learn(rules.placement, detail::tree_pair_test(any, rules), any);
+      trees_->learn(rules.state, detail::tree_pair_test(any, rules), any);
     }
   }
   /// The same for yes/no queries against other models, represented by `other`: the order of this model's links.
@@ -139,12 +139,12 @@ class Simd {
   requires CrossMatrix<D>
   void query(Simd& other, const CrossRules<P, G, D>& rules, C& collector) {
     detail::WorkBudget budget;
-    Placement<P>&placement = rules.first, &other_placement = rules.second;
+    State<P>&state = rules.first, &other_state = rules.second;
     const QueryOptions& options = rules.options;
     if constexpr (detail::UsesStaticBvh<P>)
       if (by_trees(other, rules)) {
-        trees_->query(placement, *other.trees_, other_placement, detail::tree_pair_test(collector, rules), collector,
-                      options, budget.counts);
+        trees_->query(state, *other.trees_, other_state, detail::tree_pair_test(collector, rules), collector, options,
+                      budget.counts);
         return budget.report(options.counts);
       }
     const detail::CrossPairTest test_pair{collector, rules};
@@ -152,23 +152,23 @@ class Simd {
     const bool skip_never_colliding =
         without_margin(collector, options) &&
         (TypedThresholdMatrix<D> || (sides_.all_never_collide() && other.sides_.all_never_collide()));
-    Side &mine = present_side(placement, skip_never_colliding),
-         &theirs = other.present_side(other_placement, skip_never_colliding);
-    mine.begin(placement, false, options.clearance);
-    theirs.begin(other_placement, false, options.other_clearance);
-    for (std::size_t u = mine.state().first_entry(); u < mine.layout().entries.size(); ++u) mine.refresh(u, placement);
-    for (std::size_t u = theirs.state().first_entry(); u < theirs.layout().entries.size(); ++u)
-      theirs.refresh(u, other_placement);
+    Side &mine = present_side(state, skip_never_colliding),
+         &theirs = other.present_side(other_state, skip_never_colliding);
+    mine.begin(state, false, options.clearance);
+    theirs.begin(other_state, false, options.other_clearance);
+    for (std::size_t u = mine.blocks().first_entry(); u < mine.layout().entries.size(); ++u) mine.refresh(u, state);
+    for (std::size_t u = theirs.blocks().first_entry(); u < theirs.layout().entries.size(); ++u)
+      theirs.refresh(u, other_state);
     const detail::CrossModelTransform<P> into(mine, theirs);
     begin();
     const detail::ThresholdTable table = mine.parts().classes.table(theirs.parts().classes, theirs.layout().scale);
     set_thresholds(mine, theirs, table, into, collector.cutoff());
     const std::size_t entries = mine.layout().entries.size();
     budget.blocks_in = mine.layout().block_count() + theirs.layout().block_count();
-    const auto run_listed = [&] { run(mine, placement, theirs, other_placement, table, into, test_pair, budget); };
+    const auto run_listed = [&] { run(mine, state, theirs, other_state, table, into, test_pair, budget); };
     std::size_t u = 0;
     for (; into.holds() && u < entries && !collector.done() && !budget.is_too_much(); ++u) {
-      if (!broad_phase_.across(mine, u, placement, theirs, other_placement, into, thresholds_, options.moved_only,
+      if (!broad_phase_.across(mine, u, state, theirs, other_state, into, thresholds_, options.moved_only,
                                budget.counts, relief(run_listed, collector, budget)))
         break;
       broad_phase_.resume_point.reach(u + 1);
@@ -176,13 +176,13 @@ class Simd {
     }
     if (!collector.done()) run_listed();
     if (u < entries && !collector.done()) {
-      search_.place(mine.layout(), placement, matrix_, options.clearance);
-      other.search_.place(theirs.layout(), other_placement, other.matrix_, options.other_clearance);
+      search_.place(mine.layout(), state, matrix_, options.clearance);
+      other.search_.place(theirs.layout(), other_state, other.matrix_, options.other_clearance);
       search_.across(
           other.search_, [&] { return collector.cutoff(); },
           [&](PrimitiveId i, PrimitiveId j) {
             if (!broad_phase_.resume_point.passed(mine.layout(), i, theirs.layout(), j))
-              test_pair(i, j, placement.placed()[index(i)], other_placement.placed()[index(j)]);
+              test_pair(i, j, state.placed()[index(i)], other_state.placed()[index(j)]);
             return !collector.done();
           },
           budget.searched);
@@ -212,16 +212,14 @@ class Simd {
   }
 
   /// Returns true when the trees can answer. They cannot hold groups that deform.
-  bool by_trees(const Placement<P>& placement) const noexcept {
-    return trees_.has_value() && !placement.groups_may_deform();
-  }
+  bool by_trees(const State<P>& state) const noexcept { return trees_.has_value() && !state.groups_may_deform(); }
   template <class Rules>
   bool by_trees(const Simd& other, const Rules& rules) const noexcept {
     return by_trees(rules.first) && other.by_trees(rules.second) && trees_->fits(*other.trees_);
   }
 
-  Side& present_side(const Placement<P>& placement, bool without_margin) {
-    return sides_.side(placement.model(), filter_, matrix_, placement.groups_may_deform(), without_margin);
+  Side& present_side(const State<P>& state, bool without_margin) {
+    return sides_.side(state.model(), filter_, matrix_, state.groups_may_deform(), without_margin);
   }
 
   /// The margin covers the cutoff and the float error: no pair with d - M <= cutoff is lost. Clearances are added per
@@ -234,7 +232,7 @@ class Simd {
   }
   /// Tests lanes of `one` against blocks of `sixteen`. Pairs that floats cannot rule out go to `test_pair`.
   template <class Convert, class TestPair>
-  void run(Side& one, Placement<P>& placement_of_one, Side& sixteen, Placement<P>& placement_of_sixteen,
+  void run(Side& one, State<P>& state_of_one, Side& sixteen, State<P>& state_of_sixteen,
            const detail::ThresholdTable& table, const Convert& convert, const TestPair& test_pair,
            detail::WorkBudget& budget) {
     auto& collector = test_pair.collector;
@@ -262,9 +260,9 @@ class Simd {
           const std::uint32_t b = own / n, a = first / n;
           const detail::simd::Bits alone = detail::simd::Bits{1} << own % n;
           const P& p =
-              (few ? one.state().exact(b, alone, placement_of_one) : one.state().exact(b, placement_of_one))[own % n];
-          const P* const q = few ? sixteen.state().exact(a, bits, placement_of_sixteen)
-                                 : sixteen.state().exact(a, placement_of_sixteen);
+              (few ? one.blocks().exact(b, alone, state_of_one) : one.blocks().exact(b, state_of_one))[own % n];
+          const P* const q =
+              few ? sixteen.blocks().exact(a, bits, state_of_sixteen) : sixteen.blocks().exact(a, state_of_sixteen);
           for (; bits != 0 && !collector.done(); bits &= bits - 1) {
             const int k = std::countr_zero(bits);
             ++(test_pair(i, id<PrimitiveId>(others[k]), p, q[k]) ? budget.hits : budget.misses);

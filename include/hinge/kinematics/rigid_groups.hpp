@@ -26,7 +26,7 @@ struct RigidGroup {
 };
 
 namespace detail {
-class PoseSource;
+class ForwardKinematics;
 }
 
 /// Groups in topological order (parents first). Group 0 contains the world and never moves. Constant after
@@ -77,7 +77,7 @@ class RigidGroups {
   const Pose& link_in_group(LinkId link) const noexcept { return link_in_group_[index(link)]; }
 
  private:
-  friend class detail::PoseSource;
+  friend class detail::ForwardKinematics;
 
   /// Returns the joints of groups 1 .. size() - 1 in batches of eight.
   std::span<const detail::JointBatch> joint_batches() const noexcept { return batches_; }

@@ -5,7 +5,7 @@
 #include "hinge/core/id.hpp"
 #include "hinge/detail/query/pair_threshold.hpp"
 #include "hinge/detail/query/test_pair.hpp"
-#include "hinge/model/placement.hpp"
+#include "hinge/model/state.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/policy/distance_matrix.hpp"
 #include "hinge/policy/pair_filter.hpp"
@@ -16,14 +16,14 @@ namespace hinge {
 /// A query of pairs inside one model. A view that is valid during the query.
 template <Primitive P, PairFilter F, DistanceMatrix D>
 struct SelfRules {
-  Placement<P>& placement;      ///< world coordinates of the model
+  State<P>& state;              ///< world coordinates of the model
   const F& filter;              ///< of the model
   const D& matrix;              ///< of the model
   const QueryOptions& options;  ///< valid for the model
 
   /// Returns the extra clearance of a primitive's group. It is added to the thresholds of its pairs.
   double clearance(PrimitiveId i) const noexcept {
-    return detail::clearance_of(options.clearance, placement.model().group_of(i));
+    return detail::clearance_of(options.clearance, state.model().group_of(i));
   }
   /// Returns the threshold of a pair, extra clearances included: a double or a RadiusSum.
   auto threshold(PrimitiveId i, PrimitiveId j) const noexcept {
@@ -33,9 +33,9 @@ struct SelfRules {
   /// Returns true when the filter admits the pair, its distance is not constant and, in moved-only queries, the two
   /// groups moved relative to each other.
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept {
-    const auto& model = placement.model();
-    return filter.admits(i, j) && !placement.constant(i, j) &&
-           (!options.moved_only || placement.moved_apart(model.group_of(i), model.group_of(j)));
+    const auto& model = state.model();
+    return filter.admits(i, j) && !state.constant(i, j) &&
+           (!options.moved_only || state.moved_apart(model.group_of(i), model.group_of(j)));
   }
   /// Passes the pair i < j of primitives p and q, in world coordinates, to the collector if it counts and lies within
   /// the cutoff. The engines of the library decide pairs by the same function, detail::test_pair.
@@ -49,8 +49,8 @@ struct SelfRules {
 /// A query of pairs of two models: i of the first, j of the second. A view that is valid during the query.
 template <Primitive P, PairFilter F, CrossMatrix D>
 struct CrossRules {
-  Placement<P>& first;          ///< world coordinates of the first model
-  Placement<P>& second;         ///< world coordinates of the second model
+  State<P>& first;              ///< world coordinates of the first model
+  State<P>& second;             ///< world coordinates of the second model
   const F& filter;              ///< admits (primitive of the first, primitive of the second)
   const D& first_matrix;        ///< of the first model
   const D& second_matrix;       ///< of the second model; the two are compatible

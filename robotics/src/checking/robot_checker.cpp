@@ -97,7 +97,8 @@ void RobotChecker::set_base(const Pose& base) {
                              "': not a rigid placement (finite, R R^T = 1, det 1)");
   if (!kinematics_) {
     const KinematicTree& tree = robot_->model().tree();
-    detail::PoseSource kinematics(std::make_shared<const RigidGroups>(tree, DofSelection::all(tree)), tree.dof_count());
+    detail::ForwardKinematics kinematics(std::make_shared<const RigidGroups>(tree, DofSelection::all(tree)),
+                                         tree.dof_count());
     kinematics.set_configuration(full_);
     AnyHierarchy hierarchy = make_hierarchy(engine_, free_in_world(robot_->model()), filter_, margins_);
     place(hierarchy, base, kinematics);
@@ -111,7 +112,7 @@ void RobotChecker::set_base(const Pose& base) {
   link_boxes_stand_ = false;
 }
 
-void RobotChecker::place(AnyHierarchy& hierarchy, const Pose& base, detail::PoseSource& kinematics) {
+void RobotChecker::place(AnyHierarchy& hierarchy, const Pose& base, detail::ForwardKinematics& kinematics) {
   std::visit(
       [&](auto& h) {
         // Group 0 is the world, then follow the groups of the robot.

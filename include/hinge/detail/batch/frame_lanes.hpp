@@ -22,8 +22,8 @@
 
 namespace hinge::detail {
 
-/// One configuration per lane, in double. The operations and their order are those of PoseSource, so verdicts on these
-/// frames equal those of single queries.
+/// One configuration per lane, in double. The operations and their order are those of ForwardKinematics, so verdicts on
+/// these frames equal those of single queries.
 class FrameLanes {
  public:
   static constexpr std::size_t size = simd::width;

@@ -16,7 +16,7 @@
 #include "hinge/detail/engine/simd/cross_model_transform.hpp"
 #include "hinge/detail/engine/simd/exclusion_masks.hpp"
 #include "hinge/detail/engine/simd/narrow_phase.hpp"
-#include "hinge/detail/engine/simd/simd_state.hpp"
+#include "hinge/detail/engine/simd/placed_blocks.hpp"
 #include "hinge/detail/engine/simd/threshold_classes.hpp"
 #include "hinge/detail/moves/move_blocks.hpp"
 #include "hinge/detail/moves/move_frames.hpp"

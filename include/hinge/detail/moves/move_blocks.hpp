@@ -19,7 +19,7 @@
 #include "hinge/detail/engine/simd/block_layout.hpp"
 #include "hinge/detail/engine/simd/entry_boxes.hpp"
 #include "hinge/detail/engine/simd/float_transform.hpp"
-#include "hinge/detail/engine/simd/simd_state.hpp"
+#include "hinge/detail/engine/simd/placed_blocks.hpp"
 #include "hinge/detail/engine/simd/threshold_classes.hpp"
 #include "hinge/detail/kinematics/compose_frames.hpp"
 #include "hinge/detail/moves/moved_blocks.hpp"

@@ -175,7 +175,7 @@ class MoveFrames {
     if (!at_[place].slides) at_[place].turn = sincos(value);
     set_motion(place, value, parts);
   }
-  /// Same order of operations as PoseSource.
+  /// Same order of operations as ForwardKinematics.
   void set_motion(std::uint32_t place, double value, const MovingParts& parts) noexcept {
     const Joint& joint = group(place, parts).joint;
     Pose at = motion(joint, value);

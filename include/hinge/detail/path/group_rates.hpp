@@ -16,7 +16,7 @@
 #include "hinge/core/id.hpp"
 #include "hinge/core/vec3.hpp"
 #include "hinge/detail/exact/error_free.hpp"
-#include "hinge/detail/kinematics/pose_source.hpp"
+#include "hinge/detail/kinematics/forward_kinematics.hpp"
 #include "hinge/detail/path/outline.hpp"
 #include "hinge/detail/path/twist.hpp"
 #include "hinge/kinematics/frame.hpp"
@@ -107,7 +107,7 @@ template <Primitive P>
 requires HasHull<P> GroupRates::GroupRates(const SelectedModel<P>& model)
     : bodies_(model.groups()->size()), groups_(bodies_.size()) {
   find_scale(model);
-  PoseSource reference(model.groups(), model.selection().size());
+  ForwardKinematics reference(model.groups(), model.selection().size());
   for (std::size_t g = 1; g < bodies_.size(); ++g) add_joint(g, (*model.groups())[id<GroupId>(g)]);
   Aabb all;
   std::vector<Outline> outlines(bodies_.size());

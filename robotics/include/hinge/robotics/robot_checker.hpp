@@ -15,7 +15,7 @@
 #include "hinge/bounds/aabb.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/core/pose.hpp"
-#include "hinge/detail/kinematics/pose_source.hpp"
+#include "hinge/detail/kinematics/forward_kinematics.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/primitive/triangle.hpp"
 #include "hinge/query/link_pair_hits.hpp"
@@ -188,7 +188,7 @@ class RobotChecker {
     std::vector<std::uint8_t> is_closed;
     std::vector<std::vector<std::size_t>> parts;
   };
-  void place(AnyHierarchy& hierarchy, const Pose& base, detail::PoseSource& kinematics);
+  void place(AnyHierarchy& hierarchy, const Pose& base, detail::ForwardKinematics& kinematics);
   void find_solid_pairs();
   // Expands the values of the independent joints into `full`. Throws as update().
   void expand(std::span<const double> independent, std::span<double> full) const;
@@ -231,7 +231,7 @@ class RobotChecker {
   std::vector<double> next_;  // scratch: the next full_
   std::vector<Pose> poses_;   // scratch
   Pose base_{};
-  std::optional<detail::PoseSource> kinematics_;          // set if the base is free: poses relative to the base
+  std::optional<detail::ForwardKinematics> kinematics_;   // set if the base is free: poses relative to the base
   LinkPairHits link_hits_;                                // scratch
   std::shared_ptr<const SolidPairs> solid_pairs_;         // for the groups of hierarchy_
   std::vector<std::array<double, 3>> solid_centres_;      // scratch

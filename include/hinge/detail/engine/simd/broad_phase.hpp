@@ -17,7 +17,7 @@
 #include "hinge/detail/engine/simd/resume_point.hpp"
 #include "hinge/detail/engine/simd/simd_side.hpp"
 #include "hinge/detail/primitive/batch.hpp"
-#include "hinge/model/placement.hpp"
+#include "hinge/model/state.hpp"
 #include "hinge/query/query_options.hpp"
 
 namespace hinge::detail {
@@ -46,8 +46,8 @@ class BroadPhase {
   ResumePoint resume_point;
 
   /// Lists the candidates between entry u and earlier entries, and inside u.
-  bool within(SimdSide<P>& side, std::size_t u, Placement<P>& placement, const Thresholds16& thresholds,
-              QueryCounts& counts, Relieve relieve) {
+  bool within(SimdSide<P>& side, std::size_t u, State<P>& state, const Thresholds16& thresholds, QueryCounts& counts,
+              Relieve relieve) {
     const SweepEntry& entry = side.layout().entries[u];
     const std::uint32_t first = entry.first_block;
     const NearRows16 self = side.near().self(first);
@@ -57,16 +57,16 @@ class BroadPhase {
     if (found.empty()) return true;
     const float extra = side.extra(first);
     if (entry.block_count == 1) {
-      Facing facing(side, first, placement, thresholds.margin() + extra);
+      Facing facing(side, first, state, thresholds.margin() + extra);
       for (const std::uint32_t w : found) {
         if (side.kept_apart(u, w)) continue;
         const SweepEntry& partner = side.layout().entries[w];
         if (partner.block_count == 1) {
-          add_pair(side, facing, partner.first_block, facing.partners.find(partner.first_block), placement);
+          add_pair(side, facing, partner.first_block, facing.partners.find(partner.first_block), state);
         } else {
           const float more = thresholds.margin() + extra + side.extra(partner.first_block);
-          side.descend(w, side.state().block_box(first).grown(more), placement, counts, theirs_);
-          add_found(side, facing, placement);
+          side.descend(w, side.blocks().block_box(first).grown(more), state, counts, theirs_);
+          add_found(side, facing, state);
         }
       }
       return true;
@@ -74,16 +74,16 @@ class BroadPhase {
     for (const std::uint32_t w : found) {
       if (side.kept_apart(u, w)) continue;
       const float both = extra + side.extra(side.layout().entries[w].first_block);
-      side.descend(u, side.state().entries().get(w).grown(thresholds.margin() + both), placement, counts, mine_);
+      side.descend(u, side.blocks().entries().get(w).grown(thresholds.margin() + both), state, counts, mine_);
       for (const std::uint32_t b : mine_) {
         const float near = thresholds.margin() + both;
         // The block itself is placed only if its box overlaps something.
         if (side.layout().entries[w].block_count == 1)
           theirs_.assign(1, side.layout().entries[w].first_block);
         else
-          side.descend(w, side.state().tree_box(u, b, placement).grown(near), placement, counts, theirs_);
+          side.descend(w, side.blocks().tree_box(u, b, state).grown(near), state, counts, theirs_);
         if (theirs_.empty()) continue;
-        add_found(side, Facing(side, b, placement, thresholds.margin() + extra), placement);
+        add_found(side, Facing(side, b, state, thresholds.margin() + extra), state);
         if (!relieve()) return stop(w, b);
       }
     }
@@ -91,33 +91,33 @@ class BroadPhase {
   }
 
   /// Lists the candidates between an entry and the other model. `into` transforms coordinates into that model.
-  bool across(SimdSide<P>& mine, std::size_t u, Placement<P>& placement, SimdSide<P>& theirs,
-              Placement<P>& other_placement, const CrossModelTransform<P>& into, const Thresholds16& thresholds,
-              bool moved_only, QueryCounts& counts, Relieve relieve) {
+  bool across(SimdSide<P>& mine, std::size_t u, State<P>& state, SimdSide<P>& theirs, State<P>& other_state,
+              const CrossModelTransform<P>& into, const Thresholds16& thresholds, bool moved_only, QueryCounts& counts,
+              Relieve relieve) {
     const SweepEntry& entry = mine.layout().entries[u];
     const float extra = mine.extra(entry.first_block) * into.scale;
-    const FloatBox box = into(mine.state().entries().get(u)).grown(thresholds.margin() + extra);
-    const bool stood_still = moved_only && !mine.moved(u, placement);
+    const FloatBox box = into(mine.blocks().entries().get(u)).grown(thresholds.margin() + extra);
+    const bool stood_still = moved_only && !mine.moved(u, state);
     for (const std::uint32_t w : theirs.entries().sweep(box, theirs.layout().entries.size(), counts)) {
-      if (stood_still && !theirs.moved(w, other_placement)) continue;
+      if (stood_still && !theirs.moved(w, other_state)) continue;
       const SweepEntry& partner = theirs.layout().entries[w];
       const float extras = extra + theirs.extra(partner.first_block);
       if (entry.block_count == 1)
         mine_.assign(1, entry.first_block);
       else
-        mine.descend(u, into.back(theirs.state().entries().get(w).grown(thresholds.margin() + extras)), placement,
-                     counts, mine_);
+        mine.descend(u, into.back(theirs.blocks().entries().get(w).grown(thresholds.margin() + extras)), state, counts,
+                     mine_);
       for (const std::uint32_t b : mine_) {
         const float own = thresholds.margin() + extras;
-        const float* at = mine.state().block(b, placement);
+        const float* at = mine.blocks().block(b, state);
         const float more = own + mine.parts().rigid.reach[b] * into.scale;
         if (partner.block_count == 1)
           theirs_.assign(1, partner.first_block);
         else
-          theirs.descend(w, into(mine.state().block_box(b)).grown(own), other_placement, counts, theirs_);
+          theirs.descend(w, into(mine.blocks().block_box(b)).grown(own), other_state, counts, theirs_);
         for (const std::uint32_t a : theirs_) {
-          theirs.state().block(a, other_placement);
-          const FloatBox near = into.back(theirs.state().block_box(a).grown(more));
+          theirs.blocks().block(a, other_state);
+          const FloatBox near = into.back(theirs.blocks().block_box(a).grown(more));
           const simd::Bits lanes = Batch<P>::inside(at, BoxLanes(near)) & mine.layout().blocks[b].real;
           candidates.add(lanes, position<P>(b), position<P>(a), theirs.layout().blocks[a].real);
         }
@@ -136,10 +136,10 @@ class BroadPhase {
 
   /// A block prepared for tests against many others. `more` is the margin plus its extra clearance.
   struct Facing {
-    Facing(SimdSide<P>& side, std::uint32_t b, Placement<P>& placement, float more) noexcept
+    Facing(SimdSide<P>& side, std::uint32_t b, State<P>& state, float more) noexcept
         : block(b),
-          lanes(side.state().block(b, placement), more + side.parts().rigid.reach[b]),
-          box(side.state().block_box(b).grown(more + side.parts().rigid.largest_reach)),
+          lanes(side.blocks().block(b, state), more + side.parts().rigid.reach[b]),
+          box(side.blocks().block_box(b).grown(more + side.parts().rigid.largest_reach)),
           partners(side.near(), b) {}
     std::uint32_t block;
     typename Batch<P>::Grown lanes;  // inflated by the block's reach and `more`
@@ -148,20 +148,20 @@ class BroadPhase {
   };
 
   /// Lists the candidates between a block and the blocks found in a tree.
-  [[gnu::noinline]] void add_found(SimdSide<P>& side, const Facing& facing, Placement<P>& placement) {
-    for (const std::uint32_t a : theirs_) add_pair(side, facing, a, side.near().find(facing.block, a), placement);
+  [[gnu::noinline]] void add_found(SimdSide<P>& side, const Facing& facing, State<P>& state) {
+    for (const std::uint32_t a : theirs_) add_pair(side, facing, a, side.near().find(facing.block, a), state);
   }
 
   /// Lists the candidates between block b and an earlier block a. The side with fewer primitives near the other's box
   /// is listed one by one.
   [[gnu::always_inline]] void add_pair(SimdSide<P>& side, const Facing& facing, std::uint32_t a, const NearRows16& near,
-                                       Placement<P>& placement) {
+                                       State<P>& state) {
     if (near.lanes == 0) [[unlikely]]
       return;
-    const float* at_a = side.state().block(a, placement);
+    const float* at_a = side.blocks().block(a, state);
     const std::uint32_t b = facing.block;
     const simd::Bits real_b = side.layout().blocks[b].real, real_a = side.layout().blocks[a].real;
-    const FloatBox& box_a = side.state().block_box(a);
+    const FloatBox& box_a = side.blocks().block_box(a);
     // Inflating by zero is measurable here; skip it.
     const simd::Bits in_b =
         (side.has_extra() ? facing.lanes.meets(box_a.grown(side.extra(a))) : facing.lanes.meets(box_a)) & real_b;

@@ -23,8 +23,8 @@ struct Identity {
   }
   /// Bound of the error of float distances, scaled, for the largest threshold plus |cutoff| and extra clearances.
   double band(const SimdSide<P>& one, const SimdSide<P>&, const ThresholdTable& table, double cutoff) const noexcept {
-    return one.state().band(static_cast<double>(table.largest) + std::abs(cutoff * one.layout().scale) +
-                            2 * static_cast<double>(one.largest_extra()));
+    return one.blocks().band(static_cast<double>(table.largest) + std::abs(cutoff * one.layout().scale) +
+                             2 * static_cast<double>(one.largest_extra()));
   }
   float scale = 1.0F;
 };
@@ -36,7 +36,7 @@ struct CrossModelTransform {
       : scale(static_cast<float>(to.layout().scale / from.layout().scale)) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto i = static_cast<Eigen::Index>(k);
-      shift[k] = static_cast<float>((from.state().origin()[i] - to.state().origin()[i]) * to.layout().scale);
+      shift[k] = static_cast<float>((from.blocks().origin()[i] - to.blocks().origin()[i]) * to.layout().scale);
     }
   }
   /// True if floats can hold both models in one unit.
@@ -56,7 +56,7 @@ struct CrossModelTransform {
                      static_cast<double>(sixteen.largest_extra()) + ratio * static_cast<double>(one.largest_extra());
     // The shift rounds once more, relative to its own size.
     for (const float s : shift) largest += 2 * std::abs(static_cast<double>(s));
-    return sixteen.state().band(largest) + 2 * ratio * one.state().band(0.0);
+    return sixteen.blocks().band(largest) + 2 * ratio * one.blocks().band(0.0);
   }
   /// Box in the other model's unit and origin.
   FloatBox operator()(FloatBox box) const noexcept {

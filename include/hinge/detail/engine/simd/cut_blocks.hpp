@@ -12,7 +12,7 @@
 
 #include "hinge/bounds/aabb.hpp"
 #include "hinge/core/id.hpp"
-#include "hinge/detail/kinematics/pose_source.hpp"
+#include "hinge/detail/kinematics/forward_kinematics.hpp"
 #include "hinge/detail/simd/lanes.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 #include "hinge/model/selected_model.hpp"
@@ -54,7 +54,7 @@ class Members {
 /// The middle of every primitive's bounds in the world frame, with all joints at their reference.
 template <Primitive P>
 std::vector<Vec3> middles_at_reference(const SelectedModel<P>& model) {
-  PoseSource reference(model.groups(), model.selection().size());
+  ForwardKinematics reference(model.groups(), model.selection().size());
   std::vector<Vec3> middles(model.size());
   for (std::size_t g = 0; g < model.groups()->size(); ++g) {
     const Pose pose = reference.pose(id<GroupId>(g));

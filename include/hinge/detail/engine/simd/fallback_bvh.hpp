@@ -18,7 +18,7 @@
 #include "hinge/detail/engine/traversal.hpp"
 #include "hinge/detail/query/pair_threshold.hpp"
 #include "hinge/detail/simd/lanes.hpp"
-#include "hinge/model/placement.hpp"
+#include "hinge/model/state.hpp"
 #include "hinge/policy/distance_matrix.hpp"
 #include "hinge/query/query_options.hpp"
 
@@ -36,7 +36,7 @@ class FallbackBvh {
   /// Makes boxes of the present coordinates of all primitives in the layout. clearance: extra clearance per rigid
   /// group.
   template <Primitive P, DistanceMatrix D>
-  [[gnu::noinline]] void place(const BlockLayout& layout, Placement<P>& placement, const D& matrix,
+  [[gnu::noinline]] void place(const BlockLayout& layout, State<P>& state, const D& matrix,
                                std::span<const double> clearance);
 
   /// Visits every pair of primitives of different groups with a possible d - M <= cutoff. If groups deform, visits
@@ -72,12 +72,12 @@ class FallbackBvh {
 };
 
 template <Primitive P, DistanceMatrix D>
-void FallbackBvh::place(const BlockLayout& layout, Placement<P>& placement, const D& matrix,
+void FallbackBvh::place(const BlockLayout& layout, State<P>& state, const D& matrix,
                         std::span<const double> clearance) {
-  const SelectedModel<P>& model = placement.model();
-  deform_ = placement.groups_may_deform();
+  const SelectedModel<P>& model = state.model();
+  deform_ = state.groups_may_deform();
   const std::size_t groups = model.groups()->size();
-  for (std::size_t g = 0; g < groups; ++g) placement.place(id<GroupId>(g));
+  for (std::size_t g = 0; g < groups; ++g) state.place(id<GroupId>(g));
   const auto body_of = [&](PrimitiveId i) { return deform_ ? 0 : index(model.group_of(i)); };
   primitives_.clear();
   for (std::size_t slot = 0; slot < layout.primitive.size(); ++slot)
@@ -92,7 +92,7 @@ void FallbackBvh::place(const BlockLayout& layout, Placement<P>& placement, cons
     boxes_.clear();
     for (; first < primitives_.size() && body_of(primitives_[first]) == body_of(primitives_[body.first]); ++first) {
       const PrimitiveId i = primitives_[first];
-      boxes_.push_back(placement.placed()[index(i)].bounds().inflated(matrix.reach(i)));
+      boxes_.push_back(state.placed()[index(i)].bounds().inflated(matrix.reach(i)));
       body.extra = std::max(body.extra, clearance_of(clearance, model.group_of(i)));
     }
     body.count = first - body.first;

@@ -32,7 +32,7 @@ class Measure {
       : unit_(1.0 / sixteen.layout().scale) {
     const float near =
         table.largest + thresholds.margin() + one.largest_extra() * convert.scale + sixteen.largest_extra();
-    const float extent = std::max(one.state().extent(), sixteen.state().extent());
+    const float extent = std::max(one.blocks().extent(), sixteen.blocks().extent());
     if (extent <= largest_sane_coordinate && is_finite(near * near))
       error_ = convert.band(one, sixteen, table, cutoff) * unit_;
   }

@@ -14,10 +14,10 @@
 #include "hinge/detail/bounds/float_box.hpp"
 #include "hinge/detail/engine/simd/block_layout.hpp"
 #include "hinge/detail/engine/simd/exclusion_masks.hpp"
-#include "hinge/detail/engine/simd/simd_state.hpp"
+#include "hinge/detail/engine/simd/placed_blocks.hpp"
 #include "hinge/detail/query/pair_threshold.hpp"
 #include "hinge/detail/simd/gather_bits.hpp"
-#include "hinge/model/placement.hpp"
+#include "hinge/model/state.hpp"
 #include "hinge/query/query_options.hpp"
 
 namespace hinge::detail {
@@ -33,26 +33,26 @@ class SimdSide {
            bool inside_groups)
       : near_(std::make_shared<const ExclusionMasks>(parts->layout, model, filter, inside_groups)),
         table_(parts->classes.table(parts->layout.scale)),
-        state_(std::move(parts), model),
+        blocks_(std::move(parts), model),
         grown_(layout().entries.size()) {}
 
-  const BlockLayout& layout() const noexcept { return state_.parts().layout; }
-  const SimdParts<P>& parts() const noexcept { return state_.parts(); }
+  const BlockLayout& layout() const noexcept { return blocks_.parts().layout; }
+  const SimdParts<P>& parts() const noexcept { return blocks_.parts(); }
   const ExclusionMasks& near() const noexcept { return *near_; }
   const ThresholdTable& table() const noexcept { return table_; }
-  SimdState<P>& state() noexcept { return state_; }
-  const SimdState<P>& state() const noexcept { return state_; }
+  PlacedBlocks<P>& blocks() noexcept { return blocks_; }
+  const PlacedBlocks<P>& blocks() const noexcept { return blocks_; }
 
   /// A primitive of the layout, placed in double.
-  const P& exact(PrimitiveId i, Placement<P>& placement) noexcept {
+  const P& exact(PrimitiveId i, State<P>& state) noexcept {
     const std::uint32_t b = layout().block_of[index(i)];
     const std::uint32_t* const first = layout().primitive.data() + b * simd::width;
-    return state_.exact(b, placement)[std::find(first, first + simd::width, index(i)) - first];
+    return blocks_.exact(b, state)[std::find(first, first + simd::width, index(i)) - first];
   }
 
   /// Starts a query with its options. After this, refresh() updates entries one by one.
-  void begin(Placement<P>& placement, bool moved_only, std::span<const double> clearance) {
-    state_.begin(placement);
+  void begin(State<P>& state, bool moved_only, std::span<const double> clearance) {
+    blocks_.begin(state);
     has_extra_ = !clearance.empty();
     largest_extra_ = 0.0F;
     if (has_extra_) {
@@ -66,30 +66,30 @@ class SimdSide {
         at += Batch<P>::floats;
         largest_extra_ = std::max(largest_extra_, scaled);
       }
-      for (std::size_t u = 0; u < state_.first_entry(); ++u) grow(u);
+      for (std::size_t u = 0; u < blocks_.first_entry(); ++u) grow(u);
     }
     component_.clear();
-    if (moved_only && !placement.groups_may_deform())
+    if (moved_only && !state.groups_may_deform())
       for (const SweepEntry& entry : layout().entries) {
         const auto groups = layout().groups_of(layout().blocks[entry.first_block]);
-        std::size_t component = placement.component(groups.front());
+        std::size_t component = state.component(groups.front());
         for (const GroupId g : groups)
-          if (placement.component(g) != component) component = no_component;
+          if (state.component(g) != component) component = no_component;
         component_.push_back(component);
       }
   }
 
-  /// Updates an entry. Call it for entries in increasing order, from state().first_entry() on.
-  [[gnu::always_inline]] void refresh(std::size_t u, Placement<P>& placement) noexcept {
-    state_.refresh(u, placement);
+  /// Updates an entry. Call it for entries in increasing order, from blocks().first_entry() on.
+  [[gnu::always_inline]] void refresh(std::size_t u, State<P>& state) noexcept {
+    blocks_.refresh(u, state);
     if (has_extra()) [[unlikely]]
       grow(u);
   }
   /// Boxes of entries, inflated by their reach and their extra clearance.
-  EntryBoxes& entries() noexcept { return has_extra() ? grown_ : state_.entries(); }
+  EntryBoxes& entries() noexcept { return has_extra() ? grown_ : blocks_.entries(); }
 
   /// Float coordinates of all blocks, and the threshold class of the primitive that starts at each position.
-  const float* packed() const noexcept { return state_.packed(0); }
+  const float* packed() const noexcept { return blocks_.packed(0); }
   const std::uint8_t* position_class() const noexcept { return parts().position_class.data(); }
 
   /// Extra clearances, scaled: at the position of a primitive's floats, and of a block.
@@ -107,14 +107,14 @@ class SimdSide {
   }
 
   /// True if the entry may have moved in the last update.
-  bool moved(std::size_t u, Placement<P>& placement) const noexcept {
+  bool moved(std::size_t u, State<P>& state) const noexcept {
     for (const GroupId g : layout().groups_of(layout().blocks[layout().entries[u].first_block]))
-      if (placement.moved(g)) return true;
+      if (state.moved(g)) return true;
     return false;
   }
 
   /// Lists in `blocks` the blocks of entry u's tree whose boxes overlap `box`.
-  void descend(std::size_t u, const FloatBox& box, Placement<P>& placement, QueryCounts& counts,
+  void descend(std::size_t u, const FloatBox& box, State<P>& state, QueryCounts& counts,
                std::vector<std::uint32_t>& blocks) {
     blocks.clear();
     const BoxLanes probe(box);
@@ -130,7 +130,7 @@ class SimdSide {
     std::array<std::uint32_t, simd::width> found;
     while (waiting > 0) {
       const Node node = stack[--waiting];
-      const BoxRow& boxes = state_.tree_row(u, levels[node.level].first_row + node.row, placement);
+      const BoxRow& boxes = blocks_.tree_row(u, levels[node.level].first_row + node.row, state);
       ++counts.boxes_tested;
       const auto first = static_cast<std::uint32_t>(node.row * simd::width);
       simd::Bits bits = overlapping(boxes, probe);
@@ -149,13 +149,13 @@ class SimdSide {
 
  private:
   [[gnu::noinline]] void grow(std::size_t u) noexcept {
-    grown_.set(u, state_.entries().get(u).grown(extra(layout().entries[u].first_block)));
+    grown_.set(u, blocks_.entries().get(u).grown(extra(layout().entries[u].first_block)));
     grown_.close(u);
   }
 
   std::shared_ptr<const ExclusionMasks> near_;
   ThresholdTable table_;
-  SimdState<P> state_;
+  PlacedBlocks<P> blocks_;
   bool has_extra_ = false;
   std::vector<float> extra_;  // per float position of a block; scaled
   EntryBoxes grown_;          // boxes of entries with extra clearances

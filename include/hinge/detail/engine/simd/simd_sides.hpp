@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "hinge/detail/engine/simd/block_layout.hpp"
+#include "hinge/detail/engine/simd/placed_blocks.hpp"
 #include "hinge/detail/engine/simd/simd_side.hpp"
-#include "hinge/detail/engine/simd/simd_state.hpp"
 #include "hinge/detail/engine/simd/threshold_classes.hpp"
 #include "hinge/model/selected_model.hpp"
 #include "hinge/policy/distance_matrix.hpp"

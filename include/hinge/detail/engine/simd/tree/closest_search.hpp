@@ -11,9 +11,9 @@
 #include "hinge/core/id.hpp"
 #include "hinge/detail/engine/simd/tree/find_closest.hpp"
 #include "hinge/detail/engine/simd/tree/near_search.hpp"
+#include "hinge/detail/engine/simd/tree/placed_trees.hpp"
 #include "hinge/detail/engine/simd/tree/tree_operand.hpp"
 #include "hinge/detail/engine/simd/tree/tree_parts.hpp"
-#include "hinge/detail/engine/simd/tree/tree_state.hpp"
 #include "hinge/detail/engine/simd/tree/witnesses.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/query/query_options.hpp"
@@ -32,16 +32,16 @@ class ClosestSearch {
   template <Collector C, class PairTest, class List>
   void run(const TreeOperand<P>& a, const TreeOperand<P>& b, NearSearch<P>& near, Witnesses<P>& witnesses,
            const PairTest& pair_test, C& collector, QueryCounts& counts, const List& list) {
-    const double scale = a.state.parts().scale;
+    const double scale = a.trees.parts().scale;
     double bound = collector.cutoff();
-    if constexpr (KeepsSmallest<C>) bound = std::min(bound, witnesses.bound(a.placement, b.placement, pair_test));
+    if constexpr (KeepsSmallest<C>) bound = std::min(bound, witnesses.bound(a.state, b.state, pair_test));
     pairs_.clear();
     list(bound, pairs_);
     std::sort(pairs_.begin(), pairs_.end(), [](const PartPair& x, const PartPair& y) {
       return std::tie(x.gap, x.first, x.second) < std::tie(y.gap, y.first, y.second);
     });
     // Lower bound of d - M over all pairs.
-    const double least = -std::max(a.state.parts().largest_threshold, b.state.parts().largest_threshold) -
+    const double least = -std::max(a.trees.parts().largest_threshold, b.trees.parts().largest_threshold) -
                          a.largest_clearance() - b.largest_clearance();
     candidates_.clear();
     const auto settle = [&] {
@@ -50,7 +50,7 @@ class ClosestSearch {
       for (const Candidate& c : candidates_) {
         if (c.lower > collector.cutoff() || (KeepsSmallest<C> && collector.cutoff() <= least)) break;
         const PrimitiveId i = a.primitive(c.slot_a), j = b.primitive(c.slot_b);
-        pair_test.test_pair(i, j, a.placement.alone(i), b.placement.alone(j));
+        pair_test.test_pair(i, j, a.state.alone(i), b.state.alone(j));
       }
       candidates_.clear();
       bound = std::min(bound, collector.cutoff());
@@ -71,10 +71,10 @@ class ClosestSearch {
         if (extra == 0.0) break;  // nearest first
         continue;
       }
-      const float* const reach_a = a.state.parts().leaf_reach(0);
-      const float* const reach_b = b.state.parts().leaf_reach(0);
-      const double ratio = scale / b.state.parts().scale;
-      finder_.run(a.state.parts(), a.part(pair.first), b.state.parts(), b.part(pair.second),
+      const float* const reach_a = a.trees.parts().leaf_reach(0);
+      const float* const reach_b = b.trees.parts().leaf_reach(0);
+      const double ratio = scale / b.trees.parts().scale;
+      finder_.run(a.trees.parts(), a.part(pair.first), b.trees.parts(), b.part(pair.second),
                   a.turn(a.part(pair.first), b, b.part(pair.second)).complete(), a.scaled(bound + extra), counts,
                   [&](const auto& slots_a, const auto& slots_b, std::size_t n, const Bounds16& bounds) {
                     for (std::size_t k = 0; k < n; ++k) {
@@ -96,7 +96,7 @@ class ClosestSearch {
     }
     settle();
     if constexpr (KeepsSmallest<C> && requires { collector.hit()->first; })
-      if (collector.hit()) witnesses.remember(*collector.hit(), a.placement, b.placement);
+      if (collector.hit()) witnesses.remember(*collector.hit(), a.state, b.state);
   }
 
  private:

@@ -6,10 +6,10 @@
 
 #include "hinge/core/id.hpp"
 #include "hinge/detail/bounds/float_box.hpp"
+#include "hinge/detail/engine/simd/tree/placed_trees.hpp"
 #include "hinge/detail/engine/simd/tree/tree_operand.hpp"
 #include "hinge/detail/engine/simd/tree/tree_parts.hpp"
-#include "hinge/detail/engine/simd/tree/tree_state.hpp"
-#include "hinge/model/placement.hpp"
+#include "hinge/model/state.hpp"
 #include "hinge/query/query_options.hpp"
 
 namespace hinge::detail {
@@ -17,13 +17,13 @@ namespace hinge::detail {
 /// Refreshes both states on construction. `mine` is the first model, `others` the second.
 template <Primitive P>
 struct CrossOperands {
-  CrossOperands(TreeState<P>& state, Placement<P>& placement, TreeState<P>& their_state, Placement<P>& their_placement,
+  CrossOperands(PlacedTrees<P>& trees, State<P>& state, PlacedTrees<P>& their_trees, State<P>& their_state,
                 const QueryOptions& options)
-      : mine{state, placement, options.clearance},
-        others{their_state, their_placement, options.other_clearance},
+      : mine{trees, state, options.clearance},
+        others{their_trees, their_state, options.other_clearance},
         moved_only(options.moved_only) {
-    state.refresh(placement);
-    their_state.refresh(their_placement);
+    trees.refresh(state);
+    their_trees.refresh(their_state);
   }
 
   /// True if the query asks for this pair of tree parts: p of the first model, q of the second.
@@ -31,12 +31,12 @@ struct CrossOperands {
   bool wanted(const PairTest& pair_test, std::size_t p, std::size_t q) const noexcept {
     const TreePart &a = mine.part(p), &b = others.part(q);
     return pair_test.admits_links(a.link, b.link) &&
-           (!moved_only || mine.placement.moved(id<GroupId>(a.group)) || others.placement.moved(id<GroupId>(b.group)));
+           (!moved_only || mine.state.moved(id<GroupId>(a.group)) || others.state.moved(id<GroupId>(b.group)));
   }
   /// World box of tree part q of the other model, in this model's unit and origin.
   FloatBox their_box(std::size_t q) const noexcept {
-    const auto ratio = static_cast<float>(mine.state.parts().scale / others.state.parts().scale);
-    FloatBox box = others.state.world_box(q, others.placement, mine.state.world_origin());
+    const auto ratio = static_cast<float>(mine.trees.parts().scale / others.trees.parts().scale);
+    FloatBox box = others.trees.world_box(q, others.state, mine.trees.world_origin());
     for (std::size_t k = 0; k < 3; ++k) {
       box.lower[k] *= ratio;
       box.upper[k] *= ratio;

@@ -29,19 +29,19 @@ class NearSearch {
     const double margin = cutoff + a.clearance_at(part_a) + b.clearance_at(part_b);
     // The tree with the larger root is opened first, against the root of the other tree.
     const bool turned =
-        part_a.root_size * static_cast<float>(b.state.parts().scale / a.state.parts().scale) < part_b.root_size;
+        part_a.root_size * static_cast<float>(b.trees.parts().scale / a.trees.parts().scale) < part_b.root_size;
     const TreeOperand<P>&x = turned ? b : a, &y = turned ? a : b;
     const TreePart &part_x = turned ? part_b : part_a, &part_y = turned ? part_a : part_b;
     RelativeTransform turn = x.turn(part_x, y, part_y);
-    finder_.run(x.state.parts(), part_x, y.state.parts(), part_y, turn, x.scaled(margin), counts,
+    finder_.run(x.trees.parts(), part_x, y.trees.parts(), part_y, turn, x.scaled(margin), counts,
                 [&](std::uint32_t slot, std::uint32_t leaf, simd::Bits lanes, bool slot_in_x) {
                   const TreeOperand<P>&of_slot = slot_in_x ? x : y, &of_leaf = slot_in_x ? y : x;
                   const PrimitiveId one = of_slot.primitive(slot);
-                  const P alone = of_slot.placement.alone(one);
+                  const P alone = of_slot.state.alone(one);
                   for (; lanes != 0; lanes &= lanes - 1) {
                     const auto k = static_cast<std::uint32_t>(std::countr_zero(lanes));
                     const PrimitiveId i = of_leaf.primitive(leaf * static_cast<std::uint32_t>(simd::width) + k);
-                    const P other = of_leaf.placement.alone(i);
+                    const P other = of_leaf.state.alone(i);
                     slot_in_x != turned ? pair_test.test_pair(one, i, alone, other)
                                         : pair_test.test_pair(i, one, other, alone);
                     if (collector.done() || !asks(collector, part_a.link, part_b.link)) return false;

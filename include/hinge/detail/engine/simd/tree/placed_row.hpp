@@ -13,7 +13,7 @@
 
 namespace hinge::detail {
 
-/// Lengths in tree units, relative to the world origin of TreeState.
+/// Lengths in tree units, relative to the world origin of PlacedTrees.
 struct alignas(64) PlacedRow {
   /// Three columns of the rotation, then the tree's origin in the world; each column has a spare entry.
   struct alignas(64) FloatFrame : std::array<float, 16> {};

@@ -10,23 +10,23 @@
 
 #include "hinge/core/id.hpp"
 #include "hinge/detail/bounds/float_box.hpp"
+#include "hinge/detail/engine/simd/tree/placed_trees.hpp"
 #include "hinge/detail/engine/simd/tree/relative_transform.hpp"
 #include "hinge/detail/engine/simd/tree/tree_parts.hpp"
-#include "hinge/detail/engine/simd/tree/tree_state.hpp"
 #include "hinge/detail/query/pair_threshold.hpp"
-#include "hinge/model/placement.hpp"
+#include "hinge/model/state.hpp"
 
 namespace hinge::detail {
 
 /// Trees, coordinates and extra clearances of one model in a query. Refers to the caller's objects.
 template <Primitive P>
 struct TreeOperand {
-  TreeState<P>& state;
-  Placement<P>& placement;
+  PlacedTrees<P>& trees;
+  State<P>& state;
   std::span<const double> clearance;
 
   /// The tree part of a link.
-  const TreePart& part(std::size_t p) const noexcept { return state.parts().links.parts[p]; }
+  const TreePart& part(std::size_t p) const noexcept { return trees.parts().links.parts[p]; }
   double clearance_at(const TreePart& part) const noexcept { return clearance_of(clearance, id<GroupId>(part.group)); }
   double clearance_at(std::size_t p) const noexcept { return clearance_at(part(p)); }
   double largest_clearance() const noexcept {
@@ -34,14 +34,14 @@ struct TreeOperand {
     for (const double c : clearance) most = std::max(most, c);
     return most;
   }
-  PrimitiveId primitive(std::uint32_t slot) const noexcept { return id<PrimitiveId>(state.parts().store.slots[slot]); }
+  PrimitiveId primitive(std::uint32_t slot) const noexcept { return id<PrimitiveId>(trees.parts().store.slots[slot]); }
   RelativeTransform turn(const TreePart& a, const TreeOperand& other, const TreePart& b) const noexcept {
-    return {state.frame(a.group),       state.parts().scale,       a.extent,
-            other.state.frame(b.group), other.state.parts().scale, b.extent};
+    return {trees.frame(a.group),       trees.parts().scale,       a.extent,
+            other.trees.frame(b.group), other.trees.parts().scale, b.extent};
   }
   /// A length in tree units, rounded up, with room for the rounding of a few sums.
   float scaled(double length) const noexcept {
-    const double there = length * state.parts().scale;
+    const double there = length * trees.parts().scale;
     return float_above(there + std::abs(there) * 0x1p-20);
   }
 };

@@ -21,7 +21,7 @@
 #include "hinge/detail/engine/simd/tree/merge_parts.hpp"
 #include "hinge/detail/engine/simd/tree/part_set.hpp"
 #include "hinge/detail/engine/simd/tree/static_tree.hpp"
-#include "hinge/detail/kinematics/pose_source.hpp"
+#include "hinge/detail/kinematics/forward_kinematics.hpp"
 #include "hinge/detail/primitive/triangle_leaf.hpp"
 #include "hinge/model/selected_model.hpp"
 #include "hinge/policy/distance_matrix.hpp"
@@ -97,7 +97,7 @@ TreeParts<P>::TreeParts(const SelectedModel<P>& model, const F& filter, const D&
 template <Primitive P>
 void TreeParts<P>::measure(const SelectedModel<P>& model, const std::vector<Aabb>& boxes) {
   const std::size_t groups = model.groups()->size();
-  PoseSource reference(model.groups(), model.selection().size());
+  ForwardKinematics reference(model.groups(), model.selection().size());
   double size = 0.0;
   Aabb all;
   for (std::size_t g = 0; g < groups; ++g) {

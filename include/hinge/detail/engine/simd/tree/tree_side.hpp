@@ -18,11 +18,11 @@
 #include "hinge/detail/engine/simd/tree/learned_order.hpp"
 #include "hinge/detail/engine/simd/tree/near_search.hpp"
 #include "hinge/detail/engine/simd/tree/pair_numbers.hpp"
+#include "hinge/detail/engine/simd/tree/placed_trees.hpp"
 #include "hinge/detail/engine/simd/tree/tree_operand.hpp"
 #include "hinge/detail/engine/simd/tree/tree_parts.hpp"
-#include "hinge/detail/engine/simd/tree/tree_state.hpp"
 #include "hinge/detail/engine/simd/tree/witnesses.hpp"
-#include "hinge/model/placement.hpp"
+#include "hinge/model/state.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/query/query_options.hpp"
 
@@ -33,25 +33,25 @@ template <Primitive P>
 class TreeSide {
  public:
   explicit TreeSide(std::shared_ptr<const TreeParts<P>> parts)
-      : state_(std::move(parts)), cross_order_(state_.parts().links.size()), asked_(state_.parts().links.size()) {
-    near_.reserve(2 * state_.parts().depth);
-    closest_.reserve(2 * state_.parts().depth);
+      : trees_(std::move(parts)), cross_order_(trees_.parts().links.size()), asked_(trees_.parts().links.size()) {
+    near_.reserve(2 * trees_.parts().depth);
+    closest_.reserve(2 * trees_.parts().depth);
     // Reserve memory so that queries of usual models never allocate.
-    const std::size_t n = state_.parts().links.size();
+    const std::size_t n = trees_.parts().links.size();
     closest_.reserve_pairs(std::min<std::size_t>(n * n / 2, 1U << 16U));
   }
 
   template <Collector C, class PairTest>
-  void self_query(Placement<P>& placement, const PairTest& pair_test, C& collector, const QueryOptions& options,
+  void self_query(State<P>& state, const PairTest& pair_test, C& collector, const QueryOptions& options,
                   QueryCounts& counts) {
-    state_.refresh(placement);
-    const TreeOperand<P> mine{state_, placement, options.clearance};
+    trees_.refresh(state);
+    const TreeOperand<P> mine{trees_, state, options.clearance};
     const auto wanted = [&](const TreePart& a, const TreePart& b) {
-      return !options.moved_only || placement.moved_apart(id<GroupId>(a.group), id<GroupId>(b.group));
+      return !options.moved_only || state.moved_apart(id<GroupId>(a.group), id<GroupId>(b.group));
     };
     const double most = mine.largest_clearance();
     if constexpr (C::ranks) {
-      const PlacedParts& placed = state_.links();
+      const PlacedParts& placed = trees_.links();
       const std::size_t n = placed.set().size();
       closest_.run(
           mine, mine, near_, witnesses_, pair_test, collector, counts, [&](double bound, std::vector<PartPair>& pairs) {
@@ -62,7 +62,7 @@ class TreeSide {
                           [&](const PartPair& pair) { return !wanted(mine.part(pair.first), mine.part(pair.second)); });
           });
     } else {
-      PlacedParts& placed = RefusesLinks<C> ? state_.links() : state_.merged();
+      PlacedParts& placed = RefusesLinks<C> ? trees_.links() : trees_.merged();
       const std::vector<TreePart>& parts = placed.set().parts;
       const auto look = [&](std::size_t q, std::size_t p) {
         near_.run(mine, parts[q], mine, parts[p], collector.cutoff(), pair_test, collector, counts);
@@ -86,16 +86,16 @@ class TreeSide {
 
   /// Adds the present state to the learned order of yes/no queries. `any` is the collector of pair_test.
   template <Collector C, class PairTest>
-  void learn(Placement<P>& placement, const PairTest& pair_test, C& any) {
-    const PartSet& set = state_.parts().merged();
+  void learn(State<P>& state, const PairTest& pair_test, C& any) {
+    const PartSet& set = trees_.parts().merged();
     if (set.size() > most_ordered) return;
     if (!order_.is_learned()) {
       numbers_ = PairNumbers(set.tested, set.size());
       order_ = LearnedOrder(numbers_.size());
     }
-    state_.refresh(placement);
-    const TreeOperand<P> mine{state_, placement, {}};
-    state_.merged().sweep([](std::size_t) { return 0.0F; },
+    trees_.refresh(state);
+    const TreeOperand<P> mine{trees_, state, {}};
+    trees_.merged().sweep([](std::size_t) { return 0.0F; },
                           [&](std::uint32_t q, std::uint32_t p) {
                             any = C{};
                             QueryCounts counts;
@@ -106,11 +106,10 @@ class TreeSide {
   }
   /// The same for queries against other models: the order of this model's tree parts.
   template <Collector C, class PairTest>
-  void learn(Placement<P>& placement, TreeSide& theirs, Placement<P>& their_placement, const PairTest& pair_test,
-             C& any) {
-    const CrossOperands<P> cross(state_, placement, theirs.state_, their_placement, {});
-    near_.reserve(state_.parts().depth + theirs.state_.parts().depth);
-    for (std::size_t q = 0; q < theirs.state_.parts().links.size(); ++q)
+  void learn(State<P>& state, TreeSide& theirs, State<P>& their_state, const PairTest& pair_test, C& any) {
+    const CrossOperands<P> cross(trees_, state, theirs.trees_, their_state, {});
+    near_.reserve(trees_.parts().depth + theirs.trees_.parts().depth);
+    for (std::size_t q = 0; q < theirs.trees_.parts().links.size(); ++q)
       each_meeting<C>(cross, pair_test, q, 0.0F, [&](std::size_t p, const TreePart& part) {
         any = C{};
         QueryCounts counts;
@@ -122,30 +121,30 @@ class TreeSide {
 
   /// True if the units of both models are similar enough for floats.
   bool fits(const TreeSide& theirs) const noexcept {
-    const double ratio = state_.parts().scale / theirs.state_.parts().scale;
+    const double ratio = trees_.parts().scale / theirs.trees_.parts().scale;
     return ratio >= 0x1p-60 && ratio <= 0x1p60;
   }
 
   /// A query between two models.
   template <Collector C, class PairTest>
-  void query(Placement<P>& placement, TreeSide& theirs, Placement<P>& their_placement, const PairTest& pair_test,
-             C& collector, const QueryOptions& options, QueryCounts& counts) {
-    const CrossOperands<P> cross(state_, placement, theirs.state_, their_placement, options);
+  void query(State<P>& state, TreeSide& theirs, State<P>& their_state, const PairTest& pair_test, C& collector,
+             const QueryOptions& options, QueryCounts& counts) {
+    const CrossOperands<P> cross(trees_, state, theirs.trees_, their_state, options);
     const TreeOperand<P>&mine = cross.mine, &others = cross.others;
-    const std::size_t depth = state_.parts().depth + theirs.state_.parts().depth;
+    const std::size_t depth = trees_.parts().depth + theirs.trees_.parts().depth;
     near_.reserve(depth);
     closest_.reserve(depth);
-    const std::size_t n = theirs.state_.parts().links.size();
+    const std::size_t n = theirs.trees_.parts().links.size();
     const double most = mine.largest_clearance();
     if constexpr (C::ranks) {
-      if (witnessed_.lock() != theirs.state_.shared_parts()) cross_witnesses_.clear();
-      witnessed_ = theirs.state_.shared_parts();
+      if (witnessed_.lock() != theirs.trees_.shared_parts()) cross_witnesses_.clear();
+      witnessed_ = theirs.trees_.shared_parts();
       closest_.run(mine, others, near_, cross_witnesses_, pair_test, collector, counts,
                    [&](double bound, std::vector<PartPair>& pairs) {
                      for (std::size_t q = 0; q < n; ++q)
-                       state_.links().append_near(cross.their_box(q),
+                       trees_.links().append_near(cross.their_box(q),
                                                   mine.scaled(bound + others.clearance_at(q) + most), q, pairs);
-                     counts.boxes_tested += n * state_.links().row_count();
+                     counts.boxes_tested += n * trees_.links().row_count();
                      std::erase_if(pairs, [&](const PartPair& pair) {
                        return !cross.wanted(pair_test, pair.first, pair.second);
                      });
@@ -153,7 +152,7 @@ class TreeSide {
     } else {
       const bool in_order = StopsAtFirst<C> && cross_order_.is_learned();
       for (std::size_t q = 0; q < n && !collector.done(); ++q) {
-        counts.boxes_tested += state_.links().row_count();
+        counts.boxes_tested += trees_.links().row_count();
         const float margin = mine.scaled(collector.cutoff() + others.clearance_at(q) + most);
         const auto look = [&](const TreePart& part) {
           near_.run(mine, part, others, others.part(q), collector.cutoff(), pair_test, collector, counts);
@@ -181,13 +180,13 @@ class TreeSide {
   template <Collector C, class PairTest, class Visit>
   void each_meeting(const CrossOperands<P>& cross, const PairTest& pair_test, std::size_t q, float margin,
                     const Visit& visit) {
-    const std::vector<TreePart>& parts = state_.parts().links.parts;
-    const auto met = state_.links().meeting(cross.their_box(q).grown(margin));
+    const std::vector<TreePart>& parts = trees_.parts().links.parts;
+    const auto met = trees_.links().meeting(cross.their_box(q).grown(margin));
     const auto wanted = [&](std::size_t p) { return cross.wanted(pair_test, p, q); };
     for (std::size_t k = 0; k < met.size();) {
       const std::size_t p = met[k++];
       const std::uint32_t group = parts[p].group;
-      const TreePart& whole = state_.parts().whole[group];
+      const TreePart& whole = trees_.parts().whole[group];
       if (!RefusesLinks<C> && whole.root_size > 0.0F && k < met.size() && parts[met[k]].group == group) {
         std::size_t first = p, last = p + 1;
         while (first > 0 && parts[first - 1].group == group) --first;
@@ -207,7 +206,7 @@ class TreeSide {
   /// Maximum number of tree parts: the order of pairs needs the square of it in memory.
   static constexpr std::size_t most_ordered = 1024;
 
-  TreeState<P> state_;
+  PlacedTrees<P> trees_;
   NearSearch<P> near_;
   ClosestSearch<P> closest_;
   PairNumbers numbers_;                 // set when an order is learned

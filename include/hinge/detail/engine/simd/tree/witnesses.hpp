@@ -11,7 +11,7 @@
 #include "hinge/core/id.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/core/vec3.hpp"
-#include "hinge/model/placement.hpp"
+#include "hinge/model/state.hpp"
 #include "hinge/policy/collector.hpp"
 #include "hinge/policy/primitive.hpp"
 
@@ -27,7 +27,7 @@ class Witnesses {
 
   /// Upper bound of the smallest d - M, model unit; infinite if nothing is stored.
   template <class PairTest>
-  double bound(Placement<P>& a, Placement<P>& b, const PairTest& pair_test) const noexcept {
+  double bound(State<P>& a, State<P>& b, const PairTest& pair_test) const noexcept {
     double least = std::numeric_limits<double>::infinity();
     for (const Witness& w : list_) {
       const Vec3 p = a.pose(a.model().group_of(w.i)) * w.p, q = b.pose(b.model().group_of(w.j)) * w.q;
@@ -42,7 +42,7 @@ class Witnesses {
     return least;
   }
 
-  void remember(const Hit& hit, Placement<P>& a, Placement<P>& b) {
+  void remember(const Hit& hit, State<P>& a, State<P>& b) {
     if constexpr (HasClosestPoints<P>) {
       if (!(hit.distance > 0.0)) return;
       const auto [p, q] = closest_points(a.alone(hit.first), b.alone(hit.second));
@@ -65,8 +65,8 @@ class Witnesses {
   };
   static constexpr std::size_t most = 32;
 
-  static Vec3 local(Placement<P>& placement, PrimitiveId i, const Vec3& point) noexcept {
-    return placement.pose(placement.model().group_of(i)).inverse() * point;
+  static Vec3 local(State<P>& state, PrimitiveId i, const Vec3& point) noexcept {
+    return state.pose(state.model().group_of(i)).inverse() * point;
   }
 
   std::vector<Witness> list_;  // the latest first

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PlacedBlocks: one model with the data of engine/simd, all primitives placed, and random models for it.
+// ModelInBlocks: one model with the data of engine/simd, all primitives placed, and random models for it.
 #pragma once
 
 #include <algorithm>
@@ -12,43 +12,43 @@
 #include "engine/random_mechanism.hpp"
 #include "hinge/detail/engine/simd/simd_side.hpp"
 #include "hinge/model/model.hpp"
-#include "hinge/model/placement.hpp"
 #include "hinge/model/selected_model.hpp"
+#include "hinge/model/state.hpp"
 #include "hinge/policy/distance_matrix.hpp"
 #include "hinge/policy/pair_filter.hpp"
 
 namespace hinge::test {
 
 template <class P>
-struct PlacedBlocks {
+struct ModelInBlocks {
   static constexpr std::size_t n = detail::simd::width;
 
-  PlacedBlocks(const Model<P>& model, bool inside_groups, double clearance = 0.0)
+  ModelInBlocks(const Model<P>& model, bool inside_groups, double clearance = 0.0)
       : selected(std::make_shared<const SelectedModel<P>>(model, DofSelection::all(model.tree()))),
-        placement(selected),
+        state(selected),
         side(std::make_shared<const detail::SimdParts<P>>(
                  inside_groups ? detail::BlockLayout::by_index(*selected) : detail::BlockLayout::by_groups(*selected),
                  detail::ThresholdClasses(UniformClearance(clearance), model.size()), *selected),
              *selected, AdmitAll{}, inside_groups) {}
 
   void make() {
-    side.begin(placement, false, {});
-    for (std::size_t k = 0; k < side.layout().entries.size(); ++k) side.state().refresh(k, placement);
-    for (std::uint32_t b = 0; b < side.layout().block_count(); ++b) side.state().block(b, placement);
+    side.begin(state, false, {});
+    for (std::size_t k = 0; k < side.layout().entries.size(); ++k) side.blocks().refresh(k, state);
+    for (std::uint32_t b = 0; b < side.layout().block_count(); ++b) side.blocks().block(b, state);
   }
   /// The primitive of a slot in double, which decides pairs.
   const P& primitive(std::size_t slot) {
-    return side.state().exact(static_cast<std::uint32_t>(slot / n), placement)[slot % n];
+    return side.blocks().exact(static_cast<std::uint32_t>(slot / n), state)[slot % n];
   }
   /// The floats of a slot, and of a block.
   const float* floats(std::size_t slot) const {
-    return side.state().packed(static_cast<std::uint32_t>(slot / n)) + slot % n;
+    return side.blocks().packed(static_cast<std::uint32_t>(slot / n)) + slot % n;
   }
   bool rigid(std::size_t slot) const { return side.layout().blocks[slot / n].rigid; }
   std::size_t slots() const { return side.layout().primitive.size(); }
 
   std::shared_ptr<const SelectedModel<P>> selected;
-  Placement<P> placement;
+  State<P> state;
   detail::SimdSide<P> side;
 };
 

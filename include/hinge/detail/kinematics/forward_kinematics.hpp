@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PoseSource: world poses of rigid groups, computed on demand, and the groups that the last update moved.
+// ForwardKinematics: world poses of rigid groups, computed on demand, and the groups that the last update moved.
 #pragma once
 
 #include <algorithm>
@@ -26,21 +26,20 @@ namespace hinge::detail {
 
 /// Holds the current configuration, or poses computed by the caller, for one set of rigid groups. Forward kinematics
 /// starts from the reference, so a pose depends on the configuration alone and not on earlier calls.
-class PoseSource {
+class ForwardKinematics {
  public:
   /// Starts at the reference configuration: every value 0.
-  explicit PoseSource(std::shared_ptr<const RigidGroups> groups, std::size_t dof_count)
+  explicit ForwardKinematics(std::shared_ptr<const RigidGroups> groups, std::size_t dof_count)
       : groups_(std::move(groups)),
         q_(dof_count, 0.0),
-        before_(dof_count, 0.0),
+        changed_(dof_count, 0),
         frames_(groups_->size()),
-        moved_(groups_->size(), true),
-        component_(groups_->size()) {
+        moved_(groups_->size(), 0),
+        component_(groups_->size(), 0) {
     for (std::size_t g = 1; g < groups_->size(); ++g) {
       const RigidGroup& group = (*groups_)[id<GroupId>(g)];
       if (group.joint.kind == JointKind::prismatic) slides_.push_back(group.dof);
     }
-    settle();
   }
 
   /// q: one value per selected DOF, rad or model length unit. ConfigurationError: wrong length, a value that is not
@@ -63,46 +62,45 @@ class PoseSource {
     return std::span(frames_).first(computed_);
   }
 
+  /// Returns true when every group but the world moved in the last set_...().
+  bool all_moved() const noexcept { return all_moved_; }
   /// Returns true when the group's pose changed in the last set_...(). After the first set_...() this is true for all
   /// groups but the world.
-  bool moved(GroupId group) noexcept {
-    settle();
-    return moved_[index(group)];
-  }
+  bool moved(GroupId group) const noexcept { return all_moved_ ? group != GroupId{0} : moved_[index(group)] != 0; }
 
   /// Groups with equal component kept their relative pose in the last set_...(). After the first set_...() all
   /// components differ.
-  std::size_t component(GroupId group) noexcept {
-    settle();
-    return component_[index(group)];
-  }
+  std::size_t component(GroupId group) const noexcept { return all_moved_ ? index(group) : component_[index(group)]; }
 
-  /// Returns true when so few values changed in the last set_...() that a search for groups at rest pays off.
+  /// Returns true when so few values changed from one configuration to the next that a search for groups at rest pays
+  /// off.
   bool few_changed() const noexcept { return few_changed_; }
+  /// Returns true when the current poses were given by set_poses().
+  bool poses_given() const noexcept { return source_ == Source::poses; }
 
-  /// Marks every group as moved in the next set_...(): the engines hold coordinates that do not come from these poses.
+  /// Makes the next set_...() move every group: the engines hold coordinates that do not come from these poses.
   void forget() noexcept {
-    given_ = true;
-    forgotten_ = true;
+    source_ = Source::none;
+    few_changed_ = false;
   }
 
   std::size_t dof_count() const noexcept { return q_.size(); }
 
  private:
-  void settle() noexcept;
+  enum class Source : unsigned char { none, configuration, poses };
+
+  void find_moved() noexcept;
   void compute_through(std::size_t last) noexcept;
 
   std::shared_ptr<const RigidGroups> groups_;
   std::vector<double> q_;
-  std::vector<double> before_;  // the previous configuration
+  std::vector<std::uint8_t> changed_;  // per value: the last set_configuration() changed it
   std::vector<Frame> frames_;
-  std::size_t computed_ = 1;  // frames_[0, computed_) are up to date
-  std::size_t reusable_ = 1;  // frames_[computed_, reusable_) hold the previous configuration
-  bool given_ = true;         // the last poses were given by the caller, or there are none yet
-  bool forgotten_ = true;     // the next set_...() moves every group
-  bool all_changed_ = true;   // the last set_...() moved every group
-  bool few_changed_ = false;
-  bool settled_ = false;  // moved_ and component_ describe the last set_...()
+  std::size_t computed_ = 1;      // frames_[0, computed_) are up to date
+  std::size_t reusable_ = 1;      // frames_[computed_, reusable_) hold the previous configuration
+  Source source_ = Source::none;  // of the current poses; none: the next set_...() moves every group
+  bool all_moved_ = true;         // the last set_...() moved every group; moved_ and component_ are not valid
+  bool few_changed_ = false;      // the last set_configuration() changed few values
   std::vector<std::uint8_t> moved_;
   std::vector<std::size_t> component_;
   std::vector<std::size_t> slides_;  // indices in q_ of prismatic joints
@@ -112,7 +110,7 @@ class PoseSource {
 /// "Few" means at most one in this many values.
 inline constexpr std::size_t few_changes_divisor = 4;
 
-inline void PoseSource::set_configuration(std::span<const double> q) {
+inline void ForwardKinematics::set_configuration(std::span<const double> q) {
   if (q.size() != q_.size())
     throw ConfigurationError("configuration has " + std::to_string(q.size()) + " values, expected " +
                              std::to_string(q_.size()));
@@ -129,38 +127,32 @@ inline void PoseSource::set_configuration(std::span<const double> q) {
                                ", expected a displacement of at most 2^1000");
   std::uint64_t changes = 0;
   for (std::size_t k = 0; k < q.size(); ++k) {
-    const double old = q_[k];
-    before_[k] = old;
+    const bool differs = std::bit_cast<std::uint64_t>(q_[k]) != std::bit_cast<std::uint64_t>(q[k]);
     q_[k] = q[k];
-    changes += std::bit_cast<std::uint64_t>(old) != std::bit_cast<std::uint64_t>(q[k]) ? 1U : 0U;
+    changed_[k] = differs;
+    changes += differs ? 1U : 0U;
   }
-  all_changed_ = given_;
-  few_changed_ = !given_ && changes <= q.size() / few_changes_divisor;
+  all_moved_ = source_ != Source::configuration || changes == q.size();
+  few_changed_ = !all_moved_ && changes <= q.size() / few_changes_divisor;
   reusable_ = few_changed_ ? computed_ : 1;
   computed_ = 1;
-  if (given_) frames_[0] = Frame{};
-  given_ = false;
-  forgotten_ = false;
-  settled_ = false;
-  if (few_changed_) settle();
+  source_ = Source::configuration;
+  if (!all_moved_) find_moved();
 }
 
 /// Finds the groups that the last set_configuration() moved.
-inline void PoseSource::settle() noexcept {
-  if (settled_) return;
-  settled_ = true;
-  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
-  moved_[0] = false;
+inline void ForwardKinematics::find_moved() noexcept {
+  moved_[0] = 0;
   component_[0] = 0;
   for (std::size_t g = 1; g < groups_->size(); ++g) {
     const RigidGroup& group = (*groups_)[id<GroupId>(g)];
-    const bool changed = all_changed_ || bits(q_[group.dof]) != bits(before_[group.dof]);
+    const bool changed = changed_[group.dof] != 0;
     moved_[g] = changed || moved_[index(group.parent)] != 0;
     component_[g] = changed ? g : component_[index(group.parent)];
   }
 }
 
-inline void PoseSource::compute_through(std::size_t last) noexcept {
+inline void ForwardKinematics::compute_through(std::size_t last) noexcept {
   const auto batches = groups_->joint_batches();
   while (computed_ <= last) {
     // Batches start at group 1. A batch is always computed completely.
@@ -186,7 +178,7 @@ inline void PoseSource::compute_through(std::size_t last) noexcept {
   }
 }
 
-inline void PoseSource::set_poses(std::span<const Pose> poses) {
+inline void ForwardKinematics::set_poses(std::span<const Pose> poses) {
   if (poses.size() != groups_->size())
     throw ConfigurationError(std::to_string(poses.size()) + " poses, expected " + std::to_string(groups_->size()) +
                              ", one per rigid group");
@@ -195,19 +187,17 @@ inline void PoseSource::set_poses(std::span<const Pose> poses) {
       throw ConfigurationError(
           "pose of rigid group " + std::to_string(g) +
           (g == 0 ? ": expected the identity, because this group is the world" : ": expected a rigid placement"));
-  compute_through(groups_->size() - 1);
+  all_moved_ = source_ == Source::none;
+  if (!all_moved_) compute_through(groups_->size() - 1);
+  moved_[0] = 0;
+  component_[0] = 0;
   for (std::size_t g = 1; g < poses.size(); ++g) {
-    moved_[g] = forgotten_ || !frames_[g].is(poses[g]);
+    moved_[g] = all_moved_ || !frames_[g].is(poses[g]);
     component_[g] = moved_[g] != 0 ? g : 0;
     std::construct_at(&frames_[g], poses[g]);  // assignment would load wider than the recent stores: slow
   }
-  moved_[0] = false;
-  component_[0] = 0;
-  frames_[0] = Frame{};
-  given_ = true;
-  forgotten_ = false;
+  source_ = Source::poses;
   few_changed_ = false;
-  settled_ = true;
   computed_ = reusable_ = groups_->size();
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// TreeState: the frames and world boxes of the trees in the present state.
+// PlacedTrees: the frames and world boxes of the trees in the present state.
 #pragma once
 
 #include <cstddef>
@@ -16,15 +16,15 @@
 #include "hinge/detail/engine/simd/tree/relative_transform.hpp"
 #include "hinge/detail/engine/simd/tree/tree_parts.hpp"
 #include "hinge/detail/simd/lanes.hpp"
-#include "hinge/model/placement.hpp"
+#include "hinge/model/state.hpp"
 
 namespace hinge::detail {
 
 /// Copies share the parts; each copy has its own state.
 template <Primitive P>
-class TreeState {
+class PlacedTrees {
  public:
-  explicit TreeState(std::shared_ptr<const TreeParts<P>> parts)
+  explicit PlacedTrees(std::shared_ptr<const TreeParts<P>> parts)
       : parts_(std::move(parts)),
         frames_(parts_->origin.size()),
         float_frames_(frames_.size()),
@@ -40,20 +40,20 @@ class TreeState {
   const Vec3& world_origin() const noexcept { return world_origin_; }
 
   /// Updates the frames.
-  void refresh(Placement<P>& placement) noexcept {
-    if (update_ == placement.update_number()) return;
-    const bool few = placement.few_moved();
-    update_ = placement.update_number();
+  void refresh(State<P>& state) noexcept {
+    if (update_ == state.update_number()) return;
+    const bool few = state.few_moved();
+    update_ = state.update_number();
     for (const TreePart& part : parts_->merged().parts) {
       const std::uint32_t group = part.group;
       if (frame_at_[group] == update_) continue;
       const auto g = id<GroupId>(group);
       // Group 0 is the world.
-      const bool current = frame_at_[group] != 0 && (group == 0 || (few && placement.version(g) <= frame_at_[group]));
+      const bool current = frame_at_[group] != 0 && (group == 0 || (few && state.version(g) <= frame_at_[group]));
       frame_at_[group] = update_;
       if (current) continue;
       changed_at_[group] = update_;
-      place(group, placement.frame(g));
+      place(group, state.frame(g));
     }
   }
   /// The tree parts of single links, as of the last refresh().
@@ -69,11 +69,11 @@ class TreeState {
   }
 
   /// World box of tree part p, reaches included, relative to `origin`, in this model's tree unit.
-  FloatBox world_box(std::size_t p, Placement<P>& placement, const Vec3& origin) const noexcept {
+  FloatBox world_box(std::size_t p, State<P>& state, const Vec3& origin) const noexcept {
     // Relative error of rotation, sums and rounding.
     constexpr float rounding = 8 * 0x1p-24F;
     const TreePart& part = parts_->links.parts[p];
-    const FloatBox box = FloatTransform(placement.frame(id<GroupId>(part.group)), origin, parts_->scale)(part.box);
+    const FloatBox box = FloatTransform(state.frame(id<GroupId>(part.group)), origin, parts_->scale)(part.box);
     const float size = box.extent();
     return sane(box.grown(size < 0x1p100F ? size * rounding : 0.0F));
   }
