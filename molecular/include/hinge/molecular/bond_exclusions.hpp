@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/molecular/pair_scope.hpp"
 #include "hinge/molecular/structure.hpp"
@@ -37,7 +38,7 @@ struct MinBonds {
 /// Admits pairs of atoms whose shortest path has at least min_bonds bonds (the paper's "more than three bonds" is
 /// min_bonds = 4), and atoms that no path of bonds connects. Primitive i is atom i. Copies share their data; const
 /// members may be called by many threads at once.
-class BondExclusions {
+class HINGE_API BondExclusions {
  public:
   /// min_bonds: both in 1 ... 16. exempt: further pairs that are not admitted. scope: made for this structure. Throws
   /// ModelError if a number is out of range, or an exempt pair is not two different atoms of the structure.
@@ -76,10 +77,10 @@ class BondExclusions {
 static_assert(ListsExclusions<BondExclusions>);
 
 /// Returns the neighbours of every atom in the bond graph, sorted.
-std::vector<std::vector<std::uint32_t>> bonded_neighbours(const Structure& structure);
+HINGE_API std::vector<std::vector<std::uint32_t>> bonded_neighbours(const Structure& structure);
 
 /// Returns the number of bonds on the shortest path between atoms i and j, or -1 if it is above `limit` or there is no
 /// path. Linear in the number of bonds.
-int bond_distance(const Structure& structure, std::uint32_t i, std::uint32_t j, int limit);
+HINGE_API int bond_distance(const Structure& structure, std::uint32_t i, std::uint32_t j, int limit);
 
 }  // namespace hinge::molecular

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/core/vec3.hpp"
 #include "hinge/molecular/molecule.hpp"
 
@@ -21,7 +22,7 @@ struct BondDeviation {
 
 /// Compares distances with those in model 0. Independent of the molecule after construction. Const members may be
 /// called by many threads at once.
-class BondGauge {
+class HINGE_API BondGauge {
  public:
   /// Measures the bonds and closures of the molecule in model 0.
   explicit BondGauge(const Molecule& molecule);

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "hinge/core/api.hpp"
 #include "hinge/molecular/components.hpp"
 #include "hinge/molecular/structure.hpp"
 
@@ -19,14 +20,15 @@ namespace hinge::molecular {
 /// component of that name; CONECT records, if they connect all heavy atoms; otherwise the table for the atoms that it
 /// knows, and covalent radii for the others. Between residues: polymer bonds, recorded bonds, and those that `between`
 /// asks for. Throws LoadError if a component cannot be read.
-void perceive_bonds(Structure& structure, ComponentLibrary components = {}, BondSearch between = BondSearch::geometry);
+HINGE_API void perceive_bonds(Structure& structure, ComponentLibrary components = {},
+                              BondSearch between = BondSearch::geometry);
 
 /// True for metals and metalloids that coordinate; every bond of such an atom is a coordination bond. element: symbol
 /// as in Atom::element.
-bool is_metal(const std::string& element) noexcept;
+HINGE_API bool is_metal(const std::string& element) noexcept;
 
 /// Single-bond covalent radius in angstrom (Cordero et al., Dalton Trans. 2008, 2832); 1.5 for elements that the table
 /// lacks.
-double covalent_radius(const std::string& element) noexcept;
+HINGE_API double covalent_radius(const std::string& element) noexcept;
 
 }  // namespace hinge::molecular

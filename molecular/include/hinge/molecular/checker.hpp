@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "hinge/batch/state_batch.hpp"
+#include "hinge/core/api.hpp"
 #include "hinge/detail/batch/faster_way.hpp"
 #include "hinge/engine/brute.hpp"
 #include "hinge/engine/lazy.hpp"
@@ -66,7 +67,7 @@ struct Verdict {
 };
 
 /// Tests conformations of one molecule. One per thread: checks change its state. Copies share all constant data.
-class Checker {
+class HINGE_API Checker {
  public:
   /// `molecule` is shared, not copied; null throws ModelError. Also throws ModelError if the engine, the rules or the
   /// radii set are unknown, a number is out of range, or an option is set that the rules fix.

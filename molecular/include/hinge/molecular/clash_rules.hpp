@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 
 namespace hinge::molecular {
@@ -22,9 +23,9 @@ struct ClashRules {
 };
 
 /// The rules biocd, severe, molprobity, chimerax and posebusters; a static object.
-const std::vector<ClashRules>& all_clash_rules();
+HINGE_API const std::vector<ClashRules>& all_clash_rules();
 
 /// Returns the rules of this name; a static object. Throws ModelError, with the known names, if there are none.
-const ClashRules& clash_rules(std::string_view name);
+HINGE_API const ClashRules& clash_rules(std::string_view name);
 
 }  // namespace hinge::molecular

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/core/philox.hpp"
 #include "hinge/kinematics/closure_solver.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
@@ -30,7 +31,7 @@ struct ClosedSample {
 };
 
 /// The starts of one sample: the first equals sample_configuration, the next continue its streams.
-class StartStream {
+class HINGE_API StartStream {
  public:
   /// ranges: one per placed part. The selection holds the DOF of all placed parts. Throws ModelError if the number of
   /// ranges is wrong.
@@ -51,7 +52,7 @@ class StartStream {
 
 /// Sample `index` depends on the construction and (seed, index) alone: a start of StartStream that the solver moves
 /// onto the closed set (every closure within 1e-9 angstrom, far below the decimals of a file). One per thread.
-class ClosedSampler {
+class HINGE_API ClosedSampler {
  public:
   /// Keeps all closures of the molecule, which has no placed parts. The molecule must outlive the sampler. Throws
   /// ModelError if most_tries is 0 or the selection is empty.
@@ -103,9 +104,9 @@ class ClosedSampler {
 
 /// Returns those of the torsions (indices in Molecule::torsions()) that cannot leave the reference while all cycles
 /// stay closed, for all coordinates that round to the given three decimals. Sorted. It may miss some.
-std::vector<std::size_t> find_held_torsions(const Molecule& molecule, std::span<const std::size_t> torsions);
+HINGE_API std::vector<std::size_t> find_held_torsions(const Molecule& molecule, std::span<const std::size_t> torsions);
 /// The same with only these closures kept, indices in the tree's.
-std::vector<std::size_t> find_held_torsions(const Molecule& molecule, std::span<const std::size_t> torsions,
-                                            std::span<const std::size_t> closures);
+HINGE_API std::vector<std::size_t> find_held_torsions(const Molecule& molecule, std::span<const std::size_t> torsions,
+                                                      std::span<const std::size_t> closures);
 
 }  // namespace hinge::molecular

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/molecular/structure.hpp"
 
 namespace hinge::molecular {
@@ -29,7 +30,7 @@ struct Component {
 
 /// Components by residue name: first those added, then those of a monomer dictionary, a folder of files x/XYZ.cif. A
 /// dictionary's file is read at the first find() of its name. Not thread-safe: find() caches.
-class ComponentLibrary {
+class HINGE_API ComponentLibrary {
  public:
   ComponentLibrary() = default;
   /// dictionary: a folder; empty: no dictionary. Throws LoadError if it is not a folder.
@@ -54,6 +55,6 @@ class ComponentLibrary {
 
 /// Returns the monomer dictionary of this machine: $CLIBD_MON if it is set and not empty, otherwise the folder of
 /// Debian's refmac-dictionary, or an empty path if that is not installed.
-std::filesystem::path installed_dictionary();
+HINGE_API std::filesystem::path installed_dictionary();
 
 }  // namespace hinge::molecular

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/molecular/ensemble_spread.hpp"
 #include "hinge/molecular/held_placement.hpp"
 
@@ -14,7 +15,7 @@ namespace hinge::molecular {
 /// A set of atoms that keeps its shape in all conformations. A segment is a set of atoms without a turning torsion
 /// inside. A group has several segments if turning torsions lie between them, as where a chain leaves a domain and
 /// returns. The largest segment is first.
-struct EnsembleGroup {
+struct HINGE_API EnsembleGroup {
   std::vector<std::vector<std::uint32_t>> segments;  ///< atom indices, each segment sorted
   double spread = 0.0;  ///< largest standard deviation of a distance between two of its points, angstrom
 
@@ -36,10 +37,10 @@ struct EnsembleGroups {
 /// axis (1.44 angstrom away) by at most the tolerance. The results are the segments. Then segments of at least four
 /// bodies that no turning torsion joins are united, those with the least spread first. Throws ModelError for fewer than
 /// two conformations, or a tolerance that is not a length above 0.
-EnsembleGroups find_ensemble_groups(const EnsembleSpread& spread, double tolerance);
+HINGE_API EnsembleGroups find_ensemble_groups(const EnsembleSpread& spread, double tolerance);
 
 /// Returns placements that keep groups of several segments rigid (MoleculeOptions::held): each segment is held with the
 /// largest one of its group. groups: of this molecule.
-std::vector<HeldPlacement> held_placements(const Molecule& molecule, const EnsembleGroups& groups);
+HINGE_API std::vector<HeldPlacement> held_placements(const Molecule& molecule, const EnsembleGroups& groups);
 
 }  // namespace hinge::molecular

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/core/vec3.hpp"
 #include "hinge/molecular/molecule.hpp"
 
@@ -15,7 +16,7 @@ namespace hinge::molecular {
 
 /// The bodies that a set of torsions joins. A body is a set of atoms whose relative positions these torsions do not
 /// change. The points of a body include the axis atoms of its torsions, which it shares with its neighbours.
-class TorsionBodies {
+class HINGE_API TorsionBodies {
  public:
   /// torsions: indices in Molecule::torsions(). Independent of the molecule after construction.
   TorsionBodies(const Molecule& molecule, std::span<const std::size_t> torsions);
@@ -38,7 +39,7 @@ class TorsionBodies {
 
 /// Accumulates conformations one by one, without storing them. Memory is 8 bytes per pair of points, independent of the
 /// number of conformations. Not thread-safe: add() changes the sums.
-class EnsembleSpread {
+class HINGE_API EnsembleSpread {
  public:
   /// torsions: those that may turn, indices in Molecule::torsions(). The molecule must outlive this object. Throws
   /// ModelError if the bodies have more than most_points points.

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/core/vec3.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/molecular/molecule.hpp"
@@ -17,23 +18,23 @@ namespace hinge::molecular {
 
 /// Returns the rotation relative to the reference, rad in (-pi, pi], that gives torsions()[k] its dihedral angle in
 /// `positions` (angstrom, one per atom). Throws LoadError if these positions leave the torsion undefined.
-double turn_of(const Molecule& molecule, std::size_t k, std::span<const Vec3> positions);
+HINGE_API double turn_of(const Molecule& molecule, std::size_t k, std::span<const Vec3> positions);
 
 /// Returns such a rotation for each selected DOF, in the selection's order; the selection holds torsions only.
 /// positions: angstrom, one per atom. Bond lengths, bond angles and other torsions stay as in the reference, so the
 /// result is not a superposition (see superpose). Throws LoadError if these positions leave a torsion undefined.
-std::vector<double> fit_torsions(const Molecule& molecule, const DofSelection& selection,
-                                 std::span<const Vec3> positions);
+HINGE_API std::vector<double> fit_torsions(const Molecule& molecule, const DofSelection& selection,
+                                           std::span<const Vec3> positions);
 
 /// Returns the values of PlacedPart::dofs for each placed part, angstrom and rad in [-pi, pi]. They move a part of
 /// `rebuilt`, where all placements are 0, onto its atoms in `positions` by least squares. Before, `positions` are
 /// superposed on the atoms outside placed parts; if there are none, both sets share one frame. rebuilt, positions:
 /// angstrom, one per atom.
-std::vector<std::array<double, 6>> fit_placements(const Molecule& molecule, std::span<const Vec3> rebuilt,
-                                                  std::span<const Vec3> positions);
+HINGE_API std::vector<std::array<double, 6>> fit_placements(const Molecule& molecule, std::span<const Vec3> rebuilt,
+                                                            std::span<const Vec3> positions);
 
 /// Adds whole turns to each value so that it is within pi of the value in `near`. rad; both of the same length.
-void take_shorter_way(std::span<const double> near, std::span<double> turns);
+HINGE_API void take_shorter_way(std::span<const double> near, std::span<double> turns);
 
 /// Distances between corresponding atoms after superposition, angstrom.
 struct Superposition {
@@ -44,6 +45,6 @@ struct Superposition {
 
 /// Returns the distances after the best rigid superposition without reflection, with equal weights (S. Umeyama, IEEE
 /// PAMI 13(4), 1991, eq. 34-42). moved, onto: angstrom, of the same length, at least one position.
-Superposition superpose(std::span<const Vec3> moved, std::span<const Vec3> onto);
+HINGE_API Superposition superpose(std::span<const Vec3> moved, std::span<const Vec3> onto);
 
 }  // namespace hinge::molecular

@@ -4,6 +4,7 @@
 
 #include <string_view>
 
+#include "hinge/core/api.hpp"
 #include "hinge/molecular/structure.hpp"
 
 namespace hinge::molecular {
@@ -12,6 +13,6 @@ namespace hinge::molecular {
 /// (Acta Cryst. A47:392, 1991); phi/psi by letter: H -57/-47, E -120/130, C -75/145 degrees (proline phi -65); omega
 /// 180; common rotamers. sequence: one-letter codes. secondary_structure: H, E or C, one per residue. Throws ModelError
 /// for an unknown letter (with its position), unequal lengths, or an empty sequence. Linear in the length.
-Structure build_ideal_protein(std::string_view sequence, std::string_view secondary_structure);
+HINGE_API Structure build_ideal_protein(std::string_view sequence, std::string_view secondary_structure);
 
 }  // namespace hinge::molecular

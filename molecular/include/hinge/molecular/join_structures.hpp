@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/molecular/structure.hpp"
 
 namespace hinge::molecular {
@@ -12,6 +13,6 @@ namespace hinge::molecular {
 /// between them. A chain name that an earlier structure uses is replaced by the first free one of A-Z, a-z, 0-9, and a
 /// note says so. At most one structure may have several models; the others are repeated in each model. Throws
 /// ModelError if two have several models, if no chain name is left, or if `structures` is empty.
-Structure join_structures(std::vector<Structure> structures);
+HINGE_API Structure join_structures(std::vector<Structure> structures);
 
 }  // namespace hinge::molecular

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/molecular/structure.hpp"
 
 namespace hinge::molecular {
@@ -26,15 +27,16 @@ struct Loop {
 /// residues (find_part), between commas. Throws ModelError for another form; for residues that are not consecutive, are
 /// not amino acids with N, CA and C, or are not joined by peptide bonds to each other and to the residues before and
 /// after (an end of a chain needs no closing); and for loops that share residues.
-std::vector<Loop> find_loops(const Structure& structure, std::string_view words);
+HINGE_API std::vector<Loop> find_loops(const Structure& structure, std::string_view words);
 
 /// Returns "A:ASP39-GLY47".
-std::string label(const Structure& structure, const Loop& loop);
+HINGE_API std::string label(const Structure& structure, const Loop& loop);
 
 /// Returns the torsions to free, indices in Molecule::torsions(), sorted: those of the molecule's loops
 /// (MoleculeOptions::loops; omega only if `omega` is true) and those that `side_chains` selects (select_torsions).
 /// Throws ModelError if side_chains selects a torsion other than chi, or a loop has fewer than six rotations, its last
 /// psi included: a closed cycle needs six to have another conformation.
-std::vector<std::size_t> select_loop_torsions(const Molecule& molecule, std::string_view side_chains, bool omega);
+HINGE_API std::vector<std::size_t> select_loop_torsions(const Molecule& molecule, std::string_view side_chains,
+                                                        bool omega);
 
 }  // namespace hinge::molecular

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/core/vec3.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
@@ -49,7 +50,7 @@ struct MoleculeOptions {
 /// an omega, that is fixed too. One rigid fragment of each connected component of the bond graph is fixed in the world,
 /// or in its placed part. Views and references are valid for this object's lifetime. Const members may be called by
 /// many threads at once.
-class Molecule {
+class HINGE_API Molecule {
  public:
   /// Throws ModelError if psi of a loop's last residue is undefined, or a placed part is empty, is bonded to an atom
   /// outside it, or shares a residue with another.
@@ -98,6 +99,6 @@ class Molecule {
 /// Returns BioCD's basic groups, one label per atom. Amino acid: pseudo-backbone (backbone and C-beta) and
 /// pseudo-side-chain; proline is one group; side chains that a disulphide joins are one group. Nucleotide: backbone and
 /// base. Any other residue: one group.
-std::vector<std::uint32_t> basic_groups(const Structure& structure);
+HINGE_API std::vector<std::uint32_t> basic_groups(const Structure& structure);
 
 }  // namespace hinge::molecular

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/molecular/part.hpp"
 #include "hinge/molecular/structure.hpp"
@@ -18,7 +19,7 @@ namespace hinge::molecular {
 /// A set of pairs: those with one atom in each part of a pair in `between`, and those with both atoms in one part of
 /// `inside`. A default-constructed scope holds every pair. Copies share their data; const members may be called by many
 /// threads at once.
-class PairScope {
+class HINGE_API PairScope {
  public:
   PairScope() = default;
   /// Both lists empty: every pair. Throws ModelError if the two parts of a pair in `between` share a residue.

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/molecular/structure.hpp"
 
 namespace hinge::molecular {
@@ -28,12 +29,12 @@ enum class ResidueNames : std::uint8_t { all, only };
 ///   file:2     all residues of the second file (join_structures)
 ///   all, ligands, loops, every:N, count:K    the residues that these words mean in selections of torsions
 /// Throws ModelError, with the word, its position, what was found and what was expected; also if nothing is selected.
-Part find_part(const Structure& structure, std::string_view words, ResidueNames names = ResidueNames::all);
+HINGE_API Part find_part(const Structure& structure, std::string_view words, ResidueNames names = ResidueNames::all);
 
 /// Returns every residue outside `part`. Throws ModelError if there is none.
-Part rest_of(const Structure& structure, const Part& part);
+HINGE_API Part rest_of(const Structure& structure, const Part& part);
 
 /// Returns one value per atom: true if the atom is in the part.
-std::vector<bool> atoms_in(const Structure& structure, const Part& part);
+HINGE_API std::vector<bool> atoms_in(const Structure& structure, const Part& part);
 
 }  // namespace hinge::molecular

@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 
+#include "hinge/core/api.hpp"
 #include "hinge/engine/simd.hpp"
 #include "hinge/molecular/checker.hpp"
 #include "hinge/path/certified_path.hpp"
@@ -18,7 +19,7 @@ namespace hinge::molecular {
 /// angstrom, relative to the reference. Throws ConfigurationError for a wrong number of values or one that is not
 /// finite. between: called before every segment or state; may throw to end the work. One per thread; copies share all
 /// constant data.
-class PathChecker {
+class HINGE_API PathChecker {
  public:
   /// Takes the molecule's model, the selection and the rules from the checker; independent of it afterwards.
   explicit PathChecker(const Checker& checker);

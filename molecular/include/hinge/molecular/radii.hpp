@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/molecular/clash_rules.hpp"
 #include "hinge/molecular/structure.hpp"
 #include "hinge/policy/distance_matrix.hpp"
@@ -43,13 +44,13 @@ struct RadiiSet {
 };
 
 /// The sets bondi, probe, probe-united and amber; a static object.
-const std::vector<RadiiSet>& radii_sets();
+HINGE_API const std::vector<RadiiSet>& radii_sets();
 
 /// Returns the set of this name; a static object. Throws ModelError, with the known names, if there is none.
-const RadiiSet& radii_set(std::string_view name);
+HINGE_API const RadiiSet& radii_set(std::string_view name);
 
 /// Returns one class per atom, from elements, bonds, residues and the coordinates of the first model.
-std::vector<AtomClass> classify_atoms(const Structure& structure);
+HINGE_API std::vector<AtomClass> classify_atoms(const Structure& structure);
 
 /// Clash rules and radii. The default rules are `severe` for a structure with hydrogens. They are `biocd` for a
 /// structure without hydrogens, and if any option of biocd is set.
@@ -86,6 +87,6 @@ struct Thresholds {
 
 /// Returns the thresholds of a structure. Throws ModelError if the rules or the radii set are unknown, rho or the
 /// allowance is out of range, or one of them is set together with rules that fix it.
-Thresholds make_thresholds(const Structure& structure, const ThresholdOptions& options = {});
+HINGE_API Thresholds make_thresholds(const Structure& structure, const ThresholdOptions& options = {});
 
 }  // namespace hinge::molecular

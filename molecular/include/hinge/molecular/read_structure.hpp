@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/structure.hpp"
 
@@ -35,6 +36,6 @@ struct ReadOptions {
 /// kept, and a note says so. Throws LoadError, with the file, the line or entity, and what was found and expected, if
 /// the file cannot be opened, unpacks to more than 64 MiB + 200 times its size, has no atoms, blank or non-finite
 /// coordinates, or broken MODEL records. Throws OtherAtoms if the models have no atom in common.
-Structure read_structure(const std::filesystem::path& path, const ReadOptions& options = {});
+HINGE_API Structure read_structure(const std::filesystem::path& path, const ReadOptions& options = {});
 
 }  // namespace hinge::molecular

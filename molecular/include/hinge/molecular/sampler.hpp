@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/core/philox.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/molecular/molecule.hpp"
@@ -29,18 +30,20 @@ struct PlacementRange {
 };
 
 /// Returns the next configuration of a stream: rotations relative to the reference (rad), dof_count values.
-std::vector<double> draw_configuration(const Sampling& sampling, SampleStream& stream, std::size_t dof_count);
+HINGE_API std::vector<double> draw_configuration(const Sampling& sampling, SampleStream& stream, std::size_t dof_count);
 
 /// Returns sample `index`: rotations relative to the reference (rad), one per DOF in DOF order.
-std::vector<double> sample_configuration(const Sampling& sampling, std::uint64_t index, std::size_t dof_count);
+HINGE_API std::vector<double> sample_configuration(const Sampling& sampling, std::uint64_t index,
+                                                   std::size_t dof_count);
 
 /// The same with placed parts: one value per selected DOF. Torsions are drawn as above, independent of the placements.
 /// Each placement is uniform in its range, independent of the torsions: the centre by volume, the rotation by the
 /// invariant measure. ranges: one per placed part. Throws ModelError if their number is wrong or one is out of range.
-std::vector<double> sample_configuration(const Sampling& sampling, std::uint64_t index, const Molecule& molecule,
-                                         const DofSelection& selection, std::span<const PlacementRange> ranges);
+HINGE_API std::vector<double> sample_configuration(const Sampling& sampling, std::uint64_t index,
+                                                   const Molecule& molecule, const DofSelection& selection,
+                                                   std::span<const PlacementRange> ranges);
 
 /// Returns the values of PlacedPart::dofs: three in angstrom, three in rad.
-std::array<double, 6> sample_placement(SampleStream& stream, const PlacementRange& range);
+HINGE_API std::array<double, 6> sample_placement(SampleStream& stream, const PlacementRange& range);
 
 }  // namespace hinge::molecular

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/molecular/molecule.hpp"
 
 namespace hinge::molecular {
@@ -41,9 +42,9 @@ struct SelectedTorsions {
 /// A:1-5:psi. omega is freed only if `omega` is true or a word names it. Throws ModelError, with the word, its position
 /// and what was expected; also if an expression other than none selects nothing, or a word for residues or for torsions
 /// of residues does.
-SelectedTorsions read_selection(const Molecule& molecule, std::string_view expression, bool omega);
+HINGE_API SelectedTorsions read_selection(const Molecule& molecule, std::string_view expression, bool omega);
 
 /// Returns read_selection(...).torsions.
-std::vector<std::size_t> select_torsions(const Molecule& molecule, std::string_view expression, bool omega);
+HINGE_API std::vector<std::size_t> select_torsions(const Molecule& molecule, std::string_view expression, bool omega);
 
 }  // namespace hinge::molecular

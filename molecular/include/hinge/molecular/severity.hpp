@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 
+#include "hinge/core/api.hpp"
 #include "hinge/molecular/radii.hpp"
 #include "hinge/policy/collector.hpp"
 
@@ -24,9 +25,9 @@ struct Severity {
 
 /// Returns the severity of a pair. collides: the verdict of these thresholds, which the rounded hit.distance cannot
 /// tell. Bounds of the other classes include ties of coordinates with three decimals.
-Severity severity_of(const Thresholds& thresholds, const Hit& hit, bool collides);
+HINGE_API Severity severity_of(const Thresholds& thresholds, const Hit& hit, bool collides);
 
 /// MolProbity's clashscore: clashes per 1000 atoms; 0 if atoms is 0.
-double clashscore(std::size_t clashes, std::size_t atoms);
+HINGE_API double clashscore(std::size_t clashes, std::size_t atoms);
 
 }  // namespace hinge::molecular

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/core/vec3.hpp"
 
 namespace hinge::molecular {
@@ -118,9 +119,9 @@ struct Structure {
 
 /// Returns "A:LYS77:NZ" for an index in structure.atoms. The insertion code follows the number ("A:SER60A:OG"); a blank
 /// chain name is printed as "_".
-std::string label(const Structure& structure, std::uint32_t atom);
+HINGE_API std::string label(const Structure& structure, std::uint32_t atom);
 
 /// True if any atom is a hydrogen (or deuterium).
-bool has_hydrogens(const Structure& structure) noexcept;
+HINGE_API bool has_hydrogens(const Structure& structure) noexcept;
 
 }  // namespace hinge::molecular

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 
+#include "hinge/core/api.hpp"
 #include "hinge/molecular/structure.hpp"
 #include "hinge/molecular/torsions.hpp"
 
@@ -15,7 +16,7 @@ namespace hinge::molecular {
 
 /// Returns "protein", "DNA", "RNA", "cap" (of a chain's end), "ion" or "ligand". A nucleotide with O2' is RNA, modified
 /// or not. An ion is a residue of one atom outside polymers. residue: index in structure.residues.
-std::string residue_class(const Structure& structure, std::uint32_t residue);
+HINGE_API std::string residue_class(const Structure& structure, std::uint32_t residue);
 
 /// Number of residues of one class.
 struct ClassSummary {
@@ -25,10 +26,11 @@ struct ClassSummary {
 };
 
 /// Returns the residues of a structure by residue_class.
-std::map<std::string, ClassSummary> residues_by_class(const Structure& structure);
+HINGE_API std::map<std::string, ClassSummary> residues_by_class(const Structure& structure);
 
 /// Returns the number of torsions by name. Rotatable bonds, which are named by their atoms, are counted by residue
 /// name, as "bonds of KNI".
-std::map<std::string, std::size_t> torsions_by_kind(const Structure& structure, std::span<const Torsion> torsions);
+HINGE_API std::map<std::string, std::size_t> torsions_by_kind(const Structure& structure,
+                                                              std::span<const Torsion> torsions);
 
 }  // namespace hinge::molecular

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/molecular/structure.hpp"
 
 namespace hinge::molecular {
@@ -33,13 +34,13 @@ struct Torsion {
 ///
 /// Rotatable bonds of ligands, sugars and modified residues: single, acyclic, not terminal, not an amide. These bonds,
 /// and cross-links between residues that can turn, are named by their atoms.
-std::vector<Torsion> find_torsions(const Structure& structure, std::vector<std::string>& notes);
+HINGE_API std::vector<Torsion> find_torsions(const Structure& structure, std::vector<std::string>& notes);
 
 /// Returns "A:LYS77:chi1"; the residue is named as by label().
-std::string torsion_label(const Structure& structure, const Torsion& torsion);
+HINGE_API std::string torsion_label(const Structure& structure, const Torsion& torsion);
 
 /// Returns the dihedral angle of four positions, rad in (-pi, pi], IUPAC sign. NaN if three consecutive positions are
 /// collinear up to rounding.
-double dihedral(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) noexcept;
+HINGE_API double dihedral(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) noexcept;
 
 }  // namespace hinge::molecular

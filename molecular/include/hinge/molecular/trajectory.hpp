@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/core/vec3.hpp"
 #include "hinge/molecular/read_structure.hpp"
 #include "hinge/molecular/structure.hpp"
@@ -18,7 +19,7 @@ namespace hinge::molecular {
 /// the first three have as many atoms as the first model of the molecule's file has atom records, or as the molecule
 /// has atoms, in the same order; PDB and mmCIF models name their atoms. mmCIF and gzipped files are held in memory;
 /// other files only one frame and the offsets of all. Const members may be called by many threads at once.
-class Trajectory {
+class HINGE_API Trajectory {
  public:
   /// Opens a file. The molecule must outlive this object. may_have_more: PDB and mmCIF models may have further atoms,
   /// which are dropped. Throws LoadError if the file cannot be read or its frames belong to another molecule. DCD and

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "hinge/core/api.hpp"
 #include "hinge/core/vec3.hpp"
 #include "hinge/molecular/structure.hpp"
 #include "hinge/policy/collector.hpp"
@@ -16,34 +17,35 @@ namespace hinge::molecular {
 /// Throws ModelError, with the chain, residue or atom, if PDB columns cannot hold the structure: a chain name longer
 /// than one character, a residue name longer than three, an atom name longer than four, or a residue number below
 /// -999 or beyond hybrid-36.
-void check_fits_pdb(const Structure& structure);
+HINGE_API void check_fits_pdb(const Structure& structure);
 
 /// Writes the records before the models of a PDB file: HELIX, SHEET, SSBOND, LINK (bonds between residues that are not
 /// neighbours in their chain), and REMARK 999. The remark says that the file records every bond that residue names do
 /// not imply; read_structure then restores the same bonds, independent of the coordinates. Throws ModelError as
 /// check_fits_pdb does.
-void write_pdb_head(std::ostream& out, const Structure& structure);
+HINGE_API void write_pdb_head(std::ostream& out, const Structure& structure);
 /// Writes one MODEL ... ENDMDL block. positions: angstrom, one per atom. number: model number. Serial numbers above
 /// 99999 and residue numbers above 9999 are hybrid-36. Throws ModelError as check_fits_pdb does, and if a coordinate
 /// does not fit eight columns.
-void write_pdb_model(std::ostream& out, const Structure& structure, std::span<const Vec3> positions, int number);
+HINGE_API void write_pdb_model(std::ostream& out, const Structure& structure, std::span<const Vec3> positions,
+                               int number);
 /// Writes CONECT records and END. A multiple bond is a repeated partner.
-void write_pdb_tail(std::ostream& out, const Structure& structure);
+HINGE_API void write_pdb_tail(std::ostream& out, const Structure& structure);
 
 /// Writes the same data as mmCIF, which holds names of any length and any number of atoms: struct_conf,
 /// struct_sheet_range, struct_conn, chem_comp_bond, the category hinge_bond in place of REMARK 999, and the header of
 /// atom_site. At least one model must follow.
-void write_cif_head(std::ostream& out, const Structure& structure);
+HINGE_API void write_cif_head(std::ostream& out, const Structure& structure);
 /// Writes one model. positions: angstrom, one per atom, as the shortest decimals that read back as the same doubles.
 /// model: its number. first_id: atom_site.id of its first atom.
-void write_cif_model(std::ostream& out, const Structure& structure, std::span<const Vec3> positions, int number,
-                     std::size_t first_id);
+HINGE_API void write_cif_model(std::ostream& out, const Structure& structure, std::span<const Vec3> positions,
+                               int number, std::size_t first_id);
 
 /// Writes a script that opens pdb_file (in the script's folder) and marks every pair with a line and its distance.
 /// pairs: PrimitiveId i is atom i.
-void write_chimerax_script(std::ostream& out, const Structure& structure, std::span<const Hit> pairs,
-                           const std::string& pdb_file);
-void write_pymol_script(std::ostream& out, const Structure& structure, std::span<const Hit> pairs,
-                        const std::string& pdb_file);
+HINGE_API void write_chimerax_script(std::ostream& out, const Structure& structure, std::span<const Hit> pairs,
+                                     const std::string& pdb_file);
+HINGE_API void write_pymol_script(std::ostream& out, const Structure& structure, std::span<const Hit> pairs,
+                                  const std::string& pdb_file);
 
 }  // namespace hinge::molecular

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 
+#include "hinge/core/api.hpp"
 #include "hinge/core/vec3.hpp"
 #include "hinge/molecular/structure.hpp"
 
@@ -23,7 +24,7 @@ enum class TrajectoryFormat : std::uint8_t {
 };
 
 /// Returns the format of a file extension, or nullopt for an unknown one.
-std::optional<TrajectoryFormat> trajectory_format(const std::filesystem::path& path);
+HINGE_API std::optional<TrajectoryFormat> trajectory_format(const std::filesystem::path& path);
 /// The known extensions, for messages.
 inline constexpr const char* trajectory_extensions = ".pdb, .cif, .dcd or .npy";
 /// True if frames of the format name the molecule's atoms; frames of the other formats are numbers alone.
@@ -33,7 +34,7 @@ inline bool names_atoms(TrajectoryFormat format) {
 
 /// Writes frames to a stream. DCD and NumPy need a seekable stream: finish() rewrites the number of frames at its
 /// start. Keeps references to the stream and the molecule. Not thread-safe.
-class TrajectoryWriter {
+class HINGE_API TrajectoryWriter {
  public:
   /// atom_count: atoms per frame; for PDB and mmCIF it must be the molecule's. single: NumPy coordinates are 32-bit
   /// floats. The stream and the molecule must outlive this object. Throws ModelError if the molecule does not fit the
@@ -63,7 +64,7 @@ class TrajectoryWriter {
 
 /// Writes rows of numbers to a seekable stream as a NumPy array of rows x columns, 64-bit floats. The stream must
 /// outlive this object.
-class RowWriter {
+class HINGE_API RowWriter {
  public:
   /// columns: numbers per row.
   RowWriter(std::ostream& out, std::size_t columns);

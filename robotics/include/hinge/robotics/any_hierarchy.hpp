@@ -5,6 +5,7 @@
 #include <string>
 #include <variant>
 
+#include "hinge/core/api.hpp"
 #include "hinge/engine/brute.hpp"
 #include "hinge/engine/lazy.hpp"
 #include "hinge/engine/simd.hpp"
@@ -26,7 +27,7 @@ using AnyHierarchy = std::variant<RobotHierarchy<Simd>, RobotHierarchy<Lazy>, Ro
 
 /// Returns a hierarchy of `model` with every DOF free. engine: "simd", "lazy" (the paper's engine) or "brute". Throws
 /// ModelError for any other name, or if filter or margins were made for another number of triangles.
-AnyHierarchy make_hierarchy(const std::string& engine, const Model<Triangle>& model, const LinkPairFilter& filter,
-                            const LinkMargins& margins);
+HINGE_API AnyHierarchy make_hierarchy(const std::string& engine, const Model<Triangle>& model,
+                                      const LinkPairFilter& filter, const LinkMargins& margins);
 
 }  // namespace hinge::robotics

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/robotics/link_pairs.hpp"
 #include "hinge/robotics/robot.hpp"
@@ -66,17 +67,18 @@ struct MatrixProgress {
 /// them. Calls `progress`, if it is not empty, on the calling thread, for every 64 samples and every box of a proof; it
 /// may throw to end the search. Throws ModelError if the clearance is negative or not finite, or if `settled` was made
 /// for another number of links.
-CollisionMatrix find_collision_matrix(const Robot& robot, const MatrixOptions& options = {},
-                                      const std::function<void(const MatrixProgress&)>& progress = {});
+HINGE_API CollisionMatrix find_collision_matrix(const Robot& robot, const MatrixOptions& options = {},
+                                                const std::function<void(const MatrixProgress&)>& progress = {});
 
 /// The treatment of unseen pairs: still tested (the safe choice), or disabled like the others.
 enum class UnseenPairs : std::uint8_t { tested, disabled };
 
 /// Returns true if a collision check may skip pairs of this kind: adjacent, always, in_default, never, and unseen if
 /// `unseen` is UnseenPairs::disabled.
-bool is_disabled(PairKind kind, UnseenPairs unseen) noexcept;
+HINGE_API bool is_disabled(PairKind kind, UnseenPairs unseen) noexcept;
 /// Returns the pairs of `matrix` for which is_disabled() is true. Throws ModelError if a pair names a link that the
 /// robot does not have.
-LinkPairs disabled_pairs(const Robot& robot, const CollisionMatrix& matrix, UnseenPairs unseen = UnseenPairs::tested);
+HINGE_API LinkPairs disabled_pairs(const Robot& robot, const CollisionMatrix& matrix,
+                                   UnseenPairs unseen = UnseenPairs::tested);
 
 }  // namespace hinge::robotics

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hinge/bounds/aabb.hpp"
+#include "hinge/core/api.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/robotics/any_hierarchy.hpp"
@@ -24,7 +25,7 @@ namespace hinge::robotics {
 /// Bodies around robots, each with its own shape. Lengths in m, poses in the world frame. Adding, moving or attaching a
 /// body changes no other body and no robot. One per thread; copies share the meshes and the data built from them. Every
 /// function with a BodyId throws ModelError if the body does not exist or was removed.
-class Environment {
+class HINGE_API Environment {
  public:
   /// clearance: distance (m) that bodies must keep from robots and from held bodies; finite, >= 0. engine: "simd",
   /// "lazy" or "brute", equal to the engine of every robot that queries this environment. Throws ModelError otherwise.

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/core/radius_sum.hpp"
 #include "hinge/model/model.hpp"
@@ -28,7 +29,7 @@ struct PairClearance {
 
 /// Distance matrix M(i, j) = radius(i) + radius(j) + clearance of the two links, in m. Verdicts use the exact real sum,
 /// not a rounded one. Copies share one constant table, so reading is thread-safe.
-class LinkMargins {
+class HINGE_API LinkMargins {
  public:
   /// clearance: for all pairs of links without an override, m. Throws ModelError, naming the links, if a clearance or
   /// radius is negative or not finite, a link does not exist, or an override names one link twice or a pair that was

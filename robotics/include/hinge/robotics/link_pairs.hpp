@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/core/id.hpp"
 
@@ -15,7 +16,7 @@ namespace hinge::robotics {
 
 /// A set of unordered pairs of the links 0 .. link_count - 1. A pair of a link with itself is ignored. Copies are
 /// independent.
-class LinkPairs {
+class HINGE_API LinkPairs {
  public:
   /// Makes an empty set.
   explicit LinkPairs(std::size_t link_count = 0)

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/engine/simd.hpp"
 #include "hinge/path/certified_path.hpp"
@@ -59,7 +60,7 @@ struct RobotPathAnswer {
 /// no surfaces touch. If a body collides with a link that never moves against it, every path collides. Both
 /// functions call between() before every segment or state; it may throw to end the work. One per thread; copies share
 /// constant data.
-class PathChecker {
+class HINGE_API PathChecker {
  public:
   /// Checks the robot against itself.
   explicit PathChecker(const RobotChecker& checker);

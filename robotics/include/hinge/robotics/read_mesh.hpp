@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/robotics/shape.hpp"
 
 namespace hinge::robotics {
@@ -17,6 +18,6 @@ namespace hinge::robotics {
 /// with the file name and their number, and one if statements of an OBJ file are unknown. An STL file is binary if its
 /// size is 84 + 50 n bytes, whatever its first word is. Throws LoadError (one line) if the file is missing, in another
 /// format, truncated or damaged, has no triangles, or has a vertex that is not finite.
-TriangleMesh read_mesh(const std::filesystem::path& path, std::vector<std::string>* notes = nullptr);
+HINGE_API TriangleMesh read_mesh(const std::filesystem::path& path, std::vector<std::string>* notes = nullptr);
 
 }  // namespace hinge::robotics

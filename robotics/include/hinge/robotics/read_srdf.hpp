@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/robotics/link_pairs.hpp"
 #include "hinge/robotics/robot.hpp"
 
@@ -55,10 +56,11 @@ enum class UnknownLinks : std::uint8_t { refused, noted };
 /// are skipped with a note, because they change no verdict. If a configuration names a joint twice, the last value
 /// counts. Throws LoadError (one line with file, line and element) for bad XML, a pair with an unknown link (unless
 /// noted), a group that contains itself, or a value that is not a finite number of at most 1e15.
-Srdf read_srdf(const std::filesystem::path& path, const Robot& robot, UnknownLinks unknown = UnknownLinks::refused);
+HINGE_API Srdf read_srdf(const std::filesystem::path& path, const Robot& robot,
+                         UnknownLinks unknown = UnknownLinks::refused);
 /// The same for the text of an SRDF file that may be in memory only. path: names the text in messages.
-Srdf parse_srdf(const std::string& text, const std::filesystem::path& path, const Robot& robot,
-                UnknownLinks unknown = UnknownLinks::refused);
+HINGE_API Srdf parse_srdf(const std::string& text, const std::filesystem::path& path, const Robot& robot,
+                          UnknownLinks unknown = UnknownLinks::refused);
 
 /// A pair of names from a text file.
 struct NamedPair {
@@ -68,8 +70,8 @@ struct NamedPair {
 
 /// Reads pairs from a text file: two names per line, separated by blanks or a comma; `#` starts a comment. Throws
 /// LoadError if the file cannot be read or a line does not have two names.
-std::vector<NamedPair> read_named_pairs(const std::filesystem::path& path);
+HINGE_API std::vector<NamedPair> read_named_pairs(const std::filesystem::path& path);
 /// Reads pairs of link names and adds them to `pairs`. Throws LoadError as read_named_pairs(), and for an unknown link.
-void read_link_pairs(const std::filesystem::path& path, const Robot& robot, LinkPairs& pairs);
+HINGE_API void read_link_pairs(const std::filesystem::path& path, const Robot& robot, LinkPairs& pairs);
 
 }  // namespace hinge::robotics

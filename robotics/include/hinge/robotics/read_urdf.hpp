@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/robotics/robot_description.hpp"
 
 namespace hinge::robotics {
@@ -23,7 +24,7 @@ struct UrdfOptions {
 
 /// Returns package folders from the environment: those in ROS_PACKAGE_PATH, then the folder `share` of each prefix in
 /// AMENT_PREFIX_PATH. read_urdf() does not call it.
-std::vector<std::filesystem::path> ros_package_path();
+HINGE_API std::vector<std::filesystem::path> ros_package_path();
 
 /// Reads links, joints and collision geometry (m, rad), in the order of the file. Visuals, inertias and extensions are
 /// ignored, except <capsule radius length> (length without the caps). A mesh path is relative to the URDF file,
@@ -32,10 +33,10 @@ std::vector<std::filesystem::path> ros_package_path();
 /// Throws LoadError (one line with file, line and element) for bad XML, xacro input, unknown or repeated names, links
 /// that do not form a tree, other floating or planar joints, a zero axis or scale, negative sizes, numbers that are not
 /// finite, shapes of unknown type, and missing (unless skipped) or bad meshes.
-RobotDescription read_urdf(const std::filesystem::path& path, const UrdfOptions& options = {});
+HINGE_API RobotDescription read_urdf(const std::filesystem::path& path, const UrdfOptions& options = {});
 /// The same for the text of a URDF file that may be in memory only. path: names the text in messages; mesh paths are
 /// relative to its folder.
-RobotDescription parse_urdf(const std::string& text, const std::filesystem::path& path,
-                            const UrdfOptions& options = {});
+HINGE_API RobotDescription parse_urdf(const std::string& text, const std::filesystem::path& path,
+                                      const UrdfOptions& options = {});
 
 }  // namespace hinge::robotics

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/model/model.hpp"
 #include "hinge/primitive/triangle.hpp"
@@ -23,7 +24,7 @@ class Solids;
 /// A robot as an articulated model. Every movable joint, mimic joints included, is a DOF of the model; the root link is
 /// fixed to the world. Lengths in m, angles in rad. A joint index is an index into description().joints. Constant after
 /// construction, so any thread may read it. Spans and references are valid as long as the robot.
-class Robot {
+class HINGE_API Robot {
  public:
   /// Tessellates the shapes and builds the model. Throws ModelError, naming the link or joint, for every fault listed
   /// in check_description.hpp, a solid mesh that is not closed, a chain of mimic joints with factors that are not

@@ -13,6 +13,7 @@
 
 #include "hinge/batch/sphere_batch.hpp"
 #include "hinge/bounds/aabb.hpp"
+#include "hinge/core/api.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/core/pose.hpp"
 #include "hinge/detail/kinematics/forward_kinematics.hpp"
@@ -77,7 +78,7 @@ struct OpenLink {
 /// (see MeshShape) are solid: a link wholly inside one collides, at distance 0. Links are those of the description,
 /// links on fixed joints included. Lengths in m, angles in rad, poses and points in the world frame. Initially every
 /// independent joint is 0 and the base is the identity. One per thread; copies share constant data.
-class RobotChecker {
+class HINGE_API RobotChecker {
  public:
   /// Throws ModelError if the robot is null, the engine is unknown, or pairs or margins were made for another robot.
   RobotChecker(std::shared_ptr<const Robot> robot, LinkPairs tested, LinkMargins margins,

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/primitive/triangle.hpp"
 #include "hinge/robotics/shape.hpp"
 
@@ -37,6 +38,6 @@ struct Surface {
 /// Returns a shape's surface in its own frame, with the mesh scale applied. A size of 0 gives a point or a segment (one
 /// triangle without area) or a flat solid (each triangle once). Throws ModelError if a size is negative, a scale is 0,
 /// the tolerance is not above 0, any of them is not finite, or the tolerance needs more than 10^6 triangles.
-Surface tessellate(const Shape& shape, const Tessellation& tessellation = {});
+HINGE_API Surface tessellate(const Shape& shape, const Tessellation& tessellation = {});
 
 }  // namespace hinge::robotics

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "hinge/core/api.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/policy/pair_filter.hpp"
 #include "hinge/robotics/link_pairs.hpp"
@@ -18,12 +19,12 @@ namespace hinge::robotics {
 /// Returns the pairs of links that are tested: all pairs with geometry, except pairs within one rigid group, pairs of
 /// two groups that one movable joint connects, and disabled pairs. Rigid groups are those with all joints free. Throws
 /// ModelError if `disabled` was made for another number of links.
-LinkPairs tested_pairs(const Robot& robot, const LinkPairs& disabled);
+HINGE_API LinkPairs tested_pairs(const Robot& robot, const LinkPairs& disabled);
 /// The same without disabled pairs.
-LinkPairs tested_pairs(const Robot& robot);
+HINGE_API LinkPairs tested_pairs(const Robot& robot);
 
 /// Admits pairs of triangles whose links are tested. Copies share one constant table, so reading is thread-safe.
-class LinkPairFilter {
+class HINGE_API LinkPairFilter {
  public:
   /// Throws ModelError if `tested` was made for another number of links.
   LinkPairFilter(const Robot& robot, LinkPairs tested);

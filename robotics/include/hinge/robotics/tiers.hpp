@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "hinge/core/api.hpp"
 #include "hinge/robotics/robot_description.hpp"
 
 namespace hinge::robotics {
@@ -24,9 +25,9 @@ enum class Tier : std::uint8_t {
 };
 
 /// Returns the tier called "mesh", "hull", "capsule" or "spheres". Throws ModelError for any other name.
-Tier tier_named(std::string_view name);
+HINGE_API Tier tier_named(std::string_view name);
 /// Returns the name of a tier. The string is static.
-const char* name(Tier tier) noexcept;
+HINGE_API const char* name(Tier tier) noexcept;
 
 /// The tiers of a robot.
 struct Tiers {
@@ -40,6 +41,6 @@ struct Tiers {
 /// it in every tier, because it is exact and cheapest. Throws ModelError if Robot would reject the description, a link
 /// does not exist, most_spheres is 0, the tolerance is not finite or not above 0, or coordinates are too large for a
 /// hull (above about 10^4 m).
-RobotDescription with_tiers(RobotDescription description, const Tiers& tiers);
+HINGE_API RobotDescription with_tiers(RobotDescription description, const Tiers& tiers);
 
 }  // namespace hinge::robotics
