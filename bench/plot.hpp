@@ -8,6 +8,8 @@
 #include <fstream>
 #include <string>
 
+#include "hinge_tools/svg.hpp"
+
 namespace hinge::bench {
 
 /// Text of x with `digits` significant digits; large numbers without decimals.
@@ -26,42 +28,28 @@ class Plot {
     label(left, 18, title, "start");
     for (double decade = std::ceil(low_); decade <= high_ + 1e-9; ++decade) {
       const double value = std::pow(10, decade), y = height_of(value);
-      add("<line x1=\"%.1f\" x2=\"740\" y1=\"%.1f\" y2=\"%.1f\" stroke=\"#ddd\"/>\n", left, y, y);
+      svg_.line({left, y}, {740, y}, "#ddd");
       label(left - 8, y + 4, number(value), "end");
     }
   }
   void bar(double x, double w, double value, const std::string& colour) {
     const double y = height_of(value);
-    add("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\"/>\n", x, y, w,
-        std::max(bottom - y, 0.5), colour.c_str());
+    svg_.rectangle(x, y, w, std::max(bottom - y, 0.5), colour);
     label(x + w / 2, y - 4, number(value, 2));
   }
-  void dot(double x, double value, const std::string& colour) {
-    add("<circle r=\"4\" cx=\"%.1f\" cy=\"%.1f\" fill=\"%s\"/>\n", x, height_of(value), colour.c_str());
-  }
+  void dot(double x, double value, const std::string& colour) { svg_.circle({x, height_of(value)}, 4, colour); }
   void label(double x, double y, const std::string& text, const char* anchor = "middle") {
-    add("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\">%s</text>\n", x, y, anchor, text.c_str());
+    svg_.text({x, y}, text, anchor);
   }
-  void write(const std::string& file) const {
-    std::ofstream(file) << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 760 320\" "
-                           "font-family=\"sans-serif\" font-size=\"12\">\n"
-                           "<rect width=\"760\" height=\"320\" fill=\"white\"/>\n"
-                        << svg_ << "</svg>\n";
-  }
+  void write(const std::string& file) const { std::ofstream(file) << svg_.document(); }
 
  private:
   double height_of(double value) const {
     return bottom - (bottom - top) * (std::clamp(std::log10(value), low_, high_) - low_) / (high_ - low_);
   }
-  template <class... Values>
-  void add(const char* format, Values... values) {
-    char text[512];
-    std::snprintf(text, sizeof text, format, values...);
-    svg_ += text;
-  }
 
   double low_, high_;
-  std::string svg_;
+  tool::Svg svg_{width, 320};
 };
 
 }  // namespace hinge::bench

@@ -24,6 +24,7 @@
 #include "hinge_tools/complete_file.hpp"
 #include "options.hpp"
 #include "plot_svg.hpp"
+#include "tail_picture.hpp"
 
 namespace biocd {
 
@@ -162,6 +163,12 @@ Exit run_demo(const Options& options) {
   plot.stream() << to_svg(plots);
   plot.finish();
   fmt::print("written: {}", (folder / "speed.svg").string());
+  if (const std::string picture = draw_tail(molecule, rules, options.seed, 40); !picture.empty()) {
+    CompleteFile tail((folder / "tail.svg").string());
+    tail.stream() << picture;
+    tail.finish();
+    fmt::print(", tail.svg");
+  }
   if (!worst.pairs.empty()) {
     write_worst(s, worst, folder);
     fmt::print(", worst.pdb with {} clashes, worst.cxc (ChimeraX), worst.pml (PyMOL)", worst.pairs.size());

@@ -99,7 +99,7 @@ struct Job {
 Job load(const Options& options);
 
 /// The files that demo writes into its folder.
-inline constexpr const char* demo_files[] = {"speed.svg", "worst.pdb", "worst.cxc", "worst.pml"};
+inline constexpr const char* demo_files[] = {"speed.svg", "tail.svg", "worst.pdb", "worst.cxc", "worst.pml"};
 
 /// Throws ModelError if --out or --torsions-out has another format than expected, or would overwrite an input, a
 /// directory or the file of the results. is_folder: --out names demo's folder.

@@ -56,7 +56,7 @@ struct Options {
   // matrix
   hinge::robotics::MatrixOptions matrix;  // its clearance is replaced by `clearance` above
   bool disable_unseen = false;
-  // check: CSV file of the configurations, empty: none; matrix: SRDF file, empty: standard output
+  // check: CSV file of the configurations, empty: none; matrix: SRDF file, empty: standard output; demo: SVG file
   std::string out;
 };
 
@@ -96,5 +96,6 @@ Exit run_info(const Options& options);
 Exit run_check(const Options& options);
 Exit run_matrix(const Options& options);
 Exit run_path(const Options& options);
+Exit run_demo(const Options& options);
 
 }  // namespace robocd
