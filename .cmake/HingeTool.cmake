@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # hinge_add_tool(NAME LIBRARY [SYSTEM_INCLUDES DIR...] [LIBRARIES TARGET...]): adds the command-line tool NAME from the
-# caller's apps/*.cpp and LIBRARY, and sets ${NAME}_programs. The private dependencies of LIBRARY are given again.
+# caller's apps/*.cpp and LIBRARY. The private dependencies of LIBRARY are given again.
 find_package(CLI11 QUIET)
 find_package(nlohmann_json QUIET)
 find_package(fmt QUIET)
@@ -10,24 +10,32 @@ set(HINGE_TOOL_LEVELS "x86-64-v3;x86-64-v4" CACHE STRING
 
 function(hinge_add_tool tool library)
   cmake_parse_arguments(PARSE_ARGV 2 needs "" "" "SYSTEM_INCLUDES;LIBRARIES")
-  set(${tool}_programs "" PARENT_SCOPE)
   # The tool is for developers and for installations, not for a host project that links the library.
   if(NOT PROJECT_IS_TOP_LEVEL AND NOT HINGE_INSTALL)
     return()
   endif()
-  if(NOT CLI11_FOUND OR NOT nlohmann_json_FOUND OR NOT fmt_FOUND OR NOT TARGET hinge_ensemble)
-    message(STATUS "${tool} is left out: it needs CLI11, nlohmann_json, fmt and TBB")
+  set(missing "")
+  foreach(package CLI11 nlohmann_json fmt TBB)
+    if(NOT ${package}_FOUND)
+      string(APPEND missing " ${package}")
+    endif()
+  endforeach()
+  if(missing)
+    message(STATUS "${tool} is left out. Not found:${missing} (Debian: libcli11-dev nlohmann-json3-dev libfmt-dev "
+                   "libtbb-dev)")
     return()
   endif()
   file(GLOB sources CONFIGURE_DEPENDS apps/*.cpp)
   # The tool starts a program for another instruction set only if both were built from the same sources.
+  file(RELATIVE_PATH programs_from_bin /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBEXECDIR}/hinge)
   set(build_id ${CMAKE_CURRENT_BINARY_DIR}/build_id.cpp)
   set(write_build_id ${PROJECT_SOURCE_DIR}/.cmake/write_build_id.cmake)
   file(GLOB_RECURSE hashed CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/*.hpp include/*.hpp src/*.[hc]pp
        apps/*.[hc]pp)
   add_custom_command(OUTPUT ${build_id} DEPENDS ${hashed} ${write_build_id} VERBATIM
                      COMMAND ${CMAKE_COMMAND} -DOUT=${build_id} -DTOOL=${tool} -DVERSION=${PROJECT_VERSION}
-                             -DROOT=${PROJECT_SOURCE_DIR} -DFOLDER=${CMAKE_CURRENT_SOURCE_DIR} -P ${write_build_id})
+                             -DROOT=${PROJECT_SOURCE_DIR} -DFOLDER=${CMAKE_CURRENT_SOURCE_DIR}
+                             -DPROGRAMS=${programs_from_bin} -P ${write_build_id})
   set_source_files_properties(${build_id} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   list(APPEND sources ${build_id})
   set(libraries hinge_ensemble hinge_own CLI11::CLI11 nlohmann_json::nlohmann_json fmt::fmt)
@@ -60,8 +68,29 @@ function(hinge_add_tool tool library)
       list(APPEND programs ${tool}-${name})
     endforeach()
   endif()
-  if(HINGE_INSTALL)
-    install(TARGETS ${programs})
+  # The manual page and the completion are made from the command line's own description.
+  set(pages "")
+  if(NOT CMAKE_CROSSCOMPILING)
+    set(pages ${tool}.1 ${tool}.bash ${tool}.zsh ${tool}.fish)
+    add_custom_command(OUTPUT ${pages} DEPENDS ${tool} VERBATIM
+                       COMMAND ${tool} --man > ${tool}.1
+                       COMMAND ${tool} --completion bash > ${tool}.bash
+                       COMMAND ${tool} --completion zsh > ${tool}.zsh
+                       COMMAND ${tool} --completion fish > ${tool}.fish)
+    add_custom_target(${tool}_pages ALL DEPENDS ${pages})
   endif()
-  set(${tool}_programs ${programs} PARENT_SCOPE)
+  if(HINGE_INSTALL)
+    file(RELATIVE_PATH from_bin /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
+    set_target_properties(${tool} PROPERTIES INSTALL_RPATH $ORIGIN/${from_bin})
+    list(REMOVE_ITEM programs ${tool})
+    install(TARGETS ${tool})
+    install(TARGETS ${programs} DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/hinge)
+    if(pages)
+      set(made ${CMAKE_CURRENT_BINARY_DIR})
+      install(FILES ${made}/${tool}.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+      install(FILES ${made}/${tool}.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${tool})
+      install(FILES ${made}/${tool}.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions RENAME _${tool})
+      install(FILES ${made}/${tool}.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+    endif()
+  endif()
 endfunction()

@@ -55,11 +55,12 @@ inline bool file_holds(int file, std::string_view text) {
   }
 }
 
-/// Replaces this process by the program NAME-avx512 or NAME-avx2 next to it, where NAME is the path of this program:
-/// the best set of the CPU, or the set named by HINGE_ISA (see wanted_instruction_set). Returns if this program is the
-/// right one, or no other exists. All programs give the same answers. Throws LoadError, without running it, if the
-/// other program does not contain build_id, which all programs of one build contain; also if it cannot be run.
-inline void pick_instruction_set(char** argv, std::string_view build_id) {
+/// Replaces this process by the program NAME-avx512 or NAME-avx2, where NAME is the name of this program: the best set
+/// of the CPU, or the set named by HINGE_ISA (see wanted_instruction_set). The program is looked for next to this one,
+/// then in programs_folder, relative to the folder of this one. Returns if this program is the right one, or no other
+/// exists. All programs give the same answers. Throws LoadError, without running it, if the other program does not
+/// contain build_id, which all programs of one build contain; also if it cannot be run.
+inline void pick_instruction_set(char** argv, std::string_view build_id, std::string_view programs_folder) {
   using detail::simd::InstructionSet;
   // The replacing programs call this too, and must not be replaced again.
   if (detail::simd::compiled_for() != InstructionSet::baseline) return;
@@ -68,17 +69,22 @@ inline void pick_instruction_set(char** argv, std::string_view build_id) {
     std::error_code error;
     const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe", error);
     if (error) return;
-    const std::string other = own.string() + "-" + std::string(detail::simd::name(set));
-    const int file = ::open(other.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (file < 0 && errno == ENOENT) continue;
+    const std::string name = own.filename().string() + "-" + std::string(detail::simd::name(set));
+    std::filesystem::path other = own.parent_path() / name;
+    int file = ::open(other.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (file < 0 && errno == ENOENT) {
+      other = own.parent_path() / programs_folder / name;
+      file = ::open(other.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    }
+    if (file < 0 && (errno == ENOENT || errno == ENOTDIR)) continue;
     if (file < 0 || !file_holds(file, build_id))
-      throw LoadError(other + ": not of the same build as " + own.string() +
+      throw LoadError(other.string() + ": not of the same build as " + own.string() +
                       "; expected a program of the same build (rebuild or reinstall both, remove this program, or set "
                       "HINGE_ISA=baseline)");
     ::fexecve(file, argv, environ);  // exactly the file that was checked
     const std::string reason = std::strerror(errno);
     ::close(file);
-    throw LoadError(other + ": cannot be run: " + reason);
+    throw LoadError(other.string() + ": cannot be run: " + reason);
   }
 }
 
