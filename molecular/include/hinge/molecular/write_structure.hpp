@@ -43,6 +43,7 @@ void write_cif_model(std::ostream& out, const Structure& structure, std::span<co
 /// pairs: PrimitiveId i is atom i.
 void write_chimerax_script(std::ostream& out, const Structure& structure, std::span<const Hit> pairs,
                            const std::string& pdb_file);
+/// The same for PyMOL.
 void write_pymol_script(std::ostream& out, const Structure& structure, std::span<const Hit> pairs,
                         const std::string& pdb_file);
 
