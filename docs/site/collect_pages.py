@@ -80,6 +80,7 @@ def main():
     headers = reference_pages()
     for source in [*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")]:
         collect(source, headers)
+    write(PAGES / "site.css", (ROOT / "docs/site/site.css").read_text())
     write(
         ROOT / "build/mkdocs.yml",
         f"INHERIT: {ROOT}/docs/site/mkdocs.yml\ndocs_dir: {PAGES}\nsite_dir: {ROOT}/build/docs\n{navigation()}",
