@@ -3,7 +3,8 @@
 
 FOLDER is the repository, whose pages are Markdown, or with --site the site that ./run docs has made. A link of a page
 must lead to a file of the repository, as on GitHub, and its anchor to a heading. Every page is listed in docs/index.md,
-which README.md names. Pages that comments of sources name must exist. Needs the standard library only.
+which README.md names. Pages that comments of sources name must exist, and so must sources that pages name. Needs the
+standard library only.
 """
 
 import html.parser
@@ -14,6 +15,8 @@ import sys
 import urllib.parse
 
 SOURCES = {".hpp", ".cpp", ".py", ".sh", ".txt", ".cmake"}
+NAMED = re.compile(r"`((?:include|molecular|robotics|python|tests|bench|docs|hinge|detail)/[\w/.]+\.(?:hpp|cpp|py))`")
+NAMED_FROM = ("", "include", "molecular/include", "robotics/include", "include/hinge")
 
 
 def without_code(text):
@@ -80,8 +83,13 @@ def broken_links(path, links, root, anchors):
     return broken
 
 
+def missing_sources(text, root):
+    """Returns the sources that a page names in code, from the root or as an include does, and that do not exist."""
+    return [name for name in NAMED.findall(text) if not any((root / folder / name).exists() for folder in NAMED_FROM)]
+
+
 def check_repository(root):
-    """Returns one sentence per broken link, page without a line in the index, and page that a comment misnames."""
+    """Returns one sentence per broken link, page without a line in the index, and file that is named and missing."""
     pages = {path: path.read_text() for path in [*root.glob("*.md"), *(root / "docs").rglob("*.md")]}
 
     def anchors(path):
@@ -90,6 +98,7 @@ def check_repository(root):
     broken = []
     for path, text in pages.items():
         broken += broken_links(path, links_of_page(text), root, anchors)
+        broken += [f"{path.relative_to(root)} names {name}: no such file" for name in missing_sources(text, root)]
     index = root / "docs/index.md"
     listed = {os.path.normpath(index.parent / link.split("#")[0]) for link in links_of_page(pages[index])}
     broken += [
