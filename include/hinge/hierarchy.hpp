@@ -284,8 +284,10 @@ const {
   return contacts;
 }
 
+/// Deduces the types of a hierarchy with the SIMD engine and all DOF free.
 template <Primitive P, PairFilter F, DistanceMatrix D>
 Hierarchy(Model<P>, F, D) -> Hierarchy<P, F, D>;
+/// Deduces the types of a hierarchy with the SIMD engine and some DOF free.
 template <Primitive P, PairFilter F, DistanceMatrix D>
 Hierarchy(Model<P>, DofSelection, F, D) -> Hierarchy<P, F, D>;
 

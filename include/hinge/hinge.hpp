@@ -53,3 +53,6 @@
 #include "hinge/query/pair_rules.hpp"
 #include "hinge/query/query_options.hpp"
 #include "hinge/version.hpp"
+
+/// Collision hierarchies for articulated models: Model and ModelBuilder describe a model, Hierarchy answers queries.
+namespace hinge {}

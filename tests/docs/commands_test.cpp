@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs every command of README and the tutorials as a user does after ./run build, and compares the output with the
-// page. HINGE_UPDATE_DOCS=1 writes the new output into the page, with "..." for rates.
+// Runs every command of README, the tutorials and two guides as a user does after ./run build, and compares the output
+// with the page. HINGE_UPDATE_DOCS=1 writes the new output into the page, with "..." for rates.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -97,8 +97,8 @@ TEST_P(DocumentedCommands, PrintWhatThePageShows) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pages, DocumentedCommands,
-                         testing::Values("README.md", "docs/tutorial/first_protein.md",
-                                         "docs/tutorial/first_robot.md"));
+                         testing::Values("README.md", "docs/tutorial/first_protein.md", "docs/tutorial/first_robot.md",
+                                         "docs/guide/clashes_in_chimerax.md", "docs/guide/planner_edge.md"));
 
 TEST(ConsoleBlocks, AreReadAndCompared) {
   const std::vector<std::string> page =

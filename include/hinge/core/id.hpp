@@ -8,10 +8,14 @@
 
 namespace hinge {
 
-enum class PrimitiveId : std::uint32_t {};  ///< index into Model::primitives()
-enum class LinkId : std::uint32_t {};       ///< index of a link in the kinematic tree; link 0 is the world
-enum class DofId : std::uint32_t {};        ///< index into the full configuration of a kinematic tree
-enum class GroupId : std::uint32_t {};  ///< index of a rigid group under one DOF selection; group 0 contains the world
+/// Index into Model::primitives().
+enum class PrimitiveId : std::uint32_t {};
+/// Index of a link in the kinematic tree. Link 0 is the world.
+enum class LinkId : std::uint32_t {};
+/// Index into the full configuration of a kinematic tree.
+enum class DofId : std::uint32_t {};
+/// Index of a rigid group under one DOF selection. Group 0 contains the world.
+enum class GroupId : std::uint32_t {};
 
 /// The root link of every kinematic tree.
 inline constexpr LinkId world{0};

@@ -16,6 +16,7 @@ namespace hinge {
 /// The reference engine: O(n^2) pairs in a query of one model, O(n m) in a query of two. It needs no preparation.
 template <Primitive P, PairFilter F, DistanceMatrix D>
 struct Brute {
+  /// Prepares nothing: the arguments are those of every engine.
   Brute(const SelectedModel<P>&, const F&, const D&) {}
 
   /// Hands the admitted pairs i < j within the cutoff to `collector` (see Collector), until it is done.

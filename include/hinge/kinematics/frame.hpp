@@ -14,6 +14,7 @@ namespace hinge {
 /// Columns x, y, z of the rotation, then the translation (model length unit). Entry 3 of each column is 0 in frames
 /// made from poses. Compositions of frames use the order of operations of Pose and give the same bits.
 struct alignas(32) Frame {
+  /// Column k is column[4 k] ... column[4 k + 3].
   std::array<double, 16> column{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0};
 
   /// The identity.

@@ -47,8 +47,10 @@ struct Joint {
   Joint() = default;
   /// Converts one kind. The axis may have any length; KinematicTree::add_link checks and normalises it.
   Joint(Fixed j) : origin(std::move(j.origin)) {}
+  /// Converts one kind, as above.
   Joint(Revolute j)
       : kind(JointKind::revolute), origin(j.origin), axis(j.axis), point(j.point), name(std::move(j.name)) {}
+  /// Converts one kind, as above.
   Joint(Prismatic j) : kind(JointKind::prismatic), origin(j.origin), axis(j.axis), name(std::move(j.name)) {}
 
   /// Returns true for revolute and prismatic joints.

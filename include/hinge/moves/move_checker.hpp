@@ -81,8 +81,8 @@ class MoveChecker {
   /// World coordinates of a primitive.
   P placed(PrimitiveId i) { return place(i, frame(model().group_of(i))); }
 
-  const SelectedModel<P>& model() const noexcept { return hierarchy_.get().model(); }
-  std::size_t dof_count() const noexcept { return q_.size(); }
+  const SelectedModel<P>& model() const noexcept { return hierarchy_.get().model(); }  ///< shared
+  std::size_t dof_count() const noexcept { return q_.size(); }                         ///< length of configuration()
   /// Work done by all moves so far.
   const MoveCounts& counts() const noexcept { return counts_; }
 

@@ -17,7 +17,7 @@ namespace hinge {
 /// A query mode with its margin.
 struct Mode {
   /// any: is there a collision; all: all collisions; within: all pairs with d - M < margin; closest: the closest pair.
-  enum class Kind : std::uint8_t { any, all, within, closest } kind = Kind::all;
+  enum class Kind : std::uint8_t { any, all, within, closest } kind = Kind::all;  ///< question
   double margin = 0.0;  ///< within: lists pairs with d - M below it, model length unit
 
   /// Parses "any", "all", "within:0.5" or "closest". Throws ModelError for other text; `unit` names the unit in the

@@ -26,12 +26,14 @@ struct MinBonds {
 
   /// The same number for all pairs.
   MinBonds(int bonds) : heavy(bonds), hydrogen(bonds) {}
+  /// One number for pairs of heavy atoms, another for pairs with a hydrogen.
   MinBonds(int of_heavy, int with_hydrogen) : heavy(of_heavy), hydrogen(with_hydrogen) {}
   /// The number for atoms i and j of the structure.
   int of(const Structure& structure, std::uint32_t i, std::uint32_t j) const noexcept {
     return structure.atoms[i].element == "H" || structure.atoms[j].element == "H" ? hydrogen : heavy;
   }
 
+  /// Returns true if both numbers are equal.
   friend bool operator==(const MinBonds&, const MinBonds&) = default;
 };
 

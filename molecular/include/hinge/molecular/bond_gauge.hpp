@@ -15,9 +15,11 @@ namespace hinge::molecular {
 
 /// The bond whose length deviates most from the reference; atom indices, lengths in angstrom.
 struct BondDeviation {
-  std::uint32_t first = 0, second = 0;
-  double length = 0.0, reference = 0.0;
-  double residual = 0.0;  ///< |length - reference|
+  std::uint32_t first = 0;   ///< atom
+  std::uint32_t second = 0;  ///< atom
+  double length = 0.0;       ///< for the given positions
+  double reference = 0.0;    ///< in model 0
+  double residual = 0.0;     ///< |length - reference|
 };
 
 /// Compares distances with those in model 0. Independent of the molecule after construction. Const members may be

@@ -48,9 +48,10 @@ struct CheckOptions {
 
 /// A pair, and whether it collides: near the threshold, the rounded distance in `hit` cannot tell.
 struct Contact {
-  Hit hit;  ///< atoms, distance and threshold M in angstrom
-  bool collides = false;
+  Hit hit;                ///< atoms, distance and threshold M in angstrom
+  bool collides = false;  ///< d < M, decided from the unrounded distance
 
+  /// Returns true if all members are equal.
   friend bool operator==(const Contact&, const Contact&) = default;
 };
 
@@ -58,8 +59,8 @@ struct Contact {
 /// closest: empty. `collides` is true if any tested pair collides. Pairs of constant distance are left out by
 /// Checker::check, but not by check_coordinates.
 struct Verdict {
-  bool collides = false;
-  std::vector<Contact> pairs;
+  bool collides = false;           ///< a tested pair collides
+  std::vector<Contact> pairs;      ///< by the mode, see above
   std::optional<Contact> closest;  ///< mode closest only: the pair of least d - M; one that collides, if any does
   double closure_residual = 0.0;   ///< largest of closure_residuals, angstrom; 0 for given coordinates
   /// One per closure of the molecule's tree, angstrom; empty for given coordinates.
@@ -73,9 +74,11 @@ class HINGE_API Checker {
   /// radii set are unknown, a number is out of range, or an option is set that the rules fix.
   Checker(std::shared_ptr<const Molecule> molecule, DofSelection selection, const CheckOptions& options);
 
-  /// These references are valid for the lifetime of this object or of any copy.
+  /// The molecule. Valid for the lifetime of this object or of any copy.
   const Molecule& molecule() const noexcept { return *molecule_; }
+  /// The thresholds in use. Valid as molecule().
   const Thresholds& thresholds() const noexcept { return *thresholds_; }
+  /// The filter of pairs by bonds. Valid as molecule().
   const BondExclusions& exclusions() const noexcept { return *exclusions_; }
   /// The number of bonds from which pairs count.
   MinBonds min_bonds() const noexcept { return min_bonds_; }

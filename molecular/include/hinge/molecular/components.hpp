@@ -16,15 +16,16 @@ namespace hinge::molecular {
 
 /// A bond of a component, by atom names.
 struct ComponentBond {
-  std::string first, second;
-  BondOrder order = BondOrder::unknown;
+  std::string first;                     ///< name of one atom
+  std::string second;                    ///< name of the other atom
+  BondOrder order = BondOrder::unknown;  ///< the known part of the order
 };
 
 /// A residue's definition: wwPDB's chem_comp, or a monomer of a refinement dictionary.
 struct Component {
-  std::string name;    ///< residue name
-  std::string source;  ///< path of the CIF file or of the dictionary's folder
-  std::vector<ComponentBond> bonds;
+  std::string name;                  ///< residue name
+  std::string source;                ///< path of the CIF file or of the dictionary's folder
+  std::vector<ComponentBond> bonds;  ///< all bonds inside the residue
   bool given = false;  ///< true: given by the user or by the structure's own file; false: found by name in a dictionary
 };
 

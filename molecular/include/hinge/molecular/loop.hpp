@@ -19,8 +19,8 @@ class Molecule;
 /// Residues [first, last], indices in Structure::residues. phi and psi of each residue may turn, and omega between two
 /// of them. N and CA of the first residue, CA, C and O of the last one, and all residues outside stay fixed.
 struct Loop {
-  std::uint32_t first = 0;
-  std::uint32_t last = 0;
+  std::uint32_t first = 0;  ///< first residue
+  std::uint32_t last = 0;   ///< last residue, included
 };
 
 /// Returns the loops that an expression names, as in "A:40-52" or "A:40-52,B:7-15": one for each word, or expression of

@@ -32,3 +32,7 @@
 #include "hinge/molecular/trajectory.hpp"
 #include "hinge/molecular/write_structure.hpp"
 #include "hinge/molecular/write_trajectory.hpp"
+
+/// Proteins, nucleic acids and ligands as articulated models: files, torsions, clash rules, sampling. Lengths in
+/// angstroms, angles in radians.
+namespace hinge::molecular {}

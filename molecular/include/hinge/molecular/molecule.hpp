@@ -26,7 +26,7 @@ namespace hinge::molecular {
 /// A part with six DOF of its own, in addition to torsions inside it. A position x of the part is first rotated about
 /// the centre, c + Rx(q3) Ry(q4) Rz(q5) (x - c), then translated by (q0, q1, q2).
 struct PlacedPart {
-  Part part;
+  Part part;                    ///< the residues or atoms that move together
   Vec3 centre = Vec3::Zero();   ///< mean position of the part's atoms in model 0, angstrom
   std::array<DofId, 6> dofs{};  ///< q0 ... q5: along x, y, z (angstrom), then about x, y, z (rad)
 };

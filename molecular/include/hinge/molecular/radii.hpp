@@ -69,17 +69,18 @@ struct ThresholdOptions {
 
 /// The thresholds of a structure and the data to report them. Tables are type x type, row-major, angstrom.
 struct Thresholds {
-  TypedThresholds matrix{{}, 0, {}};          ///< distance matrix: a type per atom, a threshold per pair of types
-  std::vector<std::string> type_names{};      ///< name of each type: "C", "C.aromatic", "H.polar", "Zn"
-  std::vector<double> table{};                ///< thresholds M
-  std::vector<double> contact{};              ///< distance at which the overlap of two atoms is 0 (Severity)
-  std::vector<double> allowance{};            ///< allowance for a hydrogen bond, already subtracted from `contact`
-  const ClashRules* rules = nullptr;          ///< static object
-  std::string_view radii{}, radii_version{};  ///< of the set in use
-  std::optional<double> rho{};                ///< nullopt: the rules are not M = rho * d0
-  bool hydrogen_bonds = false;                ///< the hydrogen-bond rule is in use
-  double hydrogen_bond_allowance = 0.0;       ///< angstrom
-  MinBonds min_bonds{4};                      ///< default of the rules or the radii set
+  TypedThresholds matrix{{}, 0, {}};      ///< distance matrix: a type per atom, a threshold per pair of types
+  std::vector<std::string> type_names{};  ///< name of each type: "C", "C.aromatic", "H.polar", "Zn"
+  std::vector<double> table{};            ///< thresholds M
+  std::vector<double> contact{};          ///< distance at which the overlap of two atoms is 0 (Severity)
+  std::vector<double> allowance{};        ///< allowance for a hydrogen bond, already subtracted from `contact`
+  const ClashRules* rules = nullptr;      ///< static object
+  std::string_view radii{};               ///< name of the radii set in use
+  std::string_view radii_version{};       ///< version of the radii set in use
+  std::optional<double> rho{};            ///< nullopt: the rules are not M = rho * d0
+  bool hydrogen_bonds = false;            ///< the hydrogen-bond rule is in use
+  double hydrogen_bond_allowance = 0.0;   ///< angstrom
+  MinBonds min_bonds{4};                  ///< default of the rules or the radii set
 
   /// Threshold of types s and t, angstrom; both below type_names.size().
   double between(std::size_t s, std::size_t t) const noexcept { return table[s * type_names.size() + t]; }

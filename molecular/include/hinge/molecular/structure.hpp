@@ -27,13 +27,13 @@ enum class ResidueKind : std::uint8_t { amino_acid, nucleotide, water, other };
 
 /// A residue and its atoms [first_atom, last_atom).
 struct Residue {
-  std::string name;              ///< residue name: "ALA", "HOH", "DA"
-  int sequence_number = 0;       ///< author's number in the file
-  char insertion_code = '\0';    ///< '\0': none
-  std::uint32_t chain = 0;       ///< index in Structure::chains
-  std::uint32_t first_atom = 0;  ///< index in Structure::atoms
-  std::uint32_t last_atom = 0;   ///< index past the last atom
-  ResidueKind kind = ResidueKind::other;
+  std::string name;                       ///< residue name: "ALA", "HOH", "DA"
+  int sequence_number = 0;                ///< author's number in the file
+  char insertion_code = '\0';             ///< '\0': none
+  std::uint32_t chain = 0;                ///< index in Structure::chains
+  std::uint32_t first_atom = 0;           ///< index in Structure::atoms
+  std::uint32_t last_atom = 0;            ///< index past the last atom
+  ResidueKind kind = ResidueKind::other;  ///< by name and backbone atoms
 };
 
 /// A chain and its residues [first_residue, last_residue).
@@ -66,17 +66,17 @@ enum class BondSearch : std::uint8_t { recorded, geometry };
 
 /// A bond of two atoms: indices in Structure::atoms, first < second.
 struct Bond {
-  std::uint32_t first = 0;
-  std::uint32_t second = 0;
-  BondOrigin origin = BondOrigin::residue_template;
-  BondOrder order = BondOrder::unknown;
+  std::uint32_t first = 0;                           ///< atom
+  std::uint32_t second = 0;                          ///< atom
+  BondOrigin origin = BondOrigin::residue_template;  ///< where the bond comes from
+  BondOrder order = BondOrder::unknown;              ///< the known part of the order
 };
 
 /// A bond that the file records (SSBOND, LINK, struct_conn, CONECT) between two kept atoms: indices in
 /// Structure::atoms, first < second.
 struct BondRecord {
-  std::uint32_t first = 0;
-  std::uint32_t second = 0;
+  std::uint32_t first = 0;               ///< atom
+  std::uint32_t second = 0;              ///< atom
   bool disulphide = false;               ///< SSBOND or struct_conn says so, or both atoms are SG
   bool conect = false;                   ///< only CONECT records it; CONECT also lists bonds inside residues
   BondOrder order = BondOrder::unknown;  ///< multiple if CONECT repeats the partner
@@ -84,29 +84,30 @@ struct BondRecord {
 
 /// The source of the bonds inside residues of one name. Residues of fewer than two heavy atoms are not listed.
 struct BondSource {
-  std::string residue;
+  std::string residue;    ///< residue name
   std::string source;     ///< "residue table", "covalent radii", "CONECT records", "records of Hinge" or a file
   std::size_t count = 0;  ///< number of residues
 };
 
 /// A helix or strand from HELIX and SHEET records: residues [first, last] of one chain, indices in Structure::residues.
 struct SecondaryStructure {
-  enum class Kind : std::uint8_t { helix, strand } kind = Kind::helix;
-  std::uint32_t first = 0;
-  std::uint32_t last = 0;
+  /// The two kinds that are kept.
+  enum class Kind : std::uint8_t { helix, strand } kind = Kind::helix;  ///< helix or strand
+  std::uint32_t first = 0;                                              ///< first residue
+  std::uint32_t last = 0;                                               ///< last residue, included
 };
 
 /// A molecule as read or built: topology once, coordinates per model in angstrom. Indices in its members are not
 /// checked after loading; code that edits it keeps them consistent.
 struct Structure {
-  std::string name;  ///< entry id; if the file has none, its stem
-  std::vector<Atom> atoms;
-  std::vector<Residue> residues;
-  std::vector<Chain> chains;
-  std::vector<BondRecord> bond_records;  ///< `bonds` holds those that were accepted
-  std::vector<Bond> bonds;               ///< sorted by atoms, each once
-  std::vector<BondSource> bond_sources;  ///< sorted by residue and source
-  std::vector<SecondaryStructure> secondary_structure;
+  std::string name;                                            ///< entry id; if the file has none, its stem
+  std::vector<Atom> atoms;                                     ///< grouped by residue
+  std::vector<Residue> residues;                               ///< grouped by chain
+  std::vector<Chain> chains;                                   ///< each with its residues
+  std::vector<BondRecord> bond_records;                        ///< `bonds` holds those that were accepted
+  std::vector<Bond> bonds;                                     ///< sorted by atoms, each once
+  std::vector<BondSource> bond_sources;                        ///< sorted by residue and source
+  std::vector<SecondaryStructure> secondary_structure;         ///< helices and strands that the file records
   std::vector<std::vector<Vec3>> models;                       ///< models[m][atom], angstrom; at least one model
   std::vector<int> model_numbers;                              ///< model numbers in the file, one per model
   std::vector<std::string> notes;                              ///< repairs, guesses and warnings, one sentence each

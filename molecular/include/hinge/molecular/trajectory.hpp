@@ -28,7 +28,9 @@ class HINGE_API Trajectory {
              bool may_have_more = false);
   /// Uses the molecule's own models as frames. The molecule must outlive this object.
   explicit Trajectory(const Structure& molecule);
+  /// Takes the open file of `other`, which may then only be destroyed or assigned to.
   Trajectory(Trajectory&& other) noexcept;
+  /// The same for an existing object, whose own file is closed.
   Trajectory& operator=(Trajectory&& other) noexcept;
   ~Trajectory();
 

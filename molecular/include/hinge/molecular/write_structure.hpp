@@ -45,6 +45,7 @@ HINGE_API void write_cif_model(std::ostream& out, const Structure& structure, st
 /// pairs: PrimitiveId i is atom i.
 HINGE_API void write_chimerax_script(std::ostream& out, const Structure& structure, std::span<const Hit> pairs,
                                      const std::string& pdb_file);
+/// The same for PyMOL.
 HINGE_API void write_pymol_script(std::ostream& out, const Structure& structure, std::span<const Hit> pairs,
                                   const std::string& pdb_file);
 

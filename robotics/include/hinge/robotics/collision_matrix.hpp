@@ -39,12 +39,12 @@ struct MatrixOptions {
 
 /// The result for one pair of links.
 struct MatrixEntry {
-  LinkId link1{};  ///< always less than link2
-  LinkId link2{};
-  PairKind kind = PairKind::unseen;
-  std::size_t samples = 0;  ///< number of samples tested; 0 for adjacent pairs
-  std::size_t hits = 0;     ///< number of samples in which the links were too close
-  std::size_t cells = 0;    ///< number of boxes of joint values that the search tried
+  LinkId link1{};                    ///< always less than link2
+  LinkId link2{};                    ///< the other link
+  PairKind kind = PairKind::unseen;  ///< the class of the pair
+  std::size_t samples = 0;           ///< number of samples tested; 0 for adjacent pairs
+  std::size_t hits = 0;              ///< number of samples in which the links were too close
+  std::size_t cells = 0;             ///< number of boxes of joint values that the search tried
   /// Smallest distance (m) between the two surfaces that the search computed at a configuration. It is an upper bound
   /// on the true smallest distance. Empty if the search computed no distance: bounding volumes were sufficient, or the
   /// pair was not searched.
@@ -58,6 +58,7 @@ struct CollisionMatrix {
 
 /// Progress of find_collision_matrix().
 struct MatrixProgress {
+  /// First configurations are sampled, then pairs without hits are proved.
   enum class Stage : std::uint8_t { sampling, proving } stage = Stage::sampling;  ///< the present stage
   double fraction = 0.0;  ///< completed fraction of the stage, 0 to 1
 };

@@ -19,16 +19,16 @@ enum class BodyId : std::uint32_t {};
 /// one robot link1 < link2; between two robots link1 belongs to the queried robot. hit.distance is the distance of the
 /// triangles, without subtracting their radii; it is 0 if one link is inside a solid of the other.
 struct LinkContact {
-  LinkId link1{};
-  LinkId link2{};
-  Hit hit;  ///< triangles as indices into Robot::model() of their robots
+  LinkId link1{};  ///< the link of hit.first
+  LinkId link2{};  ///< the link of hit.second
+  Hit hit;         ///< triangles as indices into Robot::model() of their robots
 };
 
 /// The closest pair of links. Consistent with the yes/no queries: the pair collides if and only if gap < 0 or distance
 /// == 0.
 struct ClosestLinks {
-  LinkId link1{};
-  LinkId link2{};
+  LinkId link1{};           ///< order as in LinkContact
+  LinkId link2{};           ///< the other link
   PrimitiveId triangle1{};  ///< index into Robot::model() of link1's robot
   PrimitiveId triangle2{};  ///< index into Robot::model() of link2's robot
   /// m, distance of the surfaces, radii subtracted. >= 0, and 0 if and only if the links touch or overlap. Accurate to

@@ -49,6 +49,7 @@ class HINGE_API LinkMargins {
   }
   /// The same thresholds, rounded to one double, m.
   double threshold(PrimitiveId i, PrimitiveId j) const noexcept { return sum(i, j); }
+  /// The same for two triangles of different models.
   double threshold(PrimitiveId i, const LinkMargins& other, PrimitiveId j) const noexcept { return sum(i, other, j); }
   /// Always true: two robots may be queried against each other.
   bool compatible(const LinkMargins&) const noexcept { return true; }

@@ -32,7 +32,8 @@ using LinkOrBody = std::variant<LinkId, BodyId>;
 
 /// Two links or bodies that are too close.
 struct PathContact {
-  LinkOrBody first, second;  ///< order without meaning
+  LinkOrBody first;   ///< one side; the order has no meaning
+  LinkOrBody second;  ///< the other side
   /// Distance (m) of one pair of triangles, radii not subtracted; 0 if one is inside a solid of the other.
   double distance = 0.0;
   double threshold = 0.0;  ///< m, sum of the two radii and the clearance

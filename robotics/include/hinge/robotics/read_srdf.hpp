@@ -64,8 +64,9 @@ HINGE_API Srdf parse_srdf(const std::string& text, const std::filesystem::path& 
 
 /// A pair of names from a text file.
 struct NamedPair {
-  std::string first, second;  ///< in the order of the line
-  int line = 0;               ///< line number in the file, from 1
+  std::string first;   ///< first name of the line
+  std::string second;  ///< second name of the line
+  int line = 0;        ///< line number in the file, from 1
 };
 
 /// Reads pairs from a text file: two names per line, separated by blanks or a comma; `#` starts a comment. Throws

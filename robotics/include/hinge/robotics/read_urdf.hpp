@@ -27,7 +27,7 @@ struct UrdfOptions {
 HINGE_API std::vector<std::filesystem::path> ros_package_path();
 
 /// Reads links, joints and collision geometry (m, rad), in the order of the file. Visuals, inertias and extensions are
-/// ignored, except <capsule radius length> (length without the caps). A mesh path is relative to the URDF file,
+/// ignored, except `<capsule radius length>` (length without the caps). A mesh path is relative to the URDF file,
 /// absolute, file:// or package://. A floating or planar joint above all geometry is treated as fixed. A fault that
 /// cannot change a verdict is not an error; a note reports it if it may surprise.
 /// Throws LoadError (one line with file, line and element) for bad XML, xacro input, unknown or repeated names, links

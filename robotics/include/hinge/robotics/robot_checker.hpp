@@ -63,14 +63,14 @@ struct LinkContainment {
 struct BodyContainment {
   LinkId link{};                 ///< the link, or the link that holds `held`
   std::optional<BodyId> held{};  ///< the attached body; empty: the link itself
-  BodyId body{};
-  bool body_is_outer = true;  ///< true: the body contains the link (or held body)
-  bool whole = true;          ///< true: all connected components of the inner one
+  BodyId body{};                 ///< the other side
+  bool body_is_outer = true;     ///< true: the body contains the link (or held body)
+  bool whole = true;             ///< true: all connected components of the inner one
 };
 
 /// A link whose mesh is open. Containment in it is undefined.
 struct OpenLink {
-  LinkId link{};
+  LinkId link{};  ///< the link
   OpenEdge edge;  ///< in the link's frame, m; triangle index from the link's first triangle
 };
 

@@ -38,16 +38,16 @@ struct LinkDescription {
 
 /// A joint. The pose of the child's frame in the parent's frame is origin * motion(q).
 struct JointDescription {
-  std::string name;  ///< unique among joints, not empty
-  JointType type = JointType::fixed;
-  std::string parent;            ///< name of the parent link
-  std::string child;             ///< name of the child link
-  Pose origin{};                 ///< in the parent's frame, m
-  Vec3 axis = Vec3::UnitX();     ///< in the child's frame, any length except 0; ignored for fixed joints
-  double lower = 0.0;            ///< limits, rad or m; ignored for fixed and continuous joints
-  double upper = 0.0;            ///< rad or m, >= lower unless the joint mimics another one
-  std::optional<Mimic> mimic{};  ///< ignored for fixed joints
-  int line = 0;                  ///< line in the source file; 0: made in code
+  std::string name;                   ///< unique among joints, not empty
+  JointType type = JointType::fixed;  ///< the motion
+  std::string parent;                 ///< name of the parent link
+  std::string child;                  ///< name of the child link
+  Pose origin{};                      ///< in the parent's frame, m
+  Vec3 axis = Vec3::UnitX();          ///< in the child's frame, any length except 0; ignored for fixed joints
+  double lower = 0.0;                 ///< limits, rad or m; ignored for fixed and continuous joints
+  double upper = 0.0;                 ///< rad or m, >= lower unless the joint mimics another one
+  std::optional<Mimic> mimic{};       ///< ignored for fixed joints
+  int line = 0;                       ///< line in the source file; 0: made in code
 };
 
 /// A robot. Links and joints, in any order, form one tree; its root link is fixed to the world.

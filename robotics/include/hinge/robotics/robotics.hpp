@@ -26,3 +26,7 @@
 #include "hinge/robotics/tested_pairs.hpp"
 #include "hinge/robotics/tiers.hpp"
 #include "hinge/robotics/write_srdf.hpp"
+
+/// Robots of triangle meshes: URDF and SRDF, environments, checks of configurations and paths. Lengths in metres,
+/// angles in radians.
+namespace hinge::robotics {}

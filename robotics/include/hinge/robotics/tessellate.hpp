@@ -24,8 +24,8 @@ struct Tessellation {
     /// the published reference data. A capsule is a sphere of this kind, split and extended along z.
     inscribed
   };
-  Manner manner = Manner::rounded;
-  double tolerance = 1e-3;  ///< m, finite, > 0; 1 mm is about the accuracy of link meshes
+  Manner manner = Manner::rounded;  ///< how to approximate
+  double tolerance = 1e-3;          ///< m, finite, > 0; 1 mm is about the accuracy of link meshes
 };
 
 /// A surface: all points within `radius` of the triangles. Triangles of spheres and capsules are degenerate; with their

@@ -29,8 +29,9 @@ class HINGE_API LinkPairFilter {
   /// Throws ModelError if `tested` was made for another number of links.
   LinkPairFilter(const Robot& robot, LinkPairs tested);
 
-  /// Returns true if the pair of triangles, or of links, is tested.
+  /// Returns true if the pair of triangles is tested.
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept { return admits(link_of(i), link_of(j)); }
+  /// Returns true if the pair of links is tested.
   bool admits(LinkId a, LinkId b) const noexcept { return data_->tested.contains(a, b); }
   /// Returns the link of a triangle.
   LinkId link_of(PrimitiveId i) const noexcept { return data_->link_of[index(i)]; }
