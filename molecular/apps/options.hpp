@@ -57,6 +57,8 @@ struct Options {
   std::uint64_t most_tries = 100;               ///< sample: starts for each closed conformation
   std::string mode = "all";                     ///< check, sample: text of Mode::parse
   Output output = Output::table;                ///< format of standard output
+  std::optional<std::uint64_t> max_pairs;       ///< pairs printed per conformation, 0: all; nothing: see pairs_to_print
+  bool exit_zero = false;                       ///< status 0 whatever the verdict
   std::string explain;                          ///< "i,j"; empty: explain nothing
   bool atoms = false;                           ///< info: list atoms, bonds and thresholds too
   std::uint64_t count = 1000;                   ///< sample, demo: number of conformations
