@@ -58,7 +58,7 @@ auto* add_number(Command& command, const std::string& names, Value& value, const
   auto* const added = command.template add_option_function<std::string>(
       names, [option, range, &value](const std::string& text) { value = read_number<Number>(option, text, range); },
       help);
-  added->type_name(std::integral<Number> ? "INT" : "FLOAT");
+  added->type_name(std::integral<Number> ? "N" : "NUMBER");
   if constexpr (std::same_as<Value, Number>) added->default_str(number_text(value));
   return added;
 }

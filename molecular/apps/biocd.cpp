@@ -3,18 +3,18 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "hinge/core/error.hpp"
+#include "help.hpp"
 #include "hinge/detail/simd/instruction_set.hpp"
 #include "hinge/molecular/components.hpp"
 #include "hinge/version.hpp"
+#include "hinge_tools/help_texts.hpp"
 #include "hinge_tools/number_option.hpp"
+#include "hinge_tools/parse_command_line.hpp"
 #include "hinge_tools/pick_instruction_set.hpp"
 #include "hinge_tools/run_tool.hpp"
 #include "options.hpp"
@@ -27,21 +27,10 @@ using biocd::lengths_above_0;
 using biocd::Options;
 using hinge::tool::add_number;
 using hinge::tool::NumberRange;
+namespace title = hinge::tool::title;
 
 constexpr NumberRange<std::uint64_t> counts{1, std::uint64_t{1} << 53};
 constexpr NumberRange<std::uint64_t> seeds{0, UINT64_MAX};
-
-constexpr const char* footer =
-    "Exit status: 0 free, 1 collision found, 2 usage, 3 bad input, 4 undecided (path).\n"
-    "Selections (--free): all none loops every:N count:K backbone chi ligands, a torsion's name (phi psi omega "
-    "chi1...,\n"
-    "alpha beta gamma epsilon zeta chi kappa), a chain A, A:45, A:10-20, A:HEM, file:2, A:45:chi1, A:10-20:phi,psi, "
-    "A:chi,\n"
-    "a ligand's bond B:401:C5-C6; joined by ',' or 'or', and, not, parentheses: 'A and not (A:10-20 or omega)'.\n"
-    "omega stays at its reference unless --omega is given or the selection names omega.\n"
-    "Parts (--place, --between, --inside): a chain (A), a ligand (KNI), residues (A:10-20), a file (file:2), joined "
-    "in\n"
-    "the same way; '+' means the same as ','.";
 
 /// Returns the arguments with a value after each --hetero: the parser needs one, and a bare --hetero means --hetero
 /// ligands.
@@ -59,60 +48,70 @@ Exit run(int argc, char** argv) {
   Options o;
   o.read.dictionary = hinge::molecular::installed_dictionary();
   std::function<Exit(const Options&)> command;
-  CLI::App app{"biocd: self-collision of proteins and other molecules as articulated mechanisms"};
-  app.footer(footer);
-  app.set_version_flag("--version", fmt::format("biocd {} ({})", hinge::version_string,
-                                                hinge::detail::simd::name(hinge::detail::simd::compiled_for())));
-  app.require_subcommand(1);
+  const hinge::tool::HelpTexts texts = biocd::help_texts();
+  CLI::App app{"collisions of proteins and other molecules as articulated mechanisms", "biocd"};
+  hinge::tool::add_general_options(app, texts,
+                                   fmt::format("biocd {} ({})", hinge::version_string,
+                                               hinge::detail::simd::name(hinge::detail::simd::compiled_for())));
 
   CLI::App* info =
-      app.add_subcommand("info", "show the contents of the file, its degrees of freedom and its rigid groups");
+      app.add_subcommand("info", "show the contents of a file, its degrees of freedom and its rigid groups");
   biocd::add_model_options(*info, o);
-  biocd::add_json_option(*info, o);
-  info->add_flag("--atoms", o.atoms, "list atoms, bonds, thresholds and constant contacts (with --json)");
+  biocd::add_output_options(*info, o);
+  info->add_flag("--atoms", o.atoms, "list atoms, bonds, thresholds and constant contacts too (with --json)");
+  biocd::add_explain_option(*info, o);
   info->callback([&] { command = biocd::run_info; });
 
-  CLI::App* check = app.add_subcommand("check", "check each model of the file, or each frame of trajectories");
+  CLI::App* check = app.add_subcommand("check", "check each model of a file, or each frame of trajectories");
   biocd::add_model_options(*check, o);
-  biocd::add_check_options(*check, o);
+  check->option_defaults()->group(title::input);
   check->add_option("TRAJECTORY", o.trajectories,
                     "conformations to check instead of the models of FILE: DCD, XTC, .npy, PDB, mmCIF, plain or .gz");
+  biocd::add_check_options(*check, o);
   check->callback([&] { command = biocd::run_check; });
 
-  CLI::App* sample =
-      app.add_subcommand("sample", "draw random conformations of the free torsions and check each of them");
+  CLI::App* sample = app.add_subcommand("sample", "draw random conformations of the free torsions and check each one");
   biocd::add_model_options(*sample, o);
   biocd::add_check_options(*sample, o);
-  add_number(*sample, "-n,--count", o.count, counts, "number of conformations");
-  add_number(*sample, "--seed", o.seed, seeds, "seed; conformation k depends only on (seed, k)");
-  add_number(*sample, "--sigma", o.sigma_degrees, lengths_above_0,
-             "standard deviation of a Gaussian about the reference, degrees (default: uniform over the full range)");
-  biocd::add_closures_option(*sample, o);
-  sample->add_flag("--collision-free", o.collision_free, "only conformations that do not collide");
-  add_number(*sample, "--tries", o.most_tries, counts,
-             "maximal number of starts for each conformation (with closed cycles or --collision-free)");
   sample->add_flag("--torsions", o.torsions,
                    "add every free torsion (degrees) and every placement to the rows of --json and --csv");
-  sample->add_option(
-      "--torsions-out", o.torsions_out,
-      "write the free torsions and placements to this .npy file: samples x DOF, 64-bit floats, in the order "
-      "of `dofs` in --json");
+  sample
+      ->add_option("--torsions-out", o.torsions_out,
+                   "write the free torsions and placements to this .npy file: samples x DOF, 64-bit floats, in the "
+                   "order of `dofs` in --json")
+      ->type_name("FILE");
+  sample->option_defaults()->group(title::sampling);
+  add_number(*sample, "-n,--count", o.count, counts, "number of conformations");
+  add_number(*sample, "--seed", o.seed, seeds, "seed; conformation k depends only on (seed, k)")->type_name("SEED");
+  add_number(*sample, "--sigma", o.sigma_degrees, lengths_above_0,
+             "standard deviation of a Gaussian about the reference (default: uniform over the full range)")
+      ->type_name("DEGREES");
+  biocd::add_closures_option(*sample, o);
+  sample->add_flag("--collision-free", o.collision_free, "draw only conformations that do not collide");
+  add_number(*sample, "--tries", o.most_tries, counts,
+             "largest number of starts for each conformation (with closed cycles or --collision-free)");
   sample->callback([&] {
     o.keep_closures = o.keep_closures.value_or(true);
     o.draws = true;
     command = biocd::run_sample;
   });
 
-  CLI::App* walk = app.add_subcommand("walk", "Monte Carlo walk of collision-free moves from the file's conformation");
+  CLI::App* walk =
+      app.add_subcommand("walk", "make a Monte Carlo walk of collision-free moves from the conformation of the file");
   biocd::add_model_options(*walk, o);
-  biocd::add_json_option(*walk, o);
-  add_number(*walk, "--steps", o.steps, counts, "number of moves to try");
-  add_number(*walk, "--step-size", o.step_degrees, lengths_above_0,
-             "standard deviation of a torsion's change, degrees");
-  add_number(*walk, "--changes", o.changes, counts, "number of torsions that a move changes");
-  add_number(*walk, "--seed", o.seed, seeds, "seed; a walk depends only on the seed, the file and the options");
-  walk->add_option("--out", o.out, "write conformations to this .pdb, .cif, .dcd or .npy file");
+  biocd::add_output_options(*walk, o);
+  biocd::add_out_option(*walk, o);
   add_number(*walk, "--every", o.every, counts, "number of steps between two written conformations");
+  biocd::add_view_option(*walk, o);
+  biocd::add_explain_option(*walk, o);
+  biocd::add_exit_zero_option(*walk, o);
+  walk->option_defaults()->group(title::moves);
+  add_number(*walk, "--steps", o.steps, counts, "number of moves to try");
+  add_number(*walk, "--step-size", o.step_degrees, lengths_above_0, "standard deviation of a torsion's change")
+      ->type_name("DEGREES");
+  add_number(*walk, "--changes", o.changes, counts, "number of torsions that a move changes");
+  add_number(*walk, "--seed", o.seed, seeds, "seed; a walk depends only on the seed, the file and the options")
+      ->type_name("SEED");
   biocd::add_closures_option(*walk, o);
   walk->callback([&] {
     o.keep_closures = o.keep_closures.value_or(true);
@@ -120,7 +119,10 @@ Exit run(int argc, char** argv) {
   });
 
   CLI::App* merge = app.add_subcommand("merge", "join the outputs of all shards of one run");
+  merge->option_defaults()->group(title::input);
   merge->add_option("FILES", o.shards, "outputs of --shard 1/n ... n/n")->required();
+  merge->option_defaults()->group(title::output);
+  biocd::add_exit_zero_option(*merge, o);
   merge->callback([&] { command = biocd::run_merge; });
 
   CLI::App* path =
@@ -131,23 +133,20 @@ Exit run(int argc, char** argv) {
   path->callback([&] { command = biocd::run_path; });
 
   CLI::App* demo = app.add_subcommand("demo", "demonstrate the library on one protein: sample, time, verify, draw");
+  demo->option_defaults()->group(title::input);
   demo->add_option("FILE", o.file, "PDB or mmCIF file, plain or .gz")->required();
-  demo->add_option("--out", o.out, "folder for the plot and the viewer scripts")->required();
-  add_number(*demo, "-n,--count", o.count, counts, "conformations per row");
-  add_number(*demo, "--seed", o.seed, seeds, "seed");
+  demo->option_defaults()->group(title::output);
+  demo->add_option("--out", o.out, "folder for the plot and the viewer scripts")->required()->type_name("FOLDER");
+  demo->option_defaults()->group(title::sampling);
+  add_number(*demo, "-n,--count", o.count, counts, "number of conformations per row");
+  add_number(*demo, "--seed", o.seed, seeds, "seed of the conformations")->type_name("SEED");
   demo->callback([&] { command = biocd::run_demo; });
 
-  try {
-    app.name(argv[0]);
-    std::vector<std::string> arguments = with_hetero_words(argc, argv);
-    std::reverse(arguments.begin(), arguments.end());  // the parser takes them in reverse order
-    app.parse(std::move(arguments));
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error) == 0 ? Exit::free : Exit::usage;  // --help, --version
-    throw hinge::ModelError(std::string(error.what()) + "; see --help");
-  }
+  if (const auto status = hinge::tool::parse_command_line(app, with_hetero_words(argc, argv), texts)) return *status;
   biocd::check_outputs(o, demo->parsed());
-  return command(o);
+  const Exit status = command(o);
+  const bool is_verdict = status == Exit::collision || status == Exit::undecided;
+  return o.exit_zero && is_verdict ? Exit::free : status;
 }
 
 }  // namespace

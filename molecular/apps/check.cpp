@@ -17,18 +17,22 @@
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/bond_gauge.hpp"
 #include "hinge/molecular/severity.hpp"
+#include "hinge_tools/counted.hpp"
 #include "hinge_tools/progress_bar.hpp"
 #include "options.hpp"
+#include "pair_table.hpp"
 #include "pair_text.hpp"
 #include "report.hpp"
 #include "results.hpp"
 #include "summary.hpp"
+#include "view.hpp"
 
 namespace biocd {
 
 namespace {
 
 using namespace hinge::molecular;
+using hinge::tool::counted;
 
 struct Checked {
   Verdict verdict;
@@ -74,17 +78,19 @@ std::string deviations_text(const Checked& checked) {
   return text;
 }
 
-void print_table_row(const Job& job, const std::string& name, const Checked& checked, const Mode& mode,
-                     const std::optional<double>& clashscore) {
+/// headed: whether the next list of pairs starts with the names of its columns.
+void print_table_row(const Options& options, const Job& job, const std::string& name, const Checked& checked,
+                     const Mode& mode, const std::optional<double>& clashscore, bool& headed) {
   const Verdict& verdict = checked.verdict;
   fmt::print("{}: {}", name, verdict.collides ? "collides" : "free");
-  if (mode.kind == Mode::Kind::all) fmt::print(", {} pairs", verdict.pairs.size());
-  if (mode.kind == Mode::Kind::within)
-    fmt::print(", {} pairs closer than their threshold + {}", verdict.pairs.size(), mode.margin);
+  const std::string pairs = counted(verdict.pairs.size(), "pair");
+  if (mode.kind == Mode::Kind::all) fmt::print(", {}", pairs);
+  if (mode.kind == Mode::Kind::within) fmt::print(", {} closer than the threshold + {} angstrom", pairs, mode.margin);
   if (clashscore) fmt::print(", clashscore {:.2f}", *clashscore);
   fmt::print("{}\n", deviations_text(checked));
-  for (const Contact& pair : verdict.pairs) fmt::print("{}\n", pair_line(job, pair));
-  if (verdict.closest) fmt::print("{}  (closest)\n", pair_line(job, *verdict.closest));
+  fmt::print("{}", pair_table(options, job, verdict.pairs, headed));
+  if (verdict.closest) fmt::print("{}", pair_table(options, job, {*verdict.closest}, headed, "  (closest)"));
+  headed = headed && verdict.pairs.empty() && !verdict.closest;
 }
 
 /// Checks a model with other atoms than the first, with a topology of its own.
@@ -152,7 +158,10 @@ Exit run_check(const Options& options) {
   Summary summary(closure_names(job), false, options.output == Output::json);
   BondDeviation worst;  // over all bonds and conformations
   std::string worst_name;
-  std::size_t others = 0;  // models with other atoms than the first
+  bool headed = true;  // the next list of pairs starts with the names of its columns
+  ViewChoice choice;
+  std::uint64_t left_out = 0;  // pairs that are not printed
+  std::size_t others = 0;      // models with other atoms than the first
   hinge::tool::ProgressBar bar(end - begin);
   const auto judge = [&, begin = begin](Checker& checker, std::size_t n) {
     Checked checked;
@@ -163,7 +172,7 @@ Exit run_check(const Options& options) {
       if (file.wants_whole_frames()) checked.positions = whole;
       std::vector<hinge::Vec3> own = source.kept(std::move(whole));
       checked.verdict = checker.check_coordinates(own, mode);
-      if (pair_text) checked.pairs = pair_text->list(checked.verdict.pairs);
+      if (pair_text) checked.pairs = pair_text->list(pairs_to_print(options, checked.verdict.pairs));
       checked.bond = gauge.worst_bond(own);
       checked.verdict.closure_residuals = gauge.closure_residuals(own);
       for (const double residual : checked.verdict.closure_residuals)
@@ -179,7 +188,7 @@ Exit run_check(const Options& options) {
       }
       checked = check_alone(options, frames.number(k), mode, error.what());
       checked.verdict.closure_residuals.assign(job.molecule->closure_atoms().size(), 0.0);
-      if (pair_text) checked.pairs = PairText(*checked.own).list(checked.verdict.pairs);
+      if (pair_text) checked.pairs = PairText(*checked.own).list(pairs_to_print(options, checked.verdict.pairs));
     } catch (const hinge::LoadError& error) {
       checked.error = error.what();
     }
@@ -198,10 +207,13 @@ Exit run_check(const Options& options) {
     } else {
       summary.add(s, checked.verdict);
     }
+    const std::size_t printed = pairs_to_print(options, checked.verdict.pairs).size();
+    left_out += checked.verdict.pairs.size() - printed;
     const std::optional<double> clashscore = clashscore_of(options, of, checked.verdict, mode);
     if (clashscore) summary.add_clashscore(*clashscore);
     if (options.output == Output::json) {
       Json row = verdict_json(of, k, checked.verdict, mode);
+      add_left_out(row, options, checked.verdict.pairs, mode);
       frames.name(row, k);
       if (clashscore) row["clashscore"] = *clashscore;
       if (checked.own) row["other_atoms"] = checked.difference;
@@ -210,28 +222,31 @@ Exit run_check(const Options& options) {
       results.add(row, checked.pairs);
     }
     if (options.output == Output::csv)
-      results.add(with_columns(csv_rows(of, k, checked.verdict),
+      results.add(with_columns(csv_rows(of, k, checked.verdict, printed),
                                fmt::format(",{},{}", checked.bond.residual, checked.verdict.closure_residual)));
-    if (options.output == Output::table) print_table_row(of, frames.name(k), checked, mode, clashscore);
+    if (options.output == Output::table)
+      print_table_row(options, of, frames.name(k), checked, mode, clashscore, headed);
     if (checked.bond.residual > worst.residual) {
       worst = checked.bond;
       worst_name = frames.name(k);
     }
+    if (!checked.own) choice.offer(k, checked.verdict);
     file.add(checked.positions, static_cast<int>(k) + 1, checked.verdict.collides);
     bar.show(n + 1);
   };
   const auto finish = [&](const std::string& error) {
     if (others > 1)
-      fmt::print(stderr, "note: {} more models have other atoms than the first model; see `other_atoms` of --json\n",
-                 others - 1);
+      fmt::print(stderr, "note: {} other atoms than the first model; see `other_atoms` of --json\n",
+                 counted(others - 1, "more model has", "more models have"));
+    note_left_out(options, left_out);
     results.finish(summary.json(has_closures), error);
     if (options.output != Output::table) return;
     if (worst.residual >= 0.0005)
       fmt::print("bond farthest from its length in the reference: {} - {}, {:.3f} angstrom against {:.3f} ({})\n",
                  label(s, worst.first), label(s, worst.second), worst.length, worst.reference, worst_name);
     print_closures(job, summary.worst_residuals());
-    fmt::print("{} of {} {} collide\n", summary.colliding(), summary.checked(),
-               frames.are_models() ? "models" : "frames");
+    fmt::print("{}\n", hinge::tool::collide_text(summary.colliding(), summary.checked(),
+                                                 frames.are_models() ? "model" : "frame"));
   };
   try {
     hinge::Ensemble(job.checker, options.threads)
@@ -247,6 +262,14 @@ Exit run_check(const Options& options) {
     throw;
   }
   finish({});
+  if (options.view && choice.best()) {
+    const std::size_t k = *choice.best();
+    const std::vector<hinge::Vec3> own = frames.file(k).kept(frames.file(k).frame(frames.place(k).frame));
+    Checker checker = job.checker;
+    const bool same_atoms = !file.wants_whole_frames() || frames.atom_count() == s.atoms.size();
+    write_view(options, job, {frames.name(k), own, checker.check_coordinates(own, Mode{Mode::Kind::all}).pairs},
+               same_atoms && file.size() > 0);
+  }
   return summary.colliding() > 0 ? Exit::collision : Exit::free;
 }
 

@@ -38,9 +38,9 @@ inline hinge::molecular::TrajectoryFormat conformation_format(const std::string&
 /// collision. Does nothing if --out is not given. One thread only.
 class ConformationFile {
  public:
-  /// frame_atoms: atoms per frame of the input; DCD and NumPy files take whole frames, PDB and mmCIF files the atoms of
-  /// the molecule. single: write 32-bit floats. Throws ModelError for another extension, or a molecule that does not
-  /// fit PDB; LoadError if the file cannot be written.
+  /// frame_atoms: atoms per frame of the input; DCD, XTC and NumPy files take whole frames, PDB and mmCIF files the
+  /// atoms of the molecule. single: write 32-bit floats. Throws ModelError for another extension, or a molecule that
+  /// does not fit PDB; LoadError if the file cannot be written.
   ConformationFile(const Options& options, const hinge::molecular::Structure& molecule, std::size_t frame_atoms,
                    bool single)
       : only_free_(options.only_free),
@@ -48,7 +48,7 @@ class ConformationFile {
         path_(options.out),
         file_((check(molecule), options.out)) {
     if (!wanted()) return;
-    if (!file_.is_regular() && wants_whole_frames())
+    if (!file_.is_regular() && counts_frames(format_))
       throw hinge::ModelError("--out " + options.out +
                               ": is a device or pipe, expected a regular file: DCD and NumPy files begin with their "
                               "number of frames");
@@ -70,14 +70,14 @@ class ConformationFile {
     writer_->add(positions, number);
     file_.check();
   }
-  /// Completes the file. Without conformations, DCD and NumPy files hold 0 frames; PDB and mmCIF files cannot be empty,
-  /// so none is written and an existing file stays unchanged.
+  /// Completes the file. Without conformations, DCD and NumPy files hold 0 frames; the other files cannot be empty, so
+  /// none is written and an existing file stays unchanged.
   void finish() {
     if (!wanted()) return;
-    const bool is_file = size() > 0 || wants_whole_frames();
+    const bool is_file = size() > 0 || counts_frames(format_);
     if (size() == 0)
       fmt::print(stderr, "note: --out {}: no conformation{}: {}\n", path_, only_free_ ? " is free" : " to write",
-                 is_file ? "the file holds 0 frames" : "no file is written, the format needs atoms");
+                 is_file ? "the file holds 0 frames" : "no file is written, the format needs frames");
     if (!is_file) return;
     writer_->finish();
     file_.finish();

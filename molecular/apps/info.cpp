@@ -8,8 +8,10 @@
 #include <string>
 
 #include "hinge/molecular/summary.hpp"
+#include "hinge_tools/counted.hpp"
 #include "hinge_tools/json_text.hpp"
 #include "options.hpp"
+#include "pair_table.hpp"
 #include "report.hpp"
 #include "rigid_ensemble.hpp"
 
@@ -18,6 +20,8 @@ namespace biocd {
 namespace {
 
 using namespace hinge::molecular;
+using hinge::tool::counted;
+using hinge::tool::noun_of;
 
 const char* origin_name(BondOrigin origin) {
   switch (origin) {
@@ -78,7 +82,7 @@ void print_table(const Options& options, const Job& job) {
   fmt::print("models: {}; waters left out: {}; hetero atoms left out: {}\n", s.models.size(), s.waters_dropped,
              s.hetero_dropped);
   for (const auto& [name, of_class] : residues_by_class(s)) {
-    fmt::print("{}: {} residues, chains", name, of_class.residues);
+    fmt::print("{}: {}, {}", name, counted(of_class.residues, "residue"), noun_of(of_class.chains.size(), "chain"));
     for (const auto& [chain, count] : of_class.chains) fmt::print(" {}", chain);
     const bool polymer = name == "protein" || name == "DNA" || name == "RNA";
     for (const auto& [residue, count] : of_class.names)
@@ -93,8 +97,7 @@ void print_table(const Options& options, const Job& job) {
   fmt::print("\nexcluded pairs: {}; secondary structure elements: {}\n", job.checker.exclusions().excluded_pairs(),
              s.secondary_structure.size());
   if (job.ensemble) fmt::print("{}", rigid_groups_text(options, job));
-  for (const hinge::Hit& hit : job.checker.reference_collisions())
-    fmt::print("{}  (reference)\n", pair_line(job, {hit, true}));
+  fmt::print("{}", pair_table(options, job, contacts(job.checker.reference_collisions()), true, "  (reference)"));
 }
 
 }  // namespace

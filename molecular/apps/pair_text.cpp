@@ -18,7 +18,7 @@ PairText::PairText(const Job& job)
     labels_.push_back(hinge::tool::json_string(label(structure, atom)));
 }
 
-std::string PairText::list(const std::vector<hinge::molecular::Contact>& pairs) const {
+std::string PairText::list(std::span<const hinge::molecular::Contact> pairs) const {
   constexpr std::size_t usual_length = 160;  // of a pair
   hinge::tool::JsonText text(pairs.size() * usual_length);
   text.put("[");

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ class PairText {
   explicit PairText(const Job& job);
 
   /// Returns the JSON array of the pairs.
-  std::string list(const std::vector<hinge::molecular::Contact>& pairs) const;
+  std::string list(std::span<const hinge::molecular::Contact> pairs) const;
 
  private:
   void append(hinge::tool::JsonText& text, const hinge::molecular::Contact& pair) const;

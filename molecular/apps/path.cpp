@@ -9,21 +9,26 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/path_checker.hpp"
 #include "hinge/path/path_answer.hpp"
+#include "hinge_tools/counted.hpp"
 #include "hinge_tools/json_text.hpp"
 #include "options.hpp"
+#include "pair_table.hpp"
 #include "path_end.hpp"
 #include "report.hpp"
+#include "view.hpp"
 
 namespace biocd {
 
 using namespace hinge::molecular;
 using hinge::PathAnswer;
 using hinge::PathVerdict;
+using hinge::tool::counted;
 
 namespace {
 
@@ -65,7 +70,8 @@ Json path_json(const Options& options, const Job& job, const Asked& asked) {
   json["half_width"] = answer.verdict == PathVerdict::undecided ? Json(answer.half_width) : Json();
   json["turns"] = answer.is_free() ? Json() : Json(in_degrees(job, answer.configuration));
   json["pairs"] = Json::array();
-  for (const Contact& pair : asked.pairs) json["pairs"].push_back(pair_json(job, pair));
+  for (const Contact& pair : pairs_to_print(options, asked.pairs)) json["pairs"].push_back(pair_json(job, pair));
+  add_left_out(json, options, asked.pairs, Mode{Mode::Kind::all});
   json["undecided_pair"] = Json();
   if (answer.verdict == PathVerdict::undecided && answer.hit)
     json["undecided_pair"] = pair_json(job, {*answer.hit, false});
@@ -94,18 +100,18 @@ void print_table(const Options& options, const Job& job, const Asked& asked) {
   switch (answer.verdict) {
     case PathVerdict::free:
       if (options.sampled_degrees)
-        fmt::print("free at {} states at most {} degrees apart; the states between them were not tested\n",
-                   answer.counts.configurations, *options.sampled_degrees);
+        fmt::print("free at {} at most {} degrees apart; the states between them were not tested\n",
+                   counted(answer.counts.configurations, "state"), *options.sampled_degrees);
       else
-        fmt::print("free: proved for every state, by testing {} states\n", answer.counts.configurations);
+        fmt::print("free: proved for every state, by testing {}\n", counted(answer.counts.configurations, "state"));
       break;
     case PathVerdict::colliding:
-      fmt::print("collides at t = {}, {} pairs\n", answer.parameter, asked.pairs.size());
-      for (const Contact& pair : asked.pairs) fmt::print("{}\n", pair_line(job, pair));
+      fmt::print("collides at t = {:.4g}, {}\n{}", answer.parameter, counted(asked.pairs.size(), "pair"),
+                 pair_table(options, job, asked.pairs, true));
       break;
     case PathVerdict::undecided:
-      fmt::print("undecided: nothing is proved within {:.3g} of t = {}\n", answer.half_width, answer.parameter);
-      if (answer.hit) fmt::print("{}\n", pair_line(job, {*answer.hit, false}));
+      fmt::print("undecided: nothing is proved within {:.2g} of t = {:.8g}\n", answer.half_width, answer.parameter);
+      if (answer.hit) fmt::print("{}", pair_table(options, job, {{*answer.hit, false}}, true));
       break;
   }
 }
@@ -124,9 +130,9 @@ void note_open_closures(const Job& job, const Asked& asked) {
   const auto most = std::ranges::max_element(worst);
   if (most == worst.end() || *most <= 1e-6) return;
   std::fprintf(stderr,
-               "note: a straight path does not keep cycles closed: %td of %zu closures open on it, the most %s, by "
-               "%.3f angstrom\n",
-               std::ranges::count_if(worst, [](double residual) { return residual > 1e-6; }), worst.size(),
+               "note: a straight path does not keep cycles closed: %td of %s on it, the most %s, by %.3f angstrom\n",
+               std::ranges::count_if(worst, [](double residual) { return residual > 1e-6; }),
+               counted(worst.size(), "closure opens", "closures open").c_str(),
                closure_names(job)[static_cast<std::size_t>(most - worst.begin())].c_str(), *most);
 }
 
@@ -171,6 +177,16 @@ Exit run_path(const Options& options) {
     fmt::print("{}\n", hinge::tool::json_text(path_json(options, job, asked), 1));
   else
     print_table(options, job, asked);
+  if (options.view) {
+    const bool is_free = asked.answer.is_free();
+    checker.check(is_free ? asked.to.turns : asked.answer.configuration, Mode{Mode::Kind::all});
+    std::vector<Contact> pairs = asked.pairs;
+    if (asked.answer.verdict == PathVerdict::undecided && asked.answer.hit) pairs.push_back({*asked.answer.hit, false});
+    write_view(options, job,
+               {is_free ? "the end of the path" : fmt::format("t = {:.4g}", asked.answer.parameter),
+                checker.positions(), std::move(pairs)},
+               false);
+  }
   switch (asked.answer.verdict) {
     case PathVerdict::free: return Exit::free;
     case PathVerdict::colliding: return Exit::collision;

@@ -12,7 +12,9 @@
 
 #include "hinge/core/id.hpp"
 #include "hinge/molecular/severity.hpp"
+#include "hinge_tools/counted.hpp"
 #include "hinge_tools/csv_field.hpp"
+#include "pair_table.hpp"
 #include "scene.hpp"
 
 namespace biocd {
@@ -25,6 +27,7 @@ using hinge::molecular::Mode;
 using hinge::molecular::Severity;
 using hinge::molecular::Structure;
 using hinge::molecular::Verdict;
+using hinge::tool::counted;
 using hinge::tool::csv_field;
 
 std::uint32_t atom(hinge::PrimitiveId i) { return static_cast<std::uint32_t>(hinge::index(i)); }
@@ -40,7 +43,7 @@ std::string rule_line(const Checker& checker) {
   std::string text =
       t.rho ? fmt::format("d < {} * ({} v{} radii)", *t.rho, t.radii, t.radii_version)
             : fmt::format("{} v{} ({} v{} radii)", t.rules->name, t.rules->version, t.radii, t.radii_version);
-  text += fmt::format(", pairs at least {} bonds apart", bonds.heavy);
+  text += fmt::format(", pairs at least {} apart", counted(static_cast<std::uint64_t>(bonds.heavy), "bond"));
   if (bonds.hydrogen != bonds.heavy) text += fmt::format(" ({} with a hydrogen)", bonds.hydrogen);
   if (!t.rules->inside_residues) text += ", not inside residues";
   return text + fmt::format(", hydrogen-bond rule {}", t.hydrogen_bonds ? "on" : "off");
@@ -189,7 +192,7 @@ std::string csv_header(const Options& options, const std::string& more) {
                      has_relative_distance(rules) ? ",relative_distance" : "", more);
 }
 
-std::string csv_rows(const Job& job, std::uint64_t index, const Verdict& verdict) {
+std::string csv_rows(const Job& job, std::uint64_t index, const Verdict& verdict, std::size_t most_pairs) {
   const Structure& structure = job.molecule->structure();
   const std::string_view rules = job.checker.thresholds().rules->name;
   std::string rows;
@@ -204,7 +207,7 @@ std::string csv_rows(const Job& job, std::uint64_t index, const Verdict& verdict
       rows += of.relative_distance ? fmt::format(",{}", *of.relative_distance) : std::string(",");
     rows += '\n';
   };
-  for (const Contact& pair : verdict.pairs) add(pair);
+  for (std::size_t k = 0; k < std::min(most_pairs, verdict.pairs.size()); ++k) add(verdict.pairs[k]);
   if (verdict.closest) add(*verdict.closest);
   if (rows.empty())
     rows = fmt::format("{},{:d},,,,,,,,{}{}\n", index, verdict.collides, has_classes(rules) ? "," : "",
@@ -221,18 +224,6 @@ std::string with_columns(const std::string& rows, const std::string& columns) {
   return text;
 }
 
-std::string pair_line(const Job& job, const Contact& pair) {
-  const Structure& structure = job.molecule->structure();
-  const hinge::Hit& hit = pair.hit;
-  const Severity of = severity(job, pair);
-  std::string line = fmt::format("  {:<18} {:<18} {:8.3f} {} {:.3f}, overlap {:.3f}", label(structure, atom(hit.first)),
-                                 label(structure, atom(hit.second)), hit.distance,
-                                 pair.collides ? "<" : ">=", hit.threshold, of.overlap);
-  if (of.relative_distance) line += fmt::format(", relative distance {:.3f}", *of.relative_distance);
-  if (!of.kind.empty()) line += fmt::format(", {}", of.kind);
-  return line;
-}
-
 std::string heading(const Options& options, const Job& job) {
   const Structure& s = job.molecule->structure();
   const Checker& checker = job.checker;
@@ -242,16 +233,18 @@ std::string heading(const Options& options, const Job& job) {
     if (const std::size_t rest = checker.reference_collisions().size() - exempted_pairs(job); rest > 0)
       exempt += fmt::format(" except {} between molecules (--exempt-interfaces)", rest);
   }
-  std::string text = fmt::format(
-      "{}: {} atoms, {} residues, {} chains, {} bonds\nselection {}{}{}: {} DOF, {} rigid groups, {} closures\n"
-      "rule: {}{}\n",
-      options.file, s.atoms.size(), s.residues.size(), s.chains.size(), s.bonds.size(), options.free,
-      options.omega ? " with omega" : "", options.loop.empty() ? "" : " and loop " + options.loop, checker.dof_count(),
-      checker.rigid_group_count(), job.molecule->model().tree().closures().size(), rule_line(checker), exempt);
+  std::string text = fmt::format("{}: {}, {}, {}, {}\n", options.file, counted(s.atoms.size(), "atom"),
+                                 counted(s.residues.size(), "residue"), counted(s.chains.size(), "chain"),
+                                 counted(s.bonds.size(), "bond"));
+  text += fmt::format("selection {}{}{}: {} DOF, {}, {}\nrule: {}{}\n", options.free,
+                      options.omega ? " with omega" : "", options.loop.empty() ? "" : " and loop " + options.loop,
+                      checker.dof_count(), counted(checker.rigid_group_count(), "rigid group"),
+                      counted(job.molecule->model().tree().closures().size(), "closure"), rule_line(checker), exempt);
   text += left_out_line(s) + free_words_line(job) + scene_lines(options, job);
-  text += fmt::format("reference: {} colliding pairs; constant contacts under this selection: {}\n",
-                      checker.reference_collisions().size(), checker.constant_contacts().size());
-  for (const hinge::Hit& hit : checker.constant_contacts()) text += pair_line(job, {hit, true}) + "  (constant)\n";
+  text +=
+      fmt::format("reference: {}; constant contacts under this selection: {}\n",
+                  counted(checker.reference_collisions().size(), "colliding pair"), checker.constant_contacts().size());
+  text += pair_table(options, job, contacts(checker.constant_contacts()), true, "  (constant)");
   return text;
 }
 
@@ -263,8 +256,8 @@ std::string left_out_line(const Structure& s) {
     if (++names > most_names) continue;
     what += fmt::format("{}{} x{}", what.empty() ? "" : ", ", name, count);
   }
-  if (names > most_names) what += fmt::format(" and {} more names", names - most_names);
-  if (s.waters_dropped > 0) what += fmt::format("{}{} waters", what.empty() ? "" : ", ", s.waters_dropped);
+  if (names > most_names) what += fmt::format(" and {}", counted(names - most_names, "more name"));
+  if (s.waters_dropped > 0) what += (what.empty() ? "" : ", ") + counted(s.waters_dropped, "water");
   if (what.empty()) return {};
   if (names > 0) options = "--hetero keeps ligands and ions";
   if (s.waters_dropped > 0) options += names > 0 ? ", --hetero waters also keeps waters" : "--hetero waters keeps them";
@@ -278,7 +271,7 @@ void print_left_out(const Options& options, const Job& job) {
 
 void print_constant_contacts(const Job& job) {
   for (const hinge::Hit& hit : job.checker.constant_contacts())
-    std::fprintf(stderr, "constant contact: %s\n", pair_line(job, {hit, true}).c_str());
+    std::fprintf(stderr, "constant contact: %s\n", pair_sentence(job, {hit, true}).c_str());
 }
 
 void print_notes(const Job& job) {
@@ -291,8 +284,10 @@ void print_notes(const Job& job) {
   std::string text;
   for (std::size_t k = 0; k < std::min(most, job.kept.held.size()); ++k)
     text += fmt::format(" {}", torsion_label(job.molecule->structure(), job.molecule->torsions()[job.kept.held[k]]));
-  std::fprintf(stderr, "note: %zu torsions are held by closed cycles and stay at their reference:%s%s\n",
-               job.kept.held.size(), text.c_str(), job.kept.held.size() > most ? " ..." : "");
+  const bool one = job.kept.held.size() == 1;
+  std::fprintf(stderr, "note: %s held by closed cycles and %s reference:%s%s\n",
+               counted(job.kept.held.size(), "torsion is", "torsions are").c_str(),
+               one ? "stays at its" : "stay at their", text.c_str(), job.kept.held.size() > most ? " ..." : "");
 }
 
 }  // namespace biocd

@@ -58,15 +58,12 @@ inline constexpr const char* csv_columns =
     "index,collides,i,j,label_i,label_j,distance,threshold,pair_collides,overlap";
 /// Returns the header line: csv_columns, the columns of the rules, and `more`: further columns, each after a comma.
 std::string csv_header(const Options& options, const std::string& more);
-/// Returns the CSV rows of one conformation, each with a line end.
-std::string csv_rows(const Job& job, std::uint64_t index, const hinge::molecular::Verdict& verdict);
+/// Returns the CSV rows of one conformation, each with a line end. most_pairs: further pairs have no row.
+std::string csv_rows(const Job& job, std::uint64_t index, const hinge::molecular::Verdict& verdict,
+                     std::size_t most_pairs);
 
 /// Returns the rows with `columns` appended to each; every column starts with a comma.
 std::string with_columns(const std::string& rows, const std::string& columns);
-
-/// Returns a line such as "A:LYS77:NZ  A:GLU18:OE1  2.310 < 2.456, overlap 0.760". The sign is ">=" if the pair does
-/// not collide, even if the rounded numbers suggest otherwise.
-std::string pair_line(const Job& job, const hinge::molecular::Contact& pair);
 
 /// Returns the heading of tables: the file, the selection, the rules and the constant contacts.
 std::string heading(const Options& options, const Job& job);

@@ -69,6 +69,8 @@ std::string csv_shard_line(const Shard& shard, std::uint64_t total, const Json& 
 Results::Results(const Options& options, Json head, std::uint64_t total, const std::string& columns)
     : output_(options.output), sharded_(options.shard.has_value()) {
   if (sharded_ && output_ == Output::table) throw hinge::ModelError("--shard: expected --json or --csv in addition");
+  if (sharded_ && options.max_pairs)
+    throw hinge::ModelError("--max-pairs: a shard holds all pairs for biocd merge, expected no limit");
   if (output_ == Output::json) {
     if (sharded_) {
       const auto [first, end] = shard_range(*options.shard, total);

@@ -13,10 +13,12 @@
 #include "frames.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/fit_torsions.hpp"
+#include "hinge_tools/counted.hpp"
 
 namespace biocd {
 
 using namespace hinge::molecular;
+using hinge::tool::counted;
 
 namespace {
 
@@ -129,7 +131,7 @@ Json deviation_json(const Structure& s, const Deviation& deviation) {
 }
 
 std::string deviation_text(const Structure& s, const Deviation& deviation) {
-  return fmt::format("RMSD {:.2f}, at worst {:.2f} ({}), farthest atom {:.2f} ({})",
+  return fmt::format("RMSD {:.2f} A, at worst {:.2f} A ({}), farthest atom {:.2f} A ({})",
                      deviation.sum / static_cast<double>(deviation.count), deviation.worst, deviation.worst_name,
                      deviation.farthest, label(s, deviation.farthest_atom));
 }
@@ -149,15 +151,17 @@ std::string rigid_groups_text(const Options& options, const Job& job) {
   const Structure& s = job.molecule->structure();
   const EnsembleGroups& found = *job.ensemble;
   const Deviations all = measure(options, job);
-  std::string text = fmt::format("rigid groups of {} conformations, tolerance {} angstrom: {}\n",
-                                 all.groups.front().count, options.rigid_tolerance, found.groups.size());
+  std::string text =
+      fmt::format("rigid groups of {}, tolerance {} angstrom: {}\n", counted(all.groups.front().count, "conformation"),
+                  options.rigid_tolerance, found.groups.size());
   for (std::size_t g = 0; g < std::min(most, found.groups.size()); ++g) {
     const EnsembleGroup& group = found.groups[g];
-    text += fmt::format("  {} atoms in {} segment{}, {}: distances vary by {:.2f}; {}\n", group.size(),
-                        group.segments.size(), group.segments.size() == 1 ? "" : "s", residues_text(s, group.atoms()),
-                        group.spread, deviation_text(s, all.groups[g]));
+    text += fmt::format("  {} in {}, {}: distances vary by {:.2f} A; {}\n", counted(group.size(), "atom"),
+                        counted(group.segments.size(), "segment"), residues_text(s, group.atoms()), group.spread,
+                        deviation_text(s, all.groups[g]));
   }
-  if (found.groups.size() > most) text += fmt::format("  and {} smaller groups\n", found.groups.size() - most);
+  if (found.groups.size() > most)
+    text += fmt::format("  and {}\n", counted(found.groups.size() - most, "smaller group"));
   for (std::size_t k = 0; k < found.torsions.size(); ++k)
     text += fmt::format("  free {:<22} spread {:.1f} degrees\n",
                         torsion_label(s, job.molecule->torsions()[found.torsions[k]]), found.turn_spreads[k] / degree);

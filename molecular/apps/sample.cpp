@@ -19,14 +19,17 @@
 #include "hinge/molecular/closed_sampler.hpp"
 #include "hinge/molecular/sampler.hpp"
 #include "hinge_tools/complete_file.hpp"
+#include "hinge_tools/counted.hpp"
 #include "hinge_tools/csv_field.hpp"
 #include "hinge_tools/progress_bar.hpp"
 #include "options.hpp"
+#include "pair_table.hpp"
 #include "pair_text.hpp"
 #include "report.hpp"
 #include "results.hpp"
 #include "scene.hpp"
 #include "summary.hpp"
+#include "view.hpp"
 
 namespace biocd {
 
@@ -146,9 +149,9 @@ void print_table(const Job& job, const Summary& summary, double seconds) {
   const auto share = [](std::uint64_t part, std::uint64_t all) {
     return all == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(all);
   };
-  fmt::print("{} of {} conformations collide ({:.2f} %), {:.0f} conformations per second\n", summary.colliding(),
-             summary.checked(), share(summary.colliding(), summary.checked()),
-             static_cast<double>(summary.checked()) / seconds);
+  fmt::print("{} ({:.2f} %), {:.0f} conformations per second\n",
+             hinge::tool::collide_text(summary.colliding(), summary.checked(), "conformation"),
+             share(summary.colliding(), summary.checked()), static_cast<double>(summary.checked()) / seconds);
   if (const auto& starts = summary.starts()) {
     const std::uint64_t all = summary.checked() + starts->refused + starts->unclosed;
     fmt::print("starts: {}; closed: {} ({:.2f} %); closed, but rejected for a collision: {}; samples missing: {}\n",
@@ -157,7 +160,9 @@ void print_table(const Job& job, const Summary& summary, double seconds) {
     fmt::print("closures: not solved, so cycles open (--closures keep closes them)\n");
   }
   print_closures(job, summary.worst_residuals());
-  for (const Offender& o : summary.top()) fmt::print("  {:<18} {:<18} {:8}\n", o.label_i, o.label_j, o.count);
+  const std::vector<Offender> offenders = summary.top();
+  if (!offenders.empty()) fmt::print("  {:<18} {:<18} conformations\n", "atom 1", "atom 2");
+  for (const Offender& o : offenders) fmt::print("  {:<18} {:<18} {:13}\n", o.label_i, o.label_j, o.count);
   if (summary.count_error() > 0)
     fmt::print("  counts of pairs may be too low by up to {}: there were too many different pairs\n",
                summary.count_error());
@@ -200,13 +205,15 @@ Exit run_sample(const Options& options) {
   hinge::tool::ProgressBar bar(end - begin);
   const auto start = std::chrono::steady_clock::now();
   Worker worker{job.checker, {}};
+  ViewChoice choice;
+  std::uint64_t left_out = 0;  // pairs that are not printed
   if (closed)
     worker.closed.emplace(*job.molecule, job.checker.selection(), sampling, options.most_tries, job.kept.closures,
                           job.ranges);
   const auto judge = [&, begin = begin](Worker& mine, std::size_t n) {
     Sample sample = draw(mine, job, sampling, begin + n, mode, options.collision_free);
     if (sample.found && file.takes(sample.verdict.collides)) sample.positions = mine.checker.positions();
-    if (sample.found && pair_text) sample.pairs = pair_text->list(sample.verdict.pairs);
+    if (sample.found && pair_text) sample.pairs = pair_text->list(pairs_to_print(options, sample.verdict.pairs));
     return sample;
   };
   const auto report = [&, begin = begin](std::size_t n, const Sample& sample) {
@@ -215,8 +222,12 @@ Exit run_sample(const Options& options) {
     if (closed) summary.add(Starts{sample.found ? 0U : 1U, sample.unclosed, sample.refused});
     if (!sample.found) return;
     summary.add(s, sample.verdict);
+    choice.offer(k, sample.verdict);
+    const std::size_t printed = pairs_to_print(options, sample.verdict.pairs).size();
+    left_out += sample.verdict.pairs.size() - printed;
     if (options.output == Output::json) {
       Json row = verdict_json(job, k, sample.verdict, mode);
+      add_left_out(row, options, sample.verdict.pairs, mode);
       if (!sample.verdict.closure_residuals.empty())
         row["closures"] = closures_json(job, sample.verdict.closure_residuals);
       if (!sample.placements.empty()) row["placements"] = placements_json(job, sample.placements);
@@ -224,7 +235,7 @@ Exit run_sample(const Options& options) {
       results.add(row, sample.pairs);
     }
     if (options.output == Output::csv) {
-      const std::string rows = with_placements(csv_rows(job, k, sample.verdict), sample.placements);
+      const std::string rows = with_placements(csv_rows(job, k, sample.verdict, printed), sample.placements);
       results.add(options.torsions ? with_columns(rows, torsion_columns(sample.torsions)) : rows);
     }
     torsions.add(sample.torsions);
@@ -257,7 +268,14 @@ Exit run_sample(const Options& options) {
   }
   const std::chrono::duration<double> checking = std::chrono::steady_clock::now() - start;
   results.finish(summary.json(true));
+  note_left_out(options, left_out);
   if (options.output == Output::table) print_table(job, summary, checking.count());
+  if (options.view && choice.best()) {
+    const Sample shown = draw(worker, job, sampling, *choice.best(), Mode{Mode::Kind::all}, options.collision_free);
+    write_view(options, job,
+               {fmt::format("conformation {}", *choice.best()), worker.checker.positions(), shown.verdict.pairs},
+               file.size() > 0);
+  }
   const std::uint64_t missing = summary.starts() ? summary.starts()->missing : 0;
   if (missing > 0)
     std::fputs(fmt::format("{} of {} samples are missing: none of {} starts closed{}\n", missing, end - begin,

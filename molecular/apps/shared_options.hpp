@@ -15,13 +15,21 @@ inline constexpr hinge::tool::NumberRange<double> lengths_above_0{0.0, hinge::to
 
 /// Adds FILE and the options about the molecule, its free torsions and the rules of a check.
 void add_model_options(CLI::App& command, Options& o);
-/// Adds --json.
-void add_json_option(CLI::App& command, Options& o);
+/// Adds --json, --csv if with_csv, and --max-pairs.
+void add_output_options(CLI::App& command, Options& o, bool with_csv = false);
+/// Adds --out of conformations.
+void add_out_option(CLI::App& command, Options& o);
+/// Adds --explain.
+void add_explain_option(CLI::App& command, Options& o);
+/// Adds --view.
+void add_view_option(CLI::App& command, Options& o);
+/// Adds --exit-zero.
+void add_exit_zero_option(CLI::App& command, Options& o);
 /// Adds the further options that check and sample share: output format, mode, --out, shards, threads.
 void add_check_options(CLI::App& command, Options& o);
 /// Adds --closures.
 void add_closures_option(CLI::App& command, Options& o);
-/// Adds --json and the options of path: both ends and the method.
+/// Adds the options of path: output format, both ends and the method.
 void add_path_options(CLI::App& command, Options& o);
 
 }  // namespace biocd

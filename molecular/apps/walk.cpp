@@ -13,16 +13,19 @@
 #include "hinge/moves/move_checker.hpp"
 #include "hinge/moves/move_closer.hpp"
 #include "hinge/moves/random_move.hpp"
+#include "hinge_tools/counted.hpp"
 #include "hinge_tools/json_text.hpp"
 #include "hinge_tools/progress_bar.hpp"
 #include "options.hpp"
 #include "report.hpp"
+#include "view.hpp"
 
 namespace biocd {
 
 namespace {
 
 using namespace hinge::molecular;
+using hinge::tool::counted;
 using Moves = hinge::MoveChecker<hinge::Point, BondExclusions, hinge::TypedThresholds>;
 
 void check_options(const Options& options, const Job& job) {
@@ -44,10 +47,10 @@ void check_start(const Options& options, const Structure& s, Moves& moves) {
   if (!moves.collides()) return;
   const std::vector<hinge::Hit>& hits = moves.collisions();
   const auto name = [&](hinge::PrimitiveId i) { return label(s, static_cast<std::uint32_t>(hinge::index(i))); };
-  throw hinge::LoadError(fmt::format(
-      "{}: collides in {} pair{}, first {} and {}; expected a start without collisions "
-      "(--exempt-reference exempts these pairs)",
-      options.file, hits.size(), hits.size() == 1 ? "" : "s", name(hits.front().first), name(hits.front().second)));
+  throw hinge::LoadError(
+      fmt::format("{}: collides in {}, first {} and {}; expected a start without collisions "
+                  "(--exempt-reference exempts these pairs)",
+                  options.file, counted(hits.size(), "pair"), name(hits.front().first), name(hits.front().second)));
 }
 
 std::vector<hinge::Vec3> positions(Moves& moves) {
@@ -115,16 +118,18 @@ Exit run_walk(const Options& options) {
                        {"closure_residual", end.closure_residual}};
     fmt::print("{}\n", hinge::tool::json_text(json, 1));
   } else {
-    fmt::print("{} of {} steps accepted ({:.2f} %), {} rejected, {:.0f} steps per second\n", accepted, options.steps,
+    fmt::print("{} of {} accepted ({:.2f} %), {} rejected, {:.0f} steps per second\n", accepted,
+               counted(options.steps, "step"),
                100.0 * static_cast<double>(accepted) / static_cast<double>(options.steps), rejected,
                static_cast<double>(options.steps) / walking.count());
-    if (file.size() > 0) fmt::print("{} conformations written to {}\n", file.size(), options.out);
+    if (file.size() > 0) fmt::print("{} written to {}\n", counted(file.size(), "conformation"), options.out);
     if (!job.kept.closures.empty())
       fmt::print("closures kept: {}; moves rejected because they did not close: {}\n", job.kept.closures.size(),
                  unclosed);
     if (end.closure_residual > 0.0)
       fmt::print("closures: the worst residual at the end is {:.3g} angstrom\n", end.closure_residual);
   }
+  if (options.view) write_view(options, job, {"the end of the walk", positions(moves), {}}, file.size() > 0);
   return Exit::free;
 }
 

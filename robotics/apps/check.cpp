@@ -18,6 +18,7 @@
 #include "hinge/batch/ensemble.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge_tools/complete_file.hpp"
+#include "hinge_tools/counted.hpp"
 #include "hinge_tools/csv_field.hpp"
 #include "hinge_tools/json_text.hpp"
 #include "hinge_tools/progress_bar.hpp"
@@ -72,15 +73,16 @@ void print_json_end(const Summary& summary, const std::string& error = {}) {
 }
 
 void print_table_end(const Summary& summary, const Robot& robot, bool sampled, double seconds) {
-  fmt::print("{} of {} configurations collide", summary.colliding, summary.checked);
+  fmt::print("{}", hinge::tool::collide_text(summary.colliding, summary.checked, "configuration"));
   if (sampled)
     fmt::print(" ({:.2f} %), {:.0f} per second",
                100.0 * static_cast<double>(summary.colliding) / static_cast<double>(summary.checked),
                static_cast<double>(summary.checked) / seconds);
   fmt::print("{}\n", incomplete(robot));
-  if (!sampled) return;
+  if (!sampled || summary.pairs.empty()) return;
+  fmt::print("  {:<28} {:<28} configurations\n", "link", "link or body");
   for (const auto& [pair, count] : summary.top(shown_pairs))
-    fmt::print("  {:<28} {:<28} {:8}\n", pair.first, pair.second, count);
+    fmt::print("  {:<28} {:<28} {:14}\n", pair.first, pair.second, count);
 }
 
 void write_header(std::ostream& out, const Robot& robot) {
@@ -115,7 +117,9 @@ Exit run_check(const Options& options) {
   if (options.output == Output::table) fmt::print("{}", heading(options, job));
 
   Summary summary;
-  const Columns columns{mode, !options.environment.empty(), options.contained};
+  bool headed = true;          // the next list of pairs starts with the names of its columns
+  std::uint64_t left_out = 0;  // pairs that are not printed
+  const Columns columns{mode, !options.environment.empty(), options.contained, options.max_pairs};
   hinge::tool::ProgressBar bar(configurations.count);
   const auto start = std::chrono::steady_clock::now();
   const auto judge = [&](Worker& own, std::size_t k) {
@@ -128,10 +132,13 @@ Exit run_check(const Options& options) {
     if (options.output == Output::json)
       fmt::print("{}\n{}", k == 0 ? "" : ",",
                  hinge::tool::json_text(answer_json(worker, k, configurations.at(k), answer, columns)));
-    if (options.output == Output::csv) fmt::print("{}", csv_rows(worker, k, answer));
-    if (options.output == Output::table && !sampled)
-      fmt::print("configuration {}: {}{}\n{}", k, answer.collides ? "collides" : "free", incomplete(*job.robot),
-                 pair_lines(worker, answer));
+    if (options.output == Output::csv) fmt::print("{}", csv_rows(worker, k, answer, options.max_pairs, left_out));
+    if (options.output == Output::table && !sampled) {
+      const std::string table = pair_table(worker, answer, options.max_pairs);
+      fmt::print("configuration {}: {}{}\n{}{}", k, answer.collides ? "collides" : "free", incomplete(*job.robot),
+                 headed && !table.empty() ? pair_heading(mode) : "", table);
+      headed = headed && table.empty();
+    }
     if (file.wanted()) write_row(file.stream(), configurations.at(k));
     file.check();
     bar.show(k + 1);
@@ -171,6 +178,9 @@ Exit run_check(const Options& options) {
   }
   const std::chrono::duration<double> checking = std::chrono::steady_clock::now() - start;
   if (options.output == Output::json) print_json_end(summary);
+  if (left_out > 0)
+    fmt::print(stderr, "note: --max-pairs {}: {} without a row\n", options.max_pairs.value_or(0),
+               hinge::tool::counted(left_out, "pair"));
   if (options.output == Output::table) print_table_end(summary, *job.robot, sampled, checking.count());
   print_incomplete(*job.robot);
   return summary.colliding > 0 ? Exit::collision : Exit::free;

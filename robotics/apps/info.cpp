@@ -12,6 +12,7 @@
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 #include "hinge/robotics/containment.hpp"
+#include "hinge_tools/counted.hpp"
 #include "hinge_tools/json_text.hpp"
 #include "options.hpp"
 #include "report.hpp"
@@ -126,16 +127,18 @@ void print_links(const Robot& robot) {
 }
 
 void print_joints(const Robot& robot) {
-  fmt::print("\n{:<36} {:<10} {:>12} {:>12}  follows\n", "movable joint", "type", "lower", "upper");
+  fmt::print("\n{:<36} {:<10} {:>12} {:>12} unit  follows\n", "movable joint", "type", "lower", "upper");
   for (const JointDescription& joint : robot.description().joints) {
     if (joint.type == JointType::fixed) continue;
     const auto limit = [&](double value) {
       return has_limits(joint) ? fmt::format("{:.6g}", value) : std::string("-");
     };
-    fmt::print("{:<36} {:<10} {:>12} {:>12}", joint.name, type_name(joint.type), limit(joint.lower),
-               limit(joint.upper));
-    if (joint.mimic) fmt::print("  {:g} * {} + {:g}", joint.mimic->multiplier, joint.mimic->joint, joint.mimic->offset);
-    fmt::print("\n");
+    std::string follows;
+    if (joint.mimic)
+      follows = fmt::format("   {:g} * {} + {:g}", joint.mimic->multiplier, joint.mimic->joint, joint.mimic->offset);
+    fmt::print("{:<36} {:<10} {:>12} {:>12} {}{}\n", joint.name, type_name(joint.type), limit(joint.lower),
+               limit(joint.upper), joint.type == JointType::prismatic ? (follows.empty() ? "m" : "m  ") : "rad",
+               follows);
   }
 }
 
@@ -157,9 +160,10 @@ Exit run_info(const Options& options) {
   fmt::print("{}", heading(options, job));
   print_links(*job.robot);
   print_joints(*job.robot);
-  fmt::print("\ntested pairs:\n");
+  fmt::print("\n{} tested:\n", hinge::tool::counted(job.tested.size(), "pair of links", "pairs of links"));
+  if (job.tested.size() > 0) fmt::print("  {:<28} link\n", "link");
   for (const auto& [a, b] : job.tested.list())
-    fmt::print("  {} - {}\n", job.robot->link_name(a), job.robot->link_name(b));
+    fmt::print("  {:<28} {}\n", job.robot->link_name(a), job.robot->link_name(b));
   for (const NamedConfiguration& state : job.srdf.configurations) fmt::print("state {}\n", state.full_name());
   return Exit::free;
 }

@@ -12,12 +12,14 @@
 #include "configurations.hpp"
 #include "hinge/robotics/write_srdf.hpp"
 #include "hinge_tools/complete_file.hpp"
+#include "hinge_tools/counted.hpp"
 #include "hinge_tools/progress_bar.hpp"
 #include "options.hpp"
 
 namespace robocd {
 
 using namespace hinge::robotics;
+using hinge::tool::noun_of;
 
 namespace {
 
@@ -80,9 +82,12 @@ Exit run_matrix(const Options& options) {
     ++counts[entry.kind];
     disabled += is_disabled(entry.kind, unseen) && !job.srdf.enabled.contains(entry.link1, entry.link2) ? 1U : 0U;
   }
-  if (!options.srdf.empty()) std::fprintf(stderr, "%6zu pairs disabled by %s\n", kept, options.srdf.c_str());
-  for (const auto& [kind, count] : counts) std::fprintf(stderr, "%6zu pairs %s\n", count, name(kind));
-  std::fprintf(stderr, "%zu of %zu pairs disabled\n", kept + disabled, matrix.entries.size());
+  if (!options.srdf.empty())
+    std::fprintf(stderr, "%6zu %s disabled by %s\n", kept, noun_of(kept, "pair").c_str(), options.srdf.c_str());
+  for (const auto& [kind, count] : counts)
+    std::fprintf(stderr, "%6zu %s %s\n", count, noun_of(count, "pair").c_str(), name(kind));
+  std::fprintf(stderr, "%zu of %s disabled\n", kept + disabled,
+               hinge::tool::counted(matrix.entries.size(), "pair").c_str());
   if (met > 0)
     std::fprintf(stderr,
                  "note: pairs that %s disables, but that collide in some configurations: %zu; comments in the output "

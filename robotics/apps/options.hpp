@@ -33,6 +33,9 @@ struct Options {
   std::vector<std::string> package_folders;  // for package://
   bool skip_missing_meshes = false;          // continue with an incomplete model
   Output output = Output::table;
+  std::optional<std::uint64_t> max_pairs;  // check, path: pairs printed per configuration, 0: all; empty: see
+                                           // hinge::tool::pairs_to_print
+  bool exit_zero = false;                  // check, path: status 0 whatever the verdict
   // check: source of the configurations, one of the four
   std::uint64_t count = 0;
   std::uint64_t seed = 1;

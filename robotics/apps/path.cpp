@@ -14,6 +14,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge/path/path_answer.hpp"
 #include "hinge/robotics/path_checker.hpp"
+#include "hinge_tools/counted.hpp"
 #include "hinge_tools/json_text.hpp"
 #include "options.hpp"
 #include "path_end.hpp"
@@ -24,6 +25,7 @@ namespace robocd {
 
 using namespace hinge::robotics;
 using hinge::PathVerdict;
+using hinge::tool::counted;
 
 namespace {
 
@@ -75,9 +77,10 @@ Json path_json(const Options& options, const Job& job, const Worker& worker, con
   json["parameter"] = path.is_free() ? Json() : Json(path.parameter);
   json["half_width"] = path.verdict == PathVerdict::undecided ? Json(path.half_width) : Json();
   json["values"] = path.is_free() ? Json() : Json(path.configuration);
-  const Json state =
-      answer_json(worker, 0, path.configuration, asked.state, {Mode{}, !options.environment.empty(), false});
+  const Json state = answer_json(worker, 0, path.configuration, asked.state,
+                                 {Mode{}, !options.environment.empty(), false, options.max_pairs});
   for (const char* list : {"pairs", "environment_pairs"}) json[list] = state.value(list, Json::array());
+  if (options.max_pairs) json["pairs_left_out"] = state.value("pairs_left_out", 0);
   json["contact"] = Json();
   if (path.contact)
     json["contact"] = Json{{"first", name(worker, path.contact->first)},
@@ -92,7 +95,8 @@ void print_table(const Options& options, const Job& job, const Worker& worker, c
   const RobotPathAnswer& path = asked.path;
   fmt::print("{}", heading(options, job));
   const auto contact = [&] {
-    if (path.contact) fmt::print("  {} - {}\n", name(worker, path.contact->first), name(worker, path.contact->second));
+    if (path.contact)
+      fmt::print("  {:<28} {}\n", name(worker, path.contact->first), name(worker, path.contact->second));
   };
   const std::size_t segments = asked.waypoints.size() - 1;
   const std::string where =
@@ -102,22 +106,22 @@ void print_table(const Options& options, const Job& job, const Worker& worker, c
   switch (path.verdict) {
     case PathVerdict::free:
       if (options.sampled)
-        fmt::print("free at {} states at most {} rad or m apart; the states between them were not tested{}\n",
-                   asked.states_looked_at, *options.sampled, incomplete(*job.robot));
+        fmt::print("free at {} at most {} rad or m apart; the states between them were not tested{}\n",
+                   counted(asked.states_looked_at, "state"), *options.sampled, incomplete(*job.robot));
       else
-        fmt::print("free: proved for every state, by testing {} states{}\n", asked.states_looked_at,
+        fmt::print("free: proved for every state, by testing {}{}\n", counted(asked.states_looked_at, "state"),
                    incomplete(*job.robot));
       break;
     case PathVerdict::colliding: {
-      fmt::print("collides at t = {}{}{}\n", path.parameter, where, incomplete(*job.robot));
-      const std::string lines = pair_lines(worker, asked.state);
+      fmt::print("collides at t = {:.4g}{}{}\n{}", path.parameter, where, incomplete(*job.robot), pair_heading(Mode{}));
+      const std::string lines = pair_table(worker, asked.state, options.max_pairs);
       if (lines.empty()) contact();  // the path rounds mimic joints differently
       fmt::print("{}", lines);
       break;
     }
     case PathVerdict::undecided:
-      fmt::print("undecided: nothing is proved within {:.3g} of t = {}{}{}\n", path.half_width, path.parameter, where,
-                 incomplete(*job.robot));
+      fmt::print("undecided: nothing is proved within {:.2g} of t = {:.8g}{}{}\n", path.half_width, path.parameter,
+                 where, incomplete(*job.robot));
       contact();
       break;
   }

@@ -6,16 +6,20 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 
 #include "hinge/core/id.hpp"
 #include "hinge/core/vec3.hpp"
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
+#include "hinge_tools/counted.hpp"
 #include "hinge_tools/csv_field.hpp"
+#include "hinge_tools/max_pairs_option.hpp"
 
 namespace robocd {
 
 using namespace hinge::robotics;
+using hinge::tool::counted;
 using hinge::tool::csv_field;
 
 namespace {
@@ -67,6 +71,21 @@ void for_each_finding(const Worker& worker, const Answer& answer, const Visit& v
   for (const BodyContainment& c : answer.contained_bodies)
     visit(c.body_is_outer ? Finding{"environment_contained", body(c.body), link(c.link)}
                           : Finding{"environment_contained", link(c.link), body(c.body)});
+}
+
+/// Calls visit(finding) for the findings that are printed. Closest pairs are no list, so they always are. is_table:
+/// false for JSON and CSV. Returns the number of the others.
+template <class Visit>
+std::size_t for_each_printed(const Worker& worker, const Answer& answer, const std::optional<std::uint64_t>& max_pairs,
+                             bool is_table, const Visit& visit) {
+  const auto is_listed = [](const Finding& f) { return !std::string_view(f.kind).ends_with("closest"); };
+  std::size_t listed = 0, k = 0;
+  for_each_finding(worker, answer, [&](const Finding& f) { listed += is_listed(f) ? 1U : 0U; });
+  const std::size_t printed = hinge::tool::pairs_to_print(max_pairs, is_table, listed);
+  for_each_finding(worker, answer, [&](const Finding& f) {
+    if (!is_listed(f) || k++ < printed) visit(f);
+  });
+  return listed - printed;
 }
 
 Json pair_json(const Finding& f, const char* second_key) {
@@ -129,7 +148,7 @@ Json answer_json(const Worker& worker, std::size_t index, const std::vector<doub
   if (ranks && columns.environment) json["environment_closest"] = nothing;
   if (columns.contained) json["contained"] = empty;
   if (columns.contained && columns.environment) json["environment_contained"] = empty;
-  for_each_finding(worker, answer, [&](const Finding& f) {
+  const std::size_t left_out = for_each_printed(worker, answer, columns.max_pairs, false, [&](const Finding& f) {
     const std::string kind = f.kind;
     const Json row = pair_json(f, kind.starts_with("environment") ? "body" : "link2");
     if (kind.ends_with("closest")) {
@@ -138,14 +157,16 @@ Json answer_json(const Worker& worker, std::size_t index, const std::vector<doub
       json[kind.ends_with("pair") ? kind + "s" : kind].push_back(row);
     }
   });
+  if (columns.max_pairs && lists) json["pairs_left_out"] = left_out;
   return json;
 }
 
 std::string csv_header() { return "index,collides,finding,first,second,distance,x1,y1,z1,x2,y2,z2\n"; }
 
-std::string csv_rows(const Worker& worker, std::size_t index, const Answer& answer) {
+std::string csv_rows(const Worker& worker, std::size_t index, const Answer& answer,
+                     const std::optional<std::uint64_t>& max_pairs, std::uint64_t& left_out) {
   std::string rows;
-  for_each_finding(worker, answer, [&](const Finding& f) {
+  left_out += for_each_printed(worker, answer, max_pairs, false, [&](const Finding& f) {
     rows += fmt::format("{},{:d},{},{},{},", index, answer.collides, f.kind, csv_field(f.first), csv_field(f.second));
     if (f.distance == nullptr) {
       rows += ",,,,,,\n";
@@ -158,16 +179,23 @@ std::string csv_rows(const Worker& worker, std::size_t index, const Answer& answ
   return rows;
 }
 
-std::string pair_lines(const Worker& worker, const Answer& answer) {
+std::string pair_heading(const Mode& mode) {
+  const bool measures = mode.kind == Mode::Kind::within || mode.kind == Mode::Kind::closest;
+  if (measures) return fmt::format("  {:<28} {:<28} distance (m)\n", "link", "link or body");
+  return fmt::format("  {:<28} link or body\n", "link");
+}
+
+std::string pair_table(const Worker& worker, const Answer& answer, const std::optional<std::uint64_t>& max_pairs) {
   std::string lines;
-  for_each_finding(worker, answer, [&](const Finding& f) {
-    const std::string kind = f.kind;
-    lines += fmt::format("  {} {} {}", f.first, kind.ends_with("contained") ? "contains" : "-", f.second);
-    if (f.distance != nullptr)
-      lines += fmt::format("  {:.6g} m{}", *f.distance, kind.ends_with("closest") ? "  (closest)" : "");
-    lines += "\n";
+  const std::size_t left_out = for_each_printed(worker, answer, max_pairs, true, [&](const Finding& f) {
+    const std::string_view kind = f.kind;
+    std::string line = fmt::format("  {:<28} {:<28}", f.first, f.second);
+    if (f.distance != nullptr) line += fmt::format(" {:12.6g}", *f.distance);
+    if (kind.ends_with("closest")) line += "  (closest)";
+    if (kind.ends_with("contained")) line += "  (the first contains the second)";
+    lines += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   });
-  return lines;
+  return lines + hinge::tool::left_out_text(left_out);
 }
 
 std::vector<std::pair<std::string, std::string>> named_pairs(const Worker& worker, const Answer& answer) {
@@ -181,12 +209,13 @@ std::vector<std::pair<std::string, std::string>> named_pairs(const Worker& worke
 
 std::string heading(const Options& options, const Job& job) {
   const Robot& robot = *job.robot;
-  return fmt::format(
-      "{}: robot '{}', {} links, {} with geometry, {} triangles ({} degenerate){}\n"
-      "{} DOF, {} movable joints, {} rigid groups; {} pairs of links tested, {} disabled\n",
-      options.urdf, robot.name(), robot.link_count() - 1, links_with_geometry(robot), robot.model().size(),
-      robot.degenerate_count(), incomplete(robot), robot.independent_joints().size(), robot.model().tree().dof_count(),
-      rigid_groups(robot), job.tested.size(), job.disabled.size());
+  return fmt::format("{}: robot '{}', {}, {} with geometry, {} ({} degenerate){}\n", options.urdf, robot.name(),
+                     counted(robot.link_count() - 1, "link"), links_with_geometry(robot),
+                     counted(robot.model().size(), "triangle"), robot.degenerate_count(), incomplete(robot)) +
+         fmt::format("{} DOF, {}, {}; {} tested, {} disabled\n", robot.independent_joints().size(),
+                     counted(robot.model().tree().dof_count(), "movable joint"),
+                     counted(rigid_groups(robot), "rigid group"),
+                     counted(job.tested.size(), "pair of links", "pairs of links"), job.disabled.size());
 }
 
 }  // namespace robocd

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +26,7 @@ struct Columns {
   hinge::robotics::Mode mode;
   bool environment = false;
   bool contained = false;
+  std::optional<std::uint64_t> max_pairs{};  // if given, the row says how many pairs it leaves out
 };
 
 /// Returns the names of the independent joints.
@@ -39,10 +42,15 @@ Json answer_json(const Worker& worker, std::size_t index, const std::vector<doub
 
 /// CSV: one row per pair, closest pair and containment, or one row without a pair.
 std::string csv_header();
-std::string csv_rows(const Worker& worker, std::size_t index, const Answer& answer);
+/// max_pairs: further pairs have no row. left_out: their number is added.
+std::string csv_rows(const Worker& worker, std::size_t index, const Answer& answer,
+                     const std::optional<std::uint64_t>& max_pairs, std::uint64_t& left_out);
 
-/// Returns indented lines, one per pair.
-std::string pair_lines(const Worker& worker, const Answer& answer);
+/// Returns the names and units of the columns of pair_table(), with a line end. The modes within and closest have
+/// distances.
+std::string pair_heading(const hinge::robotics::Mode& mode);
+/// Returns one line per pair, at most those of --max-pairs, and a line about the others.
+std::string pair_table(const Worker& worker, const Answer& answer, const std::optional<std::uint64_t>& max_pairs);
 
 /// Returns the pairs of an answer by name: two links, or link and body, each pair once.
 std::vector<std::pair<std::string, std::string>> named_pairs(const Worker& worker, const Answer& answer);

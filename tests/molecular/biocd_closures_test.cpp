@@ -167,7 +167,7 @@ TEST(BiocdClosures, OpenAlongPathsWithANote) {
   };
   const std::string inside = path("2,3 --free A:18:phi,psi");
   EXPECT_NE(inside.find(
-                "note: a straight path does not keep cycles closed: 1 of 1 closures open on it, the most A:CYS16:SG - "
+                "note: a straight path does not keep cycles closed: 1 of 1 closure opens on it, the most A:CYS16:SG - "
                 "A:CYS26:SG, by 0."),
             std::string::npos)
       << inside;

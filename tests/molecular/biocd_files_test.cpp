@@ -238,7 +238,7 @@ TEST_F(BiocdFiles, FormatsFollowTheExtensionInEveryCommand) {
     EXPECT_EQ(run_biocd("info" + file("x.pdb") + " 2>&1").status, 0) << command;
     const test::Said said = run_biocd(command + " --out" + file("x.xyz") + " 2>&1");
     EXPECT_EQ(said.status, 2) << command;
-    EXPECT_NE(said.out.find("x.xyz: expected a file name with .pdb, .cif, .dcd or .npy"), std::string::npos)
+    EXPECT_NE(said.out.find("x.xyz: expected a file name with .pdb, .cif, .dcd, .xtc or .npy"), std::string::npos)
         << said.out;
     EXPECT_EQ(std::count(said.out.begin(), said.out.end(), '\n'), 1) << said.out;  // one line: rejected before any work
     EXPECT_FALSE(fs::exists(folder / "x.xyz"));

@@ -13,6 +13,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge/core/number_text.hpp"
 #include "hinge/molecular/write_structure.hpp"
+#include "io/pack_xtc.hpp"
 
 namespace hinge::molecular {
 
@@ -76,6 +77,7 @@ std::optional<TrajectoryFormat> trajectory_format(const std::filesystem::path& p
   if (extension == ".pdb") return TrajectoryFormat::pdb;
   if (extension == ".cif") return TrajectoryFormat::cif;
   if (extension == ".dcd") return TrajectoryFormat::dcd;
+  if (extension == ".xtc") return TrajectoryFormat::xtc;
   if (extension == ".npy") return TrajectoryFormat::npy;
   return std::nullopt;
 }
@@ -103,6 +105,11 @@ void TrajectoryWriter::add(std::span<const Vec3> positions, int number) {
   if (format_ == TrajectoryFormat::cif)
     return write_cif_model(out_, molecule_, positions, number, (frames_ - 1) * atoms_ + 1);
   std::string bytes;
+  if (format_ == TrajectoryFormat::xtc) {
+    bytes = xtc_frame(positions, frames_ - 1);
+    out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    return;
+  }
   const auto put_single = [&](std::string& to, double x) {
     const auto value = static_cast<float>(x);
     if (!std::isfinite(value)) throw ModelError("a coordinate of " + number_text(x) + " does not fit a 32-bit float");
@@ -124,7 +131,7 @@ void TrajectoryWriter::add(std::span<const Vec3> positions, int number) {
 void TrajectoryWriter::finish() {
   if (frames_ > 0 && format_ == TrajectoryFormat::pdb) write_pdb_tail(out_, molecule_);
   if (frames_ > 0 && format_ == TrajectoryFormat::cif) out_ << "#\n";
-  if (names_atoms(format_)) return;
+  if (!counts_frames(format_)) return;
   out_.seekp(0);
   write_head();
   out_.seekp(0, std::ios::end);

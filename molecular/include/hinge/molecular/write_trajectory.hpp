@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// TrajectoryWriter: writes conformations to PDB, mmCIF, DCD or NumPy files, one at a time.
+// TrajectoryWriter: writes conformations to PDB, mmCIF, DCD, XTC or NumPy files, one at a time.
 #pragma once
 
 #include <cstddef>
@@ -20,16 +20,21 @@ enum class TrajectoryFormat : std::uint8_t {
   pdb,  ///< one model per frame
   cif,  ///< mmCIF, one model per frame
   dcd,  ///< CHARMM's layout, 32-bit floats, no unit cell
+  xtc,  ///< GROMACS' compressed coordinates, rounded to 0.01 angstrom (0.001 nm), no unit cell
   npy   ///< array of frames x atoms x 3, C order
 };
 
 /// Returns the format of a file extension, or nullopt for an unknown one.
 HINGE_API std::optional<TrajectoryFormat> trajectory_format(const std::filesystem::path& path);
 /// The known extensions, for messages.
-inline constexpr const char* trajectory_extensions = ".pdb, .cif, .dcd or .npy";
+inline constexpr const char* trajectory_extensions = ".pdb, .cif, .dcd, .xtc or .npy";
 /// True if frames of the format name the molecule's atoms; frames of the other formats are numbers alone.
 inline bool names_atoms(TrajectoryFormat format) {
   return format == TrajectoryFormat::pdb || format == TrajectoryFormat::cif;
+}
+/// True if the file begins with its number of frames: it needs a seekable stream, and may hold 0 frames.
+inline bool counts_frames(TrajectoryFormat format) {
+  return format == TrajectoryFormat::dcd || format == TrajectoryFormat::npy;
 }
 
 /// Writes frames to a stream. DCD and NumPy need a seekable stream: finish() rewrites the number of frames at its
@@ -48,7 +53,7 @@ class HINGE_API TrajectoryWriter {
   /// Number of frames written.
   std::size_t size() const noexcept { return frames_; }
   /// Completes the file; call once, after the last frame. Without frames, DCD and NumPy files are valid and hold 0;
-  /// nothing is written to PDB and mmCIF files, which cannot be empty.
+  /// nothing is written to PDB, mmCIF and XTC files, which cannot be empty.
   void finish();
 
  private:

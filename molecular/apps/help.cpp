@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes the texts of the help.
+#include "help.hpp"
+
+#include "hinge/version.hpp"
+
+namespace biocd {
+
+using hinge::tool::HelpTexts;
+using hinge::tool::Topic;
+
+namespace {
+
+Topic selections() {
+  return {"Selections",
+          {"A selection (--free, --loop, --place, --between, --inside) joins words:",
+           "  all  none  loops  ligands     everything; nothing; outside HELIX and SHEET; outside polymers",
+           "  A  KNI  file:2                a chain; residues of a name; the second file",
+           "  A:45  A:10-20  A:HEM          residues of a chain, by number or name",
+           "  every:5  count:10             every fifth residue; ten residues at equal distances",
+           "  backbone  chi  phi  chi1      torsions of a kind, in every residue",
+           "  A:45:chi1  A:10-20:phi,psi    torsions of these residues",
+           "  B:401:C5-C6                   the torsion about a bond of a ligand",
+           "  ,  or  and  not  ( )          operators: 'A and not (A:10-20 or omega)'; a comma means or",
+           "omega stays at its reference unless --omega is given or a word names it. Parts (--place, --between, "
+           "--inside) and loops are residues, so their selections name no torsions."}};
+}
+
+Topic statuses() {
+  return {"Exit status",
+          {"  0  free, or nothing to decide", "  1  a collision was found (0 with --exit-zero)", "  2  wrong usage",
+           "  3  bad input", "  4  undecided: path proved neither (0 with --exit-zero)"}};
+}
+
+}  // namespace
+
+HelpTexts help_texts() {
+  const std::vector<std::string> both{"Selections", "Exit status"};
+  const std::string file = " molecular/data/1ubq.pdb";
+  HelpTexts texts;
+  texts.version = hinge::version_string;
+  texts.description =
+      "biocd tests proteins, nucleic acids and ligands for collisions with themselves and with each other. A molecule "
+      "is a mechanism: torsions turn about single bonds, and bond lengths and angles stay. Results go to standard "
+      "output, notes to standard error.";
+  texts.topics = {selections(), statuses()};
+  texts.commands[""] = {{"Exit status"}, {"biocd check" + file, "biocd sample --help"}};
+  texts.commands["info"] = {{"Selections"}, {"biocd info" + file, "biocd info" + file + " --free A:70-76 --json"}};
+  texts.commands["check"] = {both, {"biocd check" + file, "biocd check" + file + " --mode within:0.3 --max-pairs 5"}};
+  texts.commands["sample"] = {both,
+                              {"biocd sample" + file + " --free A:70-76 --sigma 5 --exempt-reference",
+                               "biocd sample" + file + " --free A:73-76 -n 50 --filter free --out tail.pdb"}};
+  texts.commands["walk"] = {both,
+                            {"biocd walk" + file + " --exempt-reference --steps 2000 --out walk.pdb",
+                             "biocd walk" + file + " --exempt-reference --free A:70-76 --step-size 10 --steps 500"}};
+  texts.commands["path"] = {both,
+                            {"biocd path" + file + " --free A:72:psi --exempt-reference --from reference --to 20",
+                             "biocd path" + file + " --free A:72:phi,psi --from 0,0 --to 30,-40 --sampled 0.5"}};
+  texts.commands["merge"] = {{"Exit status"},
+                             {"biocd sample" + file + " -n 10 --csv --shard 1/2 > 1.csv",
+                              "biocd sample" + file + " -n 10 --csv --shard 2/2 > 2.csv", "biocd merge 1.csv 2.csv"}};
+  texts.commands["demo"] = {
+      {}, {"biocd demo" + file + " --out demo -n 100", "biocd demo" + file + " --out demo -n 100 --seed 2"}};
+  return texts;
+}
+
+}  // namespace biocd

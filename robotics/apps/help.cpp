@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes the texts of the help.
+#include "help.hpp"
+
+#include "hinge/version.hpp"
+
+namespace robocd {
+
+using hinge::tool::HelpTexts;
+
+HelpTexts help_texts() {
+  const std::string arm = " robotics/data/arm.urdf", srdf = " --srdf robotics/data/arm.srdf";
+  HelpTexts texts;
+  texts.version = hinge::version_string;
+  texts.description =
+      "robocd tests the links of a robot for collisions with each other and with bodies around the robot. It reads "
+      "URDF "
+      "files with their meshes, and SRDF files. Results go to standard output, notes to standard error.";
+  texts.topics = {
+      {"Units", {"Lengths are metres, angles radians."}},
+      {"Pairs",
+       {"All pairs of links are tested, except pairs in one rigid group, pairs joined by one movable joint, "
+        "and pairs disabled by --srdf or --skip-pairs."}},
+      {"Exit status",
+       {"  0  free, or nothing to decide", "  1  a collision was found (0 with --exit-zero)", "  2  wrong usage",
+        "  3  bad input", "  4  undecided: path proved neither (0 with --exit-zero)"}}};
+  texts.commands[""] = {{"Exit status"}, {"robocd check" + arm + " --zero", "robocd path --help"}};
+  texts.commands["info"] = {{"Units", "Pairs"}, {"robocd info" + arm, "robocd info" + arm + srdf + " --json"}};
+  texts.commands["check"] = {{"Units", "Pairs", "Exit status"},
+                             {"robocd check" + arm + srdf + " --random 1000 --seed 1",
+                              "robocd check" + arm + srdf + " --state arm/reach --mode closest"}};
+  texts.commands["path"] = {{"Units", "Pairs", "Exit status"},
+                            {"robocd path" + arm + srdf + " --from zero --to state:arm/reach",
+                             "robocd path" + arm + " --from zero --to 0,0.5,0,0,0,0 --env robotics/data/shelf.obj"}};
+  texts.commands["matrix"] = {{"Units", "Pairs"},
+                              {"robocd matrix" + arm + " --samples 1000",
+                               "robocd matrix" + arm + " --samples 1000 --disable-unseen --out matrix.srdf"}};
+  const std::string motion = " --from state:arm/home --to state:arm/reach --out robot.svg";
+  texts.commands["demo"] = {
+      {},
+      {"robocd demo" + arm + srdf + motion, "robocd demo" + arm + srdf + " --env robotics/data/shelf.obj" + motion}};
+  return texts;
+}
+
+}  // namespace robocd
