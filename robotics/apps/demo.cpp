@@ -120,7 +120,7 @@ Exit run_demo(const Options& options) {
       hit.insert(second);
     }
     fmt::print("motion from {} to {}: collides at t = {:.4f}\n{}", options.from, options.to, path.parameter,
-               pair_lines(worker, answer));
+               pair_table(worker, answer, options.max_pairs));
   } else {
     fmt::print("motion from {} to {}: {}\n", options.from, options.to,
                path.is_free() ? "free, proved for every state" : "undecided");
