@@ -102,6 +102,7 @@ Exit run(int argc, char** argv) {
   biocd::add_output_options(*walk, o);
   biocd::add_out_option(*walk, o);
   add_number(*walk, "--every", o.every, counts, "number of steps between two written conformations");
+  biocd::add_view_option(*walk, o);
   biocd::add_explain_option(*walk, o);
   biocd::add_exit_zero_option(*walk, o);
   walk->option_defaults()->group(title::moves);

@@ -25,6 +25,7 @@
 #include "report.hpp"
 #include "results.hpp"
 #include "summary.hpp"
+#include "view.hpp"
 
 namespace biocd {
 
@@ -157,7 +158,8 @@ Exit run_check(const Options& options) {
   Summary summary(closure_names(job), false, options.output == Output::json);
   BondDeviation worst;  // over all bonds and conformations
   std::string worst_name;
-  bool headed = true;          // the next list of pairs starts with the names of its columns
+  bool headed = true;  // the next list of pairs starts with the names of its columns
+  ViewChoice choice;
   std::uint64_t left_out = 0;  // pairs that are not printed
   std::size_t others = 0;      // models with other atoms than the first
   hinge::tool::ProgressBar bar(end - begin);
@@ -228,6 +230,7 @@ Exit run_check(const Options& options) {
       worst = checked.bond;
       worst_name = frames.name(k);
     }
+    if (!checked.own) choice.offer(k, checked.verdict);
     file.add(checked.positions, static_cast<int>(k) + 1, checked.verdict.collides);
     bar.show(n + 1);
   };
@@ -259,6 +262,14 @@ Exit run_check(const Options& options) {
     throw;
   }
   finish({});
+  if (options.view && choice.best()) {
+    const std::size_t k = *choice.best();
+    const std::vector<hinge::Vec3> own = frames.file(k).kept(frames.file(k).frame(frames.place(k).frame));
+    Checker checker = job.checker;
+    const bool same_atoms = !file.wants_whole_frames() || frames.atom_count() == s.atoms.size();
+    write_view(options, job, {frames.name(k), own, checker.check_coordinates(own, Mode{Mode::Kind::all}).pairs},
+               same_atoms && file.size() > 0);
+  }
   return summary.colliding() > 0 ? Exit::collision : Exit::free;
 }
 

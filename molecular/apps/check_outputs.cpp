@@ -9,6 +9,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge_tools/check_output.hpp"
 #include "options.hpp"
+#include "view.hpp"
 
 namespace biocd {
 
@@ -44,6 +45,12 @@ void check_outputs(const Options& options, bool is_folder) {
       throw hinge::ModelError("--torsions-out " + options.torsions_out +
                               ": is the file of --out, expected a different file");
   }
+  if (options.view)
+    for (const std::filesystem::path& file : view_files(options)) {
+      hinge::tool::check_output("--view", file, input_files(options));
+      if (is_inside(file, options.read.dictionary))
+        throw hinge::ModelError("--view: " + file.string() + " is in the monomer dictionary, expected another --out");
+    }
   const std::filesystem::path out = options.out;
   if (out.empty()) return;
   if (!is_folder) {

@@ -20,10 +20,11 @@
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/sampler.hpp"
 #include "hinge/molecular/selection.hpp"
-#include "hinge/molecular/write_structure.hpp"
 #include "hinge_tools/complete_file.hpp"
+#include "hinge_tools/counted.hpp"
 #include "options.hpp"
 #include "plot_svg.hpp"
+#include "view.hpp"
 
 namespace biocd {
 
@@ -60,18 +61,12 @@ int differences(Checker& simd, Checker& brute, const Sampling& sampling, std::ui
   return different;
 }
 
-void write_worst(const Structure& s, const Worst& worst, const std::filesystem::path& folder) {
-  CompleteFile pdb((folder / "worst.pdb").string());
-  write_pdb_head(pdb.stream(), s);
-  write_pdb_model(pdb.stream(), s, worst.positions, 1);
-  write_pdb_tail(pdb.stream(), s);
-  pdb.finish();
-  CompleteFile chimerax((folder / "worst.cxc").string());
-  write_chimerax_script(chimerax.stream(), s, worst.pairs, "worst.pdb");
-  chimerax.finish();
-  CompleteFile pymol((folder / "worst.pml").string());
-  write_pymol_script(pymol.stream(), s, worst.pairs, "worst.pdb");
-  pymol.finish();
+/// Writes the structure and both scripts. Returns the name of the structure.
+std::string write_worst(const Structure& s, const Worst& worst, const std::filesystem::path& folder) {
+  const std::string file = write_shown_structure(s, worst.positions, folder / "worst");
+  for (const Viewer viewer : {Viewer::chimerax, Viewer::pymol})
+    write_viewer_script(viewer, s, worst.pairs, folder / "worst", {file});
+  return file;
 }
 
 }  // namespace
@@ -163,8 +158,9 @@ Exit run_demo(const Options& options) {
   plot.finish();
   fmt::print("written: {}", (folder / "speed.svg").string());
   if (!worst.pairs.empty()) {
-    write_worst(s, worst, folder);
-    fmt::print(", worst.pdb with {} clashes, worst.cxc (ChimeraX), worst.pml (PyMOL)", worst.pairs.size());
+    const std::string file = write_worst(s, worst, folder);
+    fmt::print(", {} with {}, worst.cxc (ChimeraX), worst.pml (PyMOL)", file,
+               hinge::tool::counted(worst.pairs.size(), "clash", "clashes"));
   }
   fmt::print("\n");
   return different == 0 ? Exit::free : Exit::bad_input;

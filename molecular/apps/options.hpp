@@ -29,6 +29,9 @@ inline constexpr double degree = std::numbers::pi / 180.0;  // rad per degree
 /// Format of standard output.
 enum class Output : std::uint8_t { table, json, csv };
 
+/// Program that --view writes a script for.
+enum class Viewer : std::uint8_t { chimerax, pymol };
+
 /// Shard number `index` (from 1) of `of` shards.
 struct Shard {
   std::uint64_t index = 1;
@@ -58,6 +61,7 @@ struct Options {
   std::string mode = "all";                     ///< check, sample: text of Mode::parse
   Output output = Output::table;                ///< format of standard output
   std::optional<std::uint64_t> max_pairs;       ///< pairs printed per conformation, 0: all; nothing: see pairs_to_print
+  std::optional<Viewer> view;                   ///< check, sample, walk, path: write a viewer script
   bool exit_zero = false;                       ///< status 0 whatever the verdict
   std::string explain;                          ///< "i,j"; empty: explain nothing
   bool atoms = false;                           ///< info: list atoms, bonds and thresholds too
@@ -100,11 +104,11 @@ struct Job {
 /// Reads the files and builds the molecule and the checker. Throws LoadError for bad files, ModelError for bad options.
 Job load(const Options& options);
 
-/// The files that demo writes into its folder.
-inline constexpr const char* demo_files[] = {"speed.svg", "worst.pdb", "worst.cxc", "worst.pml"};
+/// The files that demo may write into its folder.
+inline constexpr const char* demo_files[] = {"speed.svg", "worst.pdb", "worst.cif", "worst.cxc", "worst.pml"};
 
-/// Throws ModelError if --out or --torsions-out has another format than expected, or would overwrite an input, a
-/// directory or the file of the results. is_folder: --out names demo's folder.
+/// Throws ModelError if --out, --torsions-out or --view has another format than expected, or would overwrite an input,
+/// a directory or the file of the results. is_folder: --out names demo's folder.
 void check_outputs(const Options& options, bool is_folder);
 
 /// Each of these runs one command and returns its exit status. Throw LoadError for bad input, ModelError for bad

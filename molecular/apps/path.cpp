@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hinge/core/error.hpp"
@@ -20,6 +21,7 @@
 #include "pair_table.hpp"
 #include "path_end.hpp"
 #include "report.hpp"
+#include "view.hpp"
 
 namespace biocd {
 
@@ -175,6 +177,16 @@ Exit run_path(const Options& options) {
     fmt::print("{}\n", hinge::tool::json_text(path_json(options, job, asked), 1));
   else
     print_table(options, job, asked);
+  if (options.view) {
+    const bool is_free = asked.answer.is_free();
+    checker.check(is_free ? asked.to.turns : asked.answer.configuration, Mode{Mode::Kind::all});
+    std::vector<Contact> pairs = asked.pairs;
+    if (asked.answer.verdict == PathVerdict::undecided && asked.answer.hit) pairs.push_back({*asked.answer.hit, false});
+    write_view(options, job,
+               {is_free ? "the end of the path" : fmt::format("t = {:.4g}", asked.answer.parameter),
+                checker.positions(), std::move(pairs)},
+               false);
+  }
   switch (asked.answer.verdict) {
     case PathVerdict::free: return Exit::free;
     case PathVerdict::colliding: return Exit::collision;

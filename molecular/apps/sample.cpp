@@ -29,6 +29,7 @@
 #include "results.hpp"
 #include "scene.hpp"
 #include "summary.hpp"
+#include "view.hpp"
 
 namespace biocd {
 
@@ -204,6 +205,7 @@ Exit run_sample(const Options& options) {
   hinge::tool::ProgressBar bar(end - begin);
   const auto start = std::chrono::steady_clock::now();
   Worker worker{job.checker, {}};
+  ViewChoice choice;
   std::uint64_t left_out = 0;  // pairs that are not printed
   if (closed)
     worker.closed.emplace(*job.molecule, job.checker.selection(), sampling, options.most_tries, job.kept.closures,
@@ -220,6 +222,7 @@ Exit run_sample(const Options& options) {
     if (closed) summary.add(Starts{sample.found ? 0U : 1U, sample.unclosed, sample.refused});
     if (!sample.found) return;
     summary.add(s, sample.verdict);
+    choice.offer(k, sample.verdict);
     const std::size_t printed = pairs_to_print(options, sample.verdict.pairs).size();
     left_out += sample.verdict.pairs.size() - printed;
     if (options.output == Output::json) {
@@ -267,6 +270,12 @@ Exit run_sample(const Options& options) {
   results.finish(summary.json(true));
   note_left_out(options, left_out);
   if (options.output == Output::table) print_table(job, summary, checking.count());
+  if (options.view && choice.best()) {
+    const Sample shown = draw(worker, job, sampling, *choice.best(), Mode{Mode::Kind::all}, options.collision_free);
+    write_view(options, job,
+               {fmt::format("conformation {}", *choice.best()), worker.checker.positions(), shown.verdict.pairs},
+               file.size() > 0);
+  }
   const std::uint64_t missing = summary.starts() ? summary.starts()->missing : 0;
   if (missing > 0)
     std::fputs(fmt::format("{} of {} samples are missing: none of {} starts closed{}\n", missing, end - begin,

@@ -184,7 +184,16 @@ void add_explain_option(CLI::App& command, Options& o) {
 }
 
 void add_out_option(CLI::App& command, Options& o) {
-  command.add_option("--out", o.out, "write conformations to this .pdb, .cif, .dcd or .npy file")->type_name("FILE");
+  command.add_option("--out", o.out, "write conformations to this .pdb, .cif, .dcd, .xtc or .npy file")
+      ->type_name("FILE");
+}
+
+void add_view_option(CLI::App& command, Options& o) {
+  add_choice(
+      command, "--view", {"chimerax", "pymol"},
+      [&o](const std::string& text) { o.view = text == "pymol" ? Viewer::pymol : Viewer::chimerax; },
+      "write a script for ChimeraX (.cxc) or PyMOL (.pml) that shows the conformation with the most clashes, and its "
+      "structure: NAME_clashes.* with the name of --out, or of FILE in the working directory");
 }
 
 void add_exit_zero_option(CLI::App& command, Options& o) {
@@ -217,6 +226,7 @@ void add_check_options(CLI::App& command, Options& o) {
           "--shard", [&o](const std::string& text) { o.shard = parse_shard(text); },
           "run only part I of N (from 1), for biocd merge; needs --json or --csv")
       ->type_name("I/N");
+  add_view_option(command, o);
   add_explain_option(command, o);
   add_exit_zero_option(command, o);
   command.option_defaults()->group(title::performance);
@@ -247,6 +257,7 @@ void add_path_options(CLI::App& command, Options& o) {
       ->excludes(sampled)
       ->type_name("FRACTION");
   add_output_options(command, o);
+  add_view_option(command, o);
   add_explain_option(command, o);
   add_exit_zero_option(command, o);
 }

@@ -21,6 +21,8 @@ void add_output_options(CLI::App& command, Options& o, bool with_csv = false);
 void add_out_option(CLI::App& command, Options& o);
 /// Adds --explain.
 void add_explain_option(CLI::App& command, Options& o);
+/// Adds --view.
+void add_view_option(CLI::App& command, Options& o);
 /// Adds --exit-zero.
 void add_exit_zero_option(CLI::App& command, Options& o);
 /// Adds the further options that check and sample share: output format, mode, --out, shards, threads.

@@ -18,6 +18,7 @@
 #include "hinge_tools/progress_bar.hpp"
 #include "options.hpp"
 #include "report.hpp"
+#include "view.hpp"
 
 namespace biocd {
 
@@ -128,6 +129,7 @@ Exit run_walk(const Options& options) {
     if (end.closure_residual > 0.0)
       fmt::print("closures: the worst residual at the end is {:.3g} angstrom\n", end.closure_residual);
   }
+  if (options.view) write_view(options, job, {"the end of the walk", positions(moves), {}}, file.size() > 0);
   return Exit::free;
 }
 

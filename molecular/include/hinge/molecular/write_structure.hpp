@@ -39,11 +39,18 @@ void write_cif_head(std::ostream& out, const Structure& structure);
 void write_cif_model(std::ostream& out, const Structure& structure, std::span<const Vec3> positions, int number,
                      std::size_t first_id);
 
-/// Writes a script that opens pdb_file (in the script's folder) and marks every pair with a line and its distance.
-/// pairs: PrimitiveId i is atom i.
+/// Files that a viewer script opens, in the script's folder.
+struct ViewedFiles {
+  std::string structure;   ///< PDB or mmCIF file of one conformation, whose pairs are marked
+  std::string ensemble{};  ///< further conformations of the same atoms: .pdb, .cif, .dcd, .xtc or .npy; empty: none
+};
+
+/// Writes a script for ChimeraX that opens the files and marks every pair with a dashed line, its distance and spheres.
+/// pairs: PrimitiveId i is atom i. ChimeraX cannot open NumPy files: such an ensemble is left out, with a comment.
 void write_chimerax_script(std::ostream& out, const Structure& structure, std::span<const Hit> pairs,
-                           const std::string& pdb_file);
+                           const ViewedFiles& files);
+/// The same for PyMOL, which opens all of these files.
 void write_pymol_script(std::ostream& out, const Structure& structure, std::span<const Hit> pairs,
-                        const std::string& pdb_file);
+                        const ViewedFiles& files);
 
 }  // namespace hinge::molecular
