@@ -22,7 +22,9 @@ TEST(RobocdPoints, AreBodies) {
   const auto run = [&](const std::string& shape) {
     return test::run_robocd("check " + urdf + " --zero --mode closest --env '" + shape + "'");
   };
-  EXPECT_NE(run("c=points:" + cloud + " 0.25").out.find("cube - c  0.25 m  (closest)"), std::string::npos);
+  EXPECT_NE(run("c=points:" + cloud + " 0.25")
+                .out.find("  cube                         c                                    0.25  (closest)\n"),
+            std::string::npos);
   EXPECT_EQ(run("c=points:" + cloud + " 0.25").status, 0);
   EXPECT_EQ(run("points:" + cloud + " 0.5").status, 1);
   EXPECT_EQ(run("points:" + cloud + " 0.25,xyz=-0.5 0 0").status, 1);

@@ -174,7 +174,7 @@ TEST(RobocdFiles, ThatAreMissingMayBeSkippedAndAreSaidToBe) {
   EXPECT_EQ(said.status, 0) << said.out;
   expect_words(said.out, {"note: ", "link 'base': 1 of 1 <collision> left out: mesh 'gone.stl'",
                           "configuration 0: free (incomplete model: 1 link lacks geometry)",
-                          "0 of 1 configurations collide (incomplete model: 1 link lacks geometry)",
+                          "0 of 1 configuration collides (incomplete model: 1 link lacks geometry)",
                           "note: incomplete model: geometry is missing and was not tested for: base"});
   expect_words(run_robocd("check" + skip + " --zero --json").out, {"\"incomplete_links\": [\n   \"base\"\n  ]"});
   expect_words(run_robocd("path" + skip + " --from zero --to zero").out, {"(incomplete model: 1 link lacks geometry)"});
