@@ -30,7 +30,7 @@ HelpTexts help_texts() {
                              {"robocd check" + arm + srdf + " --random 1000 --seed 1",
                               "robocd check" + arm + srdf + " --state arm/reach --mode closest"}};
   texts.commands["path"] = {{"Units", "Pairs", "Exit status"},
-                            {"robocd path" + arm + srdf + " --from state:arm/home --to state:arm/reach",
+                            {"robocd path" + arm + srdf + " --from zero --to state:arm/reach",
                              "robocd path" + arm + " --from zero --to 0,0.5,0,0,0,0 --env robotics/data/shelf.obj"}};
   texts.commands["matrix"] = {{"Units", "Pairs"},
                               {"robocd matrix" + arm + " --samples 1000",
