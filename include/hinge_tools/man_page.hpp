@@ -35,10 +35,13 @@ inline std::string roff_text(std::string_view text) {
 
 namespace man {
 
-/// An option as the page shows it.
+/// An option as the page shows it. Entries are the same option if they differ only in the options that are excluded.
 struct Entry {
-  std::string title, name, names, description;  ///< names: all of them with the placeholder
-  bool operator==(const Entry&) const = default;
+  std::string title, name, names, text;  ///< names: all of them with the placeholder; text: without additions
+  std::string description;
+  bool operator==(const Entry& other) const {
+    return title == other.title && names == other.names && text == other.text;
+  }
 };
 
 inline std::vector<Entry> entries_of(const CLI::App& command) {
@@ -46,7 +49,7 @@ inline std::vector<Entry> entries_of(const CLI::App& command) {
   for (const TitledOptions& group : titled_options(command))
     for (const CLI::Option* option : group.options)
       entries.push_back({group.title, option->get_name(option->get_positional(), false), option_names(*option),
-                         option_description(*option)});
+                         option->get_description(), option_description(*option)});
   return entries;
 }
 
@@ -126,6 +129,7 @@ inline std::string man_page(const CLI::App& tool, const HelpTexts& texts) {
   page += ".SH SHARED OPTIONS\n" + man::entries_text(shared);
   page += ".SH GENERAL OPTIONS\n";
   std::erase_if(all[0], [&](const man::Entry& entry) { return std::ranges::count(shared, entry) > 0; });
+  for (man::Entry& entry : all[0]) entry.title.clear();  // the section has it
   page += man::entries_text(all[0]);
   for (const Topic& topic : texts.topics)
     page += ".SH " + man::upper(topic.title) + "\n" + man::lines_text(topic.lines);

@@ -99,7 +99,8 @@ inline std::string option_description(const CLI::Option& option) {
   for (const CLI::Option* other : option.get_needs()) add("needs " + other->get_name());
   for (const CLI::Option* other : option.get_excludes()) add("not with " + other->get_name());
   if (more.empty()) return text;
-  if (!text.ends_with(')')) return text + " (" + more + ")";
+  const bool has_additions = text.ends_with(')') && text.substr(text.rfind('(')).starts_with("(default");
+  if (!has_additions) return text + " (" + more + ")";
   text.pop_back();
   return text + "; " + more + ")";
 }

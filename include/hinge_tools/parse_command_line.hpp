@@ -4,10 +4,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -59,6 +61,16 @@ inline std::vector<std::string> option_names_of(const CLI::App& command) {
       " See '" + tool.get_name() + " --help'");
 }
 
+/// Returns the message of the parser: "--free: expected SELECTION after it" for "--free: 1 required SELECTION missing".
+inline std::string reason(const CLI::ParseError& error) {
+  std::string text = error.what();
+  const std::size_t colon = text.find(": "), required = text.find(" required ");
+  if (colon == std::string::npos || required == std::string::npos || !text.ends_with(" missing")) return text;
+  const std::size_t from = required + std::string_view(" required ").size();
+  const std::string what = text.substr(from, text.size() - std::string_view(" missing").size() - from);
+  return text.substr(0, colon) + ": expected " + what + " after it";
+}
+
 /// Explains an argument that is no option or argument of the parsed command.
 [[noreturn]] inline void refuse_argument(const CLI::App& tool, const CLI::App& command, std::string word) {
   const std::string full = &tool == &command ? tool.get_name() : tool.get_name() + " " + command.get_name();
@@ -68,7 +80,7 @@ inline std::vector<std::string> option_names_of(const CLI::App& command) {
   const std::vector<std::string> known = option_names_of(command);
   if (std::ranges::find(known, word) != known.end())
     throw ModelError("option '" + word + "' is in front of the command, expected it after '" + full + "'");
-  const std::string near = nearest_word(word, known);
+  const std::string near = word.starts_with("--") ? nearest_word(word, known) : "";  // one letter is near any other
   throw ModelError("unknown option '" + word + "' of '" + full + "'" +
                    (near.empty() ? "." : "; did you mean '" + near + "'?") + " See '" + full + " --help'");
 }
@@ -123,7 +135,7 @@ inline std::optional<Exit> parse_command_line(CLI::App& tool, std::vector<std::s
     const auto option = std::ranges::find_if(rest, [](const std::string& a) { return a.starts_with('-'); });
     if (option != rest.end()) command_line::refuse_argument(tool, command, *option);
     if (!rest.empty()) command_line::refuse_argument(tool, command, rest.front());
-    throw ModelError(std::string(error.what()) + "; see '" + name + (parsed.empty() ? "" : " " + command.get_name()) +
+    throw ModelError(command_line::reason(error) + "; see '" + name + (parsed.empty() ? "" : " " + command.get_name()) +
                      " --help'");
   }
   return std::nullopt;

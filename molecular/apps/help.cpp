@@ -2,6 +2,9 @@
 // Writes the texts of the help.
 #include "help.hpp"
 
+#include <string>
+#include <vector>
+
 #include "hinge/version.hpp"
 
 namespace biocd {
@@ -12,6 +15,10 @@ using hinge::tool::Topic;
 namespace {
 
 Topic selections() {
+  const std::string omega =
+      "omega stays at its reference unless --omega is given or a word names it. Parts (--place, --between, --inside) "
+      "and "
+      "loops are residues, so their selections name no torsions.";
   return {"Selections",
           {"A selection (--free, --loop, --place, --between, --inside) joins words:",
            "  all  none  loops  ligands     everything; nothing; outside HELIX and SHEET; outside polymers",
@@ -21,9 +28,7 @@ Topic selections() {
            "  backbone  chi  phi  chi1      torsions of a kind, in every residue",
            "  A:45:chi1  A:10-20:phi,psi    torsions of these residues",
            "  B:401:C5-C6                   the torsion about a bond of a ligand",
-           "  ,  or  and  not  ( )          operators: 'A and not (A:10-20 or omega)'; a comma means or",
-           "omega stays at its reference unless --omega is given or a word names it. Parts (--place, --between, "
-           "--inside) and loops are residues, so their selections name no torsions."}};
+           "  ,  or  and  not  ( )          operators: 'A and not (A:10-20 or omega)'; a comma means or", omega}};
 }
 
 Topic statuses() {

@@ -25,16 +25,17 @@ std::string name_of(const Job& job, hinge::PrimitiveId i) {
 
 std::string pair_heading(const Job& job) {
   const std::string_view rules = job.checker.thresholds().rules->name;
-  return fmt::format("  {:<18} {:<18} distance (A)    threshold (A)  overlap (A){}{}\n", "atom 1", "atom 2",
+  return fmt::format("  {:<18} {:<18} distance (A)   threshold (A)  overlap (A){}{}\n", "atom 1", "atom 2",
                      has_relative_distance(rules) ? "  relative distance" : "", has_classes(rules) ? "  class" : "");
 }
 
 std::string pair_line(const Job& job, const Contact& pair) {
   const hinge::Hit& hit = pair.hit;
   const Severity of = severity_of(job.checker.thresholds(), hit, pair.collides);
+  const bool collides = pair.collides;
   std::string line =
-      fmt::format("  {:<18} {:<18} {:12.3f} {:<2} {:13.3f} {:12.3f}", name_of(job, hit.first), name_of(job, hit.second),
-                  hit.distance, pair.collides ? "<" : ">=", hit.threshold, of.overlap);
+      fmt::format("  {:<18} {:<18} {:12.3f} {} {:<{}.3f} {:11.3f}", name_of(job, hit.first), name_of(job, hit.second),
+                  hit.distance, collides ? "<" : ">=", hit.threshold, collides ? 14 : 13, of.overlap);
   if (has_relative_distance(job.checker.thresholds().rules->name))
     line += of.relative_distance ? fmt::format("  {:17.3f}", *of.relative_distance) : fmt::format("  {:>17}", "-");
   if (!of.kind.empty()) line += fmt::format("  {}", of.kind);

@@ -186,7 +186,7 @@ TEST(BiocdEnsemble, KeepsWhatWasCheckedBeforeAFileBreaksOff) {
     EXPECT_EQ(said.status, 3);
     EXPECT_EQ(said.out, "");
   }
-  EXPECT_EQ(run_biocd("check " + file() + " --out /tmp/x.xtc 2>&1").status, 2);
+  EXPECT_EQ(run_biocd("check " + file() + " --out /tmp/x.trr 2>&1").status, 2);
   EXPECT_EQ(run_biocd("check " + file() + " --filter free 2>&1").status, 2);
 }
 

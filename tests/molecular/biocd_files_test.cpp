@@ -168,7 +168,7 @@ TEST_F(BiocdFiles, NumbersAreCheckedBeforeAnythingElse) {
 }
 
 TEST_F(BiocdFiles, UsageErrorsAreOneLine) {
-  for (const char* arguments : {"", "frobnicate", "check", "sample --nonsense", "check --json --csv x.pdb", "merge",
+  for (const char* arguments : {"frobnicate", "check", "sample --nonsense", "check --json --csv x.pdb", "merge",
                                 "check x.pdb --altloc AB", "check x.pdb --hydrogens burn"}) {
     const test::Said said = run_biocd(std::string(arguments) + " 2>&1");
     EXPECT_EQ(said.status, 2) << arguments;
@@ -343,7 +343,7 @@ TEST_F(BiocdFiles, SaysWhatWasLeftOut) {
   std::ofstream(folder / "wet.pdb") << alanine() << pdb_atom(6, "O", "HOH", 2, 9, 9, 9, "O", "HETATM")
                                     << pdb_atom(7, "ZN", "ZN", 3, 20, 9, 9, "ZN", "HETATM");
   const std::string line =
-      "left out: ZN x1, 1 waters (--hetero keeps ligands and ions, --hetero waters also keeps waters)";
+      "left out: ZN x1, 1 water (--hetero keeps ligands and ions, --hetero waters also keeps waters)";
   for (const std::string command :
        {"check", "sample -n 1", "path --from reference --to reference", "check --csv", "sample -n 1 --csv", "info"}) {
     const test::Said said = run_biocd(command + " " + file("wet.pdb") + " 2>&1");
@@ -352,7 +352,7 @@ TEST_F(BiocdFiles, SaysWhatWasLeftOut) {
   const test::Said json = run_biocd("check --json" + file("wet.pdb") + " 2>/dev/null");
   EXPECT_NE(json.out.find("\"waters_left_out\": 1"), std::string::npos) << json.out;
   const test::Said kept = run_biocd("check" + file("wet.pdb") + " --hetero 2>&1");
-  EXPECT_NE(kept.out.find("left out: 1 waters (--hetero waters keeps them)"), std::string::npos) << kept.out;
+  EXPECT_NE(kept.out.find("left out: 1 water (--hetero waters keeps them)"), std::string::npos) << kept.out;
   EXPECT_NE(run_biocd("check --hetero" + file("wet.pdb") + " 2>&1").out.find("6 atoms"), std::string::npos);
   for (const std::string words : {"--hetero waters", "--hetero=waters"}) {
     const test::Said all = run_biocd("check " + words + file("wet.pdb") + " 2>&1");

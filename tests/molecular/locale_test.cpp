@@ -106,8 +106,8 @@ std::string all_texts() {
     const Verdict verdict = checker.check_coordinates(s.models[0], Mode::parse("within:0.25"));
     std::vector<Hit> hits;
     for (const Contact& pair : verdict.pairs) hits.push_back(pair.hit);
-    write_chimerax_script(text, s, hits, "x.pdb");
-    write_pymol_script(text, s, hits, "x.pdb");
+    write_chimerax_script(text, s, hits, {"x.pdb"});
+    write_pymol_script(text, s, hits, {"x.pdb"});
     text << refusal([&] { checker.check_coordinates(s.models[0], Mode::parse("within:-0.25")); });
   }
   CheckOptions wrong;

@@ -58,6 +58,10 @@ TEST(RobocdExitZero, HidesVerdictsButNoErrors) {
     EXPECT_EQ(run_robocd(command).status, 1) << command;
     EXPECT_EQ(run_robocd(command + "--exit-zero").status, 0) << command;
   }
+  const test::ArmFolder folder;
+  const std::string undecided = "path" + folder.urdf() + " --from 0,0.9 --to 3.1,-1.3 --min-step 1 ";
+  EXPECT_EQ(run_robocd(undecided).status, 4);
+  EXPECT_EQ(run_robocd(undecided + "--exit-zero").status, 0);
   EXPECT_EQ(run_robocd("check /nonexistent --zero --exit-zero 2>/dev/null").status, 3);
   EXPECT_EQ(run_robocd("check" + arm + "--exit-zero 2>/dev/null").status, 2);
 }

@@ -90,6 +90,7 @@ struct Tool {
     add_number(*run, "-n,--count", count, range,
                "how often, with a description of so many words that it takes two lines")
         ->needs("--out");
+    run->add_option("--seed", mode, "start of (seed, k)")->capture_default_str();
     add_max_pairs(*run, max_pairs);
     app.add_subcommand("list", "list files");
   }
@@ -116,6 +117,7 @@ TEST(Help, HasTitlesPlaceholdersDefaultsAndExamples) {
             "  --mode fast|slow            how to run (default: fast)\n"
             "  -n, --count N               how often, with a description of so many words that it takes two lines\n"
             "                              (default: 10; needs --out)\n"
+            "  --seed TEXT                 start of (seed, k) (default: fast)\n"
             "  --max-pairs N|all           largest number of pairs to print for each conformation; 0 or all: no\n"
             "                              limit (default: 20 in tables, all with --json and --csv)\n\n"
             "Output:\n"
@@ -141,6 +143,8 @@ TEST(Errors, NameWhatIsWrongAndTheNearestName) {
   EXPECT_EQ(refusal({"--out", "run", "a"}), "option '--out' is in front of the command, expected it after 'tool run'");
   EXPECT_EQ(refusal({"--nothing"}), "unknown option '--nothing' of 'tool'. See 'tool --help'");
   EXPECT_EQ(refusal({"run", "a", "b"}), "unexpected argument 'b'; see 'tool run --help'");
+  EXPECT_EQ(refusal({"run", "a", "-x"}), "unknown option '-x' of 'tool run'. See 'tool run --help'");
+  EXPECT_EQ(refusal({"run", "a", "--out"}), "--out: expected FILE after it; see 'tool run --help'");
   EXPECT_EQ(refusal({"run"}), "FILE is required; see 'tool run --help'");
   EXPECT_EQ(refusal({"run", "a", "--mode", "fats"}), "--mode 'fats': expected fast or slow; did you mean 'fast'?");
   EXPECT_EQ(refusal({"run", "a", "--max-pairs", "some"}),
@@ -178,7 +182,7 @@ TEST(Completion, KnowsChoicesAndFiles) {
   const Tool tool;
   const std::string bash = completion_script(tool.app, "bash");
   for (const char* part : {"--mode) kind=words words='fast slow'", "--max-pairs) kind=words words='all'",
-                           "--out) kind=files", "-n|--count) kind=value", "complete -F _tool tool"})
+                           "--out) kind=files", "-n|--count|--seed) kind=value", "complete -F _tool tool"})
     EXPECT_NE(bash.find(part), std::string::npos) << part << "\nin\n" << bash;
   EXPECT_NE(completion_script(tool.app, "zsh").find("'*--mode[how to run (default: fast)]:value:(fast slow)'"),
             std::string::npos);

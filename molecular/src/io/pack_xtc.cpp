@@ -27,7 +27,7 @@ constexpr unsigned longest_run = 8;    // small atoms after a large one
 
 /// Appends a number with the most significant byte first.
 template <class Number>
-void put(std::string& bytes, Number number) {
+void put_big_endian(std::string& bytes, Number number) {
   auto own = std::bit_cast<std::array<char, sizeof(Number)>>(number);
   if constexpr (std::endian::native == std::endian::little) std::ranges::reverse(own);
   bytes.append(own.data(), own.size());
@@ -147,16 +147,16 @@ std::string xtc_frame(std::span<const Vec3> positions, std::size_t number) {
   if (positions.size() > most_atoms) throw ModelError("an XTC file holds at most 298261617 atoms");
   const auto atoms = static_cast<std::int32_t>(positions.size());
   std::string frame;
-  put(frame, magic);
-  put(frame, atoms);
-  put(frame, static_cast<std::int32_t>(number));
-  put(frame, static_cast<float>(number));
-  for (int k = 0; k < 9; ++k) put(frame, 0.0F);  // the unit cell
-  put(frame, atoms);
+  put_big_endian(frame, magic);
+  put_big_endian(frame, atoms);
+  put_big_endian(frame, static_cast<std::int32_t>(number));
+  put_big_endian(frame, static_cast<float>(number));
+  for (int k = 0; k < 9; ++k) put_big_endian(frame, 0.0F);  // the unit cell
+  put_big_endian(frame, atoms);
   const std::vector<Cell> cells = on_grid(positions);
   if (positions.size() <= most_plain) {
     for (const Vec3& x : positions)
-      for (const double c : {x[0], x[1], x[2]}) put(frame, static_cast<float>(c / 10.0));
+      for (const double c : {x[0], x[1], x[2]}) put_big_endian(frame, static_cast<float>(c / 10.0));
     return frame;
   }
   Cell least = cells.front(), most = cells.front();
@@ -170,11 +170,11 @@ std::string xtc_frame(std::span<const Vec3> positions, std::size_t number) {
   }
   const std::int32_t range = usual_range(cells);
   const std::string bits = packed(cells, least, sizes, range);
-  put(frame, static_cast<float>(steps_per_nanometre));
-  for (const std::int64_t c : least) put(frame, static_cast<std::int32_t>(c));
-  for (const std::int64_t c : most) put(frame, static_cast<std::int32_t>(c));
-  put(frame, range);
-  put(frame, static_cast<std::int32_t>(bits.size()));
+  put_big_endian(frame, static_cast<float>(steps_per_nanometre));
+  for (const std::int64_t c : least) put_big_endian(frame, static_cast<std::int32_t>(c));
+  for (const std::int64_t c : most) put_big_endian(frame, static_cast<std::int32_t>(c));
+  put_big_endian(frame, range);
+  put_big_endian(frame, static_cast<std::int32_t>(bits.size()));
   frame += bits;
   frame.resize((frame.size() + 3) / 4 * 4);
   return frame;
