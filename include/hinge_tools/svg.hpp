@@ -68,7 +68,11 @@ class Svg {
 
  private:
   static std::string word(const char* name, std::string_view value) {
-    return std::string(" ") + name + "=\"" + std::string(value) + "\"";
+    std::string text(1, ' ');
+    text += name;
+    text += "=\"";
+    text += value;
+    return text += '"';
   }
   static std::string at(const char* name, double value) { return word(name, number(value)); }
   static std::string stroke(std::string_view colour, double width) {
@@ -76,7 +80,12 @@ class Svg {
   }
   static std::string list(std::span<const Point> points) {
     std::string text;
-    for (const Point& p : points) text += (text.empty() ? "" : " ") + number(p[0]) + "," + number(p[1]);
+    for (const Point& p : points) {
+      if (!text.empty()) text += ' ';
+      text += number(p[0]);
+      text += ',';
+      text += number(p[1]);
+    }
     return word("points", text);
   }
 
