@@ -64,7 +64,7 @@ int differences(Checker& simd, Checker& brute, const Sampling& sampling, std::ui
 
 /// Writes the structure and both scripts. Returns the name of the structure.
 std::string write_worst(const Structure& s, const Worst& worst, const std::filesystem::path& folder) {
-  const std::string file = write_shown_structure(s, worst.positions, folder / "worst");
+  std::string file = write_shown_structure(s, worst.positions, folder / "worst");
   for (const Viewer viewer : {Viewer::chimerax, Viewer::pymol})
     write_viewer_script(viewer, s, worst.pairs, folder / "worst", {file});
   return file;

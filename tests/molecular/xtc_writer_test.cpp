@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tests written XTC files: read again by this library, and by MDAnalysis and MDTraj if they are installed.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -77,7 +78,8 @@ TEST(XtcWriter, IsSmallAndRefusesWhatDoesNotFit) {
 }
 
 TEST(XtcWriter, SharesItsFormatWithOtherPrograms) {
-  const std::string name = (std::filesystem::temp_directory_path() / "hinge_xtc_writer").string();
+  const std::string name =
+      (std::filesystem::temp_directory_path() / ("hinge_xtc_writer" + std::to_string(getpid()))).string();
   const std::string walk =
       "walk " + test::ubiquitin().string() + " --exempt-reference --steps 300 --every 50 --out " + name;
   for (const char* extension : {".xtc", ".npy", ".pdb", ".cif"}) ASSERT_EQ(run_biocd(walk + extension).status, 0);
