@@ -5,6 +5,7 @@
 #include "hinge/batch/sphere_batch.hpp"
 #include "hinge/batch/state_batch.hpp"
 #include "hinge/bounds/aabb.hpp"
+#include "hinge/core/api.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
 #include "hinge/core/id.hpp"
