@@ -42,9 +42,9 @@ std::vector<std::uint32_t> alpha_carbons(const Structure& s) {
 }
 
 void draw_trace(Picture& picture, std::span<const hinge::Vec3> positions, std::span<const std::uint32_t> trace,
-                double width, const Colour& colour) {
+                double thickness, const Colour& colour) {
   for (std::size_t k = 1; k < trace.size(); ++k)
-    picture.rod(positions[trace[k - 1]], positions[trace[k]], width, colour);
+    picture.rod(positions[trace[k - 1]], positions[trace[k]], thickness, colour);
 }
 
 }  // namespace
