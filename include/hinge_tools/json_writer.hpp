@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// JsonText: JSON with the bytes that nlohmann's dump() writes, for rows that are too many for a tree in memory.
+// JsonWriter: JSON with the bytes that nlohmann's dump() writes, for rows that are too many for a tree in memory.
 #pragma once
 
 #include <algorithm>
@@ -27,10 +27,10 @@ inline std::string json_string(std::string_view string) {
 }
 
 /// Text that grows at its end.
-class JsonText {
+class JsonWriter {
  public:
   /// expected: bytes that it can hold without growing.
-  explicit JsonText(std::size_t expected = 0) { reserve(expected); }
+  explicit JsonWriter(std::size_t expected = 0) { reserve(expected); }
 
   /// Appends text as it is.
   void put(std::string_view raw) {

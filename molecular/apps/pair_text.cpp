@@ -20,7 +20,7 @@ PairText::PairText(const Job& job)
 
 std::string PairText::list(std::span<const hinge::molecular::Contact> pairs) const {
   constexpr std::size_t usual_length = 160;  // of a pair
-  hinge::tool::JsonText text(pairs.size() * usual_length);
+  hinge::tool::JsonWriter text(pairs.size() * usual_length);
   text.put("[");
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (k > 0) text.put(",");
@@ -30,7 +30,7 @@ std::string PairText::list(std::span<const hinge::molecular::Contact> pairs) con
   return text.take();
 }
 
-void PairText::append(hinge::tool::JsonText& text, const hinge::molecular::Contact& pair) const {
+void PairText::append(hinge::tool::JsonWriter& text, const hinge::molecular::Contact& pair) const {
   const hinge::Hit& hit = pair.hit;
   const hinge::molecular::Severity severity = severity_of(job_.checker.thresholds(), hit, pair.collides);
   const std::size_t i = hinge::index(hit.first), j = hinge::index(hit.second);

@@ -22,7 +22,7 @@ class PairText {
   std::string list(std::span<const hinge::molecular::Contact> pairs) const;
 
  private:
-  void append(hinge::tool::JsonText& text, const hinge::molecular::Contact& pair) const;
+  void append(hinge::tool::JsonWriter& text, const hinge::molecular::Contact& pair) const;
 
   const Job& job_;
   bool has_classes_, has_relative_distance_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tests that JsonText writes the bytes of nlohmann's dump().
+// Tests that JsonWriter writes the bytes of nlohmann's dump().
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -20,7 +20,7 @@ namespace json_writer_test {
 TEST(JsonWriter, NumbersHaveTheBytesOfTheLibrary) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> usual(0.0, 5.0);
-  JsonText all;
+  JsonWriter all;
   std::string expected;
   const auto add = [&](double value) {
     all.number(value);
@@ -42,7 +42,7 @@ TEST(JsonWriter, NumbersHaveTheBytesOfTheLibrary) {
 }
 
 TEST(JsonWriter, IntegersHaveTheBytesOfTheLibrary) {
-  JsonText text;
+  JsonWriter text;
   text.number(std::uint64_t{18'446'744'073'709'551'615U});
   text.put(",");
   text.number(-7);
@@ -64,7 +64,7 @@ TEST(JsonWriter, StringsHaveTheBytesOfTheLibrary) {
 }
 
 TEST(JsonWriter, LongTexts) {
-  JsonText text;
+  JsonWriter text;
   std::string expected;
   for (int k = 0; k < 5000; ++k) {
     const std::string part(static_cast<std::size_t>(k % 300), static_cast<char>('a' + k % 26));

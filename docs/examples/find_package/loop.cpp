@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <numbers>
 
 #include "hinge/molecular/molecular.hpp"
 
@@ -15,7 +16,7 @@ int main(int argc, char** argv) {
   rules.exempt_reference = true;  // pairs that are too close in the file itself do not count
   Checker checker(protein, protein->select(torsions), rules);
 
-  const Sampling sampling{/*seed=*/1, /*sigma, rad=*/0.0873};
+  const Sampling sampling{/*seed=*/1, /*sigma, rad=*/5 * std::numbers::pi / 180};
   int free = 0;
   for (std::uint64_t k = 0; k < 1000; ++k) {
     const auto q = sample_configuration(sampling, k, checker.dof_count());
