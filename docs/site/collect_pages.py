@@ -14,7 +14,7 @@ import xml.etree.ElementTree as xml
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = ROOT / "build/docs-pages"
-SHOWN_AS_TEXT = {".cpp": "cpp", ".hpp": "cpp", ".cff": "yaml", ".py": "python"}
+SHOWN_AS_TEXT = {".cpp": "cpp", ".hpp": "cpp", ".cff": "yaml", ".txt": "cmake", ".py": "python"}
 LINK = re.compile(r"\]\(([^)#:\s]+)(#[^)]*)?\)")
 
 
