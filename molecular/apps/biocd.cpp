@@ -12,6 +12,7 @@
 #include "hinge/detail/simd/instruction_set.hpp"
 #include "hinge/molecular/components.hpp"
 #include "hinge/version.hpp"
+#include "hinge_tools/exit_zero_option.hpp"
 #include "hinge_tools/help_texts.hpp"
 #include "hinge_tools/number_option.hpp"
 #include "hinge_tools/parse_command_line.hpp"
@@ -104,7 +105,7 @@ Exit run(int argc, char** argv) {
   add_number(*walk, "--every", o.every, counts, "number of steps between two written conformations");
   biocd::add_view_option(*walk, o);
   biocd::add_explain_option(*walk, o);
-  biocd::add_exit_zero_option(*walk, o);
+  hinge::tool::add_exit_zero(*walk, o.exit_zero);
   walk->option_defaults()->group(title::moves);
   add_number(*walk, "--steps", o.steps, counts, "number of moves to try");
   add_number(*walk, "--step-size", o.step_degrees, lengths_above_0, "standard deviation of a torsion's change")
@@ -122,7 +123,7 @@ Exit run(int argc, char** argv) {
   merge->option_defaults()->group(title::input);
   merge->add_option("FILES", o.shards, "outputs of --shard 1/n ... n/n")->required();
   merge->option_defaults()->group(title::output);
-  biocd::add_exit_zero_option(*merge, o);
+  hinge::tool::add_exit_zero(*merge, o.exit_zero);
   merge->callback([&] { command = biocd::run_merge; });
 
   CLI::App* path =
@@ -144,9 +145,7 @@ Exit run(int argc, char** argv) {
 
   if (const auto status = hinge::tool::parse_command_line(app, with_hetero_words(argc, argv), texts)) return *status;
   biocd::check_outputs(o, demo->parsed());
-  const Exit status = command(o);
-  const bool is_verdict = status == Exit::collision || status == Exit::undecided;
-  return o.exit_zero && is_verdict ? Exit::free : status;
+  return hinge::tool::final_status(command(o), o.exit_zero);
 }
 
 }  // namespace

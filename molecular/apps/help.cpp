@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hinge/version.hpp"
+#include "hinge_tools/exit_zero_option.hpp"
 
 namespace biocd {
 
@@ -31,12 +32,6 @@ Topic selections() {
            "  ,  or  and  not  ( )          operators: 'A and not (A:10-20 or omega)'; a comma means or", omega}};
 }
 
-Topic statuses() {
-  return {"Exit status",
-          {"  0  free, or nothing to decide", "  1  a collision was found (0 with --exit-zero)", "  2  wrong usage",
-           "  3  bad input", "  4  undecided: path proved neither (0 with --exit-zero)"}};
-}
-
 }  // namespace
 
 HelpTexts help_texts() {
@@ -48,7 +43,7 @@ HelpTexts help_texts() {
       "biocd tests proteins, nucleic acids and ligands for collisions with themselves and with each other. A molecule "
       "is a mechanism: torsions turn about single bonds, and bond lengths and angles stay. Results go to standard "
       "output, notes to standard error.";
-  texts.topics = {selections(), statuses()};
+  texts.topics = {selections(), hinge::tool::exit_status_topic()};
   texts.commands[""] = {{"Exit status"}, {"biocd check" + file, "biocd sample --help"}};
   texts.commands["info"] = {{"Selections"}, {"biocd info" + file, "biocd info" + file + " --free A:70-76 --json"}};
   texts.commands["check"] = {both, {"biocd check" + file, "biocd check" + file + " --mode within:0.3 --max-pairs 5"}};

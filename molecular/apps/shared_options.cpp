@@ -6,8 +6,10 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge_tools/choice_option.hpp"
+#include "hinge_tools/exit_zero_option.hpp"
 #include "hinge_tools/help_texts.hpp"
 #include "hinge_tools/max_pairs_option.hpp"
+#include "hinge_tools/repeatable_option.hpp"
 #include "results.hpp"
 
 namespace biocd {
@@ -16,17 +18,13 @@ using hinge::molecular::BondSearch;
 using hinge::tool::add_choice;
 using hinge::tool::add_number;
 using hinge::tool::NumberRange;
+using hinge::tool::repeatable;
 using Reals = NumberRange<double>;
 namespace title = hinge::tool::title;
 
 namespace {
 
 constexpr const char* conformations = "DCD, XTC, .npy, PDB, mmCIF, plain or .gz";
-
-/// Lets an option be given several times, with one value each. The next word is a new argument.
-CLI::Option* repeatable(CLI::Option* option, const char* type) {
-  return option->allow_extra_args(false)->type_name(type);
-}
 
 void add_input_options(CLI::App& command, Options& o) {
   command.option_defaults()->group(title::input);
@@ -196,11 +194,6 @@ void add_view_option(CLI::App& command, Options& o) {
       "structure: NAME_clashes.* with the name of --out, or of FILE in the working directory");
 }
 
-void add_exit_zero_option(CLI::App& command, Options& o) {
-  command.add_flag("--exit-zero", o.exit_zero,
-                   "exit with status 0 whatever the verdict; errors keep 2 and 3 (for workflow managers)");
-}
-
 void add_check_options(CLI::App& command, Options& o) {
   command.option_defaults()->group(title::question);
   command
@@ -228,7 +221,7 @@ void add_check_options(CLI::App& command, Options& o) {
       ->type_name("I/N");
   add_view_option(command, o);
   add_explain_option(command, o);
-  add_exit_zero_option(command, o);
+  hinge::tool::add_exit_zero(command, o.exit_zero);
   command.option_defaults()->group(title::performance);
   add_number(command, "--threads", o.threads, NumberRange<unsigned>{1, 1024},
              "number of worker threads; the output does not depend on it");
@@ -259,7 +252,7 @@ void add_path_options(CLI::App& command, Options& o) {
   add_output_options(command, o);
   add_view_option(command, o);
   add_explain_option(command, o);
-  add_exit_zero_option(command, o);
+  hinge::tool::add_exit_zero(command, o.exit_zero);
 }
 
 }  // namespace biocd

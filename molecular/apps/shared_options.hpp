@@ -23,8 +23,6 @@ void add_out_option(CLI::App& command, Options& o);
 void add_explain_option(CLI::App& command, Options& o);
 /// Adds --view.
 void add_view_option(CLI::App& command, Options& o);
-/// Adds --exit-zero.
-void add_exit_zero_option(CLI::App& command, Options& o);
 /// Adds the further options that check and sample share: output format, mode, --out, shards, threads.
 void add_check_options(CLI::App& command, Options& o);
 /// Adds --closures.

@@ -3,6 +3,7 @@
 #include "help.hpp"
 
 #include "hinge/version.hpp"
+#include "hinge_tools/exit_zero_option.hpp"
 
 namespace robocd {
 
@@ -21,9 +22,7 @@ HelpTexts help_texts() {
       {"Pairs",
        {"All pairs of links are tested, except pairs in one rigid group, pairs joined by one movable joint, "
         "and pairs disabled by --srdf or --skip-pairs."}},
-      {"Exit status",
-       {"  0  free, or nothing to decide", "  1  a collision was found (0 with --exit-zero)", "  2  wrong usage",
-        "  3  bad input", "  4  undecided: path proved neither (0 with --exit-zero)"}}};
+      hinge::tool::exit_status_topic()};
   texts.commands[""] = {{"Exit status"}, {"robocd check" + arm + " --zero", "robocd path --help"}};
   texts.commands["info"] = {{"Units", "Pairs"}, {"robocd info" + arm, "robocd info" + arm + srdf + " --json"}};
   texts.commands["check"] = {{"Units", "Pairs", "Exit status"},

@@ -13,11 +13,13 @@
 #include "hinge/query/mode.hpp"
 #include "hinge/version.hpp"
 #include "hinge_tools/choice_option.hpp"
+#include "hinge_tools/exit_zero_option.hpp"
 #include "hinge_tools/help_texts.hpp"
 #include "hinge_tools/max_pairs_option.hpp"
 #include "hinge_tools/number_option.hpp"
 #include "hinge_tools/parse_command_line.hpp"
 #include "hinge_tools/pick_instruction_set.hpp"
+#include "hinge_tools/repeatable_option.hpp"
 #include "hinge_tools/run_tool.hpp"
 #include "options.hpp"
 
@@ -26,6 +28,7 @@ namespace {
 using hinge::tool::add_choice;
 using hinge::tool::add_number;
 using hinge::tool::NumberRange;
+using hinge::tool::repeatable;
 using robocd::Exit;
 using robocd::Options;
 using Reals = NumberRange<double>;
@@ -33,11 +36,6 @@ namespace title = hinge::tool::title;
 
 constexpr NumberRange<std::uint64_t> counts{1, std::uint64_t{1} << 53};
 constexpr NumberRange<std::uint64_t> seeds{0, UINT64_MAX};
-
-/// Lets an option be given several times, with one value each. The next word is a new argument.
-CLI::Option* repeatable(CLI::Option* option, const char* type) {
-  return option->allow_extra_args(false)->type_name(type);
-}
 
 void add_robot_options(CLI::App& command, Options& o) {
   command.option_defaults()->group(title::input);
@@ -86,11 +84,6 @@ void add_json_option(CLI::App& command, Options& o) {
   command.option_defaults()->group(title::output);
   command.add_flag_callback(
       "--json", [&o] { o.output = robocd::Output::json; }, "print JSON on standard output");
-}
-
-void add_exit_zero_option(CLI::App& command, Options& o) {
-  command.add_flag("--exit-zero", o.exit_zero,
-                   "exit with status 0 whatever the verdict; errors keep 2 and 3 (for workflow managers)");
 }
 
 void add_clearance_option(CLI::App& command, Options& o) {
@@ -168,7 +161,7 @@ void add_check_options(CLI::App& command, Options& o) {
   hinge::tool::add_max_pairs(command, o.max_pairs);
   command.add_option("--out", o.out, "write the configurations to this CSV file, in the format of --csv-in")
       ->type_name("FILE");
-  add_exit_zero_option(command, o);
+  hinge::tool::add_exit_zero(command, o.exit_zero);
 }
 
 void add_matrix_options(CLI::App& command, Options& o) {
@@ -218,7 +211,7 @@ void add_path_options(CLI::App& command, Options& o) {
   add_contained_option(command, o);
   add_json_option(command, o);
   hinge::tool::add_max_pairs(command, o.max_pairs);
-  add_exit_zero_option(command, o);
+  hinge::tool::add_exit_zero(command, o.exit_zero);
 }
 
 Exit run(int argc, char** argv) {
@@ -269,9 +262,7 @@ Exit run(int argc, char** argv) {
 
   if (const auto status = hinge::tool::parse_command_line(app, {argv + 1, argv + argc}, texts)) return *status;
   robocd::check_outputs(o);
-  const Exit status = command(o);
-  const bool is_verdict = status == Exit::collision || status == Exit::undecided;
-  return o.exit_zero && is_verdict ? Exit::free : status;
+  return hinge::tool::final_status(command(o), o.exit_zero);
 }
 
 }  // namespace
