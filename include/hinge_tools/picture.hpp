@@ -29,22 +29,11 @@ class Picture {
     up_ = depth_.cross(right_);
   }
 
-  /// The triangle is drawn in pieces whose edges are at most `piece` long, because only small shapes are sorted well.
-  void triangle(const Vec3& a, const Vec3& b, const Vec3& c, double piece, const Colour& colour) {
-    const std::array<double, 3> edges{(b - a).norm(), (c - b).norm(), (a - c).norm()};
-    const std::size_t longest = static_cast<std::size_t>(std::max_element(edges.begin(), edges.end()) - edges.begin());
-    if (edges[longest] > piece) {
-      const std::array<Vec3, 3> corner{a, b, c};
-      const Vec3 &p = corner[longest], &q = corner[(longest + 1) % 3], &r = corner[(longest + 2) % 3];
-      const Vec3 middle = (p + q) / 2;
-      triangle(p, middle, r, piece, colour);
-      triangle(middle, q, r, piece, colour);
-      return;
-    }
+  /// Both sides are lit, from the viewer's upper left.
+  void triangle(const Vec3& a, const Vec3& b, const Vec3& c, const Colour& colour) {
     const Vec3 normal = (b - a).cross(c - a);
     const double length = normal.norm();
     if (!(length > 0.0)) return;
-    // Both sides are lit, from the viewer's upper left.
     const Vec3 light = (depth_ + 0.6 * up_ - 0.4 * right_).normalized();
     shapes_.push_back({{a, b, c}, 0.0, shaded(colour, 0.45 + 0.55 * std::abs(normal.dot(light)) / length)});
   }
@@ -72,19 +61,20 @@ class Picture {
       return Svg::Point{x + width / 2 + scale * (p.dot(right_) - (low[0] + high[0]) / 2),
                         y + height / 2 - scale * (p.dot(up_) - (low[1] + high[1]) / 2)};
     };
-    std::vector<const Shape*> order;
-    for (const Shape& shape : shapes_) order.push_back(&shape);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](const Shape* a, const Shape* b) { return distance(*a) < distance(*b); });
-    for (const Shape* shape : order) {
-      if (shape->corners.size() == 1) {
-        svg.circle(pixel(shape->corners[0]), scale * shape->size, shape->colour);
-      } else if (shape->corners.size() == 2) {
-        svg.line(pixel(shape->corners[0]), pixel(shape->corners[1]), shape->colour, scale * shape->size);
+    std::vector<Shape> pieces;
+    const double longest = std::max(high[0] - low[0], high[1] - low[1]) / pieces_per_side;
+    for (const Shape& shape : shapes_) cut(shape, longest, pieces);
+    std::stable_sort(pieces.begin(), pieces.end(),
+                     [&](const Shape& a, const Shape& b) { return nearness(a) < nearness(b); });
+    for (const Shape& shape : pieces) {
+      if (shape.corners.size() == 1) {
+        svg.circle(pixel(shape.corners[0]), scale * shape.size, shape.colour);
+      } else if (shape.corners.size() == 2) {
+        svg.line(pixel(shape.corners[0]), pixel(shape.corners[1]), shape.colour, scale * shape.size);
       } else {
-        const std::array<Svg::Point, 3> points{pixel(shape->corners[0]), pixel(shape->corners[1]),
-                                               pixel(shape->corners[2])};
-        svg.polygon(points, shape->colour);
+        const std::array<Svg::Point, 3> points{pixel(shape.corners[0]), pixel(shape.corners[1]),
+                                               pixel(shape.corners[2])};
+        svg.polygon(points, shape.colour);
       }
     }
   }
@@ -92,12 +82,31 @@ class Picture {
  private:
   struct Shape {
     std::vector<Vec3> corners;  // one: a ball; two: a rod; three: a triangle
-    double size;                // radius or width
+    double size;                // radius or width, not used by triangles
     std::string colour;
   };
 
+  /// Triangles are cut until no edge is longer than the drawing's longer side divided by this number: only small shapes
+  /// are sorted well.
+  static constexpr double pieces_per_side = 12.0;
+
+  /// Appends the shape to `pieces`, a triangle in pieces whose edges, as drawn, are at most `longest`.
+  void cut(const Shape& shape, double longest, std::vector<Shape>& pieces) const {
+    const auto drawn = [&](const Vec3& edge) { return std::hypot(edge.dot(right_), edge.dot(up_)); };
+    if (shape.corners.size() == 3)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 &a = shape.corners[k], &b = shape.corners[(k + 1) % 3], &c = shape.corners[(k + 2) % 3];
+        const double edge = drawn(b - a);
+        if (!(edge > longest) || edge < drawn(c - b) || edge < drawn(a - c)) continue;
+        const Vec3 middle = (a + b) / 2;
+        cut({{a, middle, c}, shape.size, shape.colour}, longest, pieces);
+        cut({{middle, b, c}, shape.size, shape.colour}, longest, pieces);
+        return;
+      }
+    pieces.push_back(shape);
+  }
   /// Returns how near the shape's middle is to the viewer.
-  double distance(const Shape& shape) const {
+  double nearness(const Shape& shape) const {
     double sum = 0.0;
     for (const Vec3& corner : shape.corners) sum += corner.dot(depth_);
     return sum / static_cast<double>(shape.corners.size());

@@ -55,10 +55,13 @@ std::string draw_tail(const std::shared_ptr<const Molecule>& molecule, const Che
   const std::vector<std::uint32_t> trace = alpha_carbons(s);
   if (trace.empty()) return {};
   const auto tail = std::span(trace).last(tail_residues);
-  const Residue &first = s.residues[s.atoms[tail.front()].residue], &last = s.residues[s.atoms[tail.back()].residue];
-  const std::string words =
-      fmt::format("{}:{}-{}", s.chains[first.chain].name, first.sequence_number, last.sequence_number);
-  Checker checker(molecule, molecule->select(select_torsions(*molecule, words, false)), rules);
+  const std::uint32_t first = s.atoms[tail.front()].residue, last = s.atoms[tail.back()].residue;
+  std::vector<std::size_t> torsions = select_torsions(*molecule, "all", false);
+  std::erase_if(torsions, [&](std::size_t k) {
+    const std::uint32_t residue = molecule->torsions()[k].residue;
+    return residue < first || residue > last;
+  });
+  Checker checker(molecule, molecule->select(torsions), rules);
 
   const std::vector<hinge::Vec3>& native = s.models.front();
   hinge::Vec3 middle = hinge::Vec3::Zero(), end = hinge::Vec3::Zero();
@@ -97,8 +100,9 @@ std::string draw_tail(const std::shared_ptr<const Molecule>& molecule, const Che
     }
   }
   hinge::tool::Svg svg(520, 420);
-  svg.text({12, 24}, fmt::format("{}, residues {}: {} of {} samples free (green)", s.name, words, free, count), "start",
-           "font-weight=\"bold\"");
+  svg.text({12, 24},
+           fmt::format("{}, last {} residues: {} of {} samples free (green)", s.name, tail_residues, free, count),
+           "start", "font-weight=\"bold\"");
   picture.draw(svg, 20, 40, 480, 360);
   return svg.document();
 }

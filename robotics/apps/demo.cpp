@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <set>
 #include <string>
 #include <variant>
@@ -12,6 +13,7 @@
 
 #include "answer.hpp"
 #include "configurations.hpp"
+#include "hinge/core/error.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/robotics/path_checker.hpp"
 #include "hinge/robotics/random_configuration.hpp"
@@ -40,7 +42,7 @@ constexpr Colour link_colour{120, 150, 190}, start_colour{214, 224, 236}, body_c
 
 void draw_shape(Picture& picture, const Shape& shape, const hinge::Pose& pose, const Colour& colour) {
   for (const hinge::Triangle& t : tessellate(shape, {Tessellation::Manner::inscribed, 1e-3}).triangles)
-    picture.triangle(pose * t.a, pose * t.b, pose * t.c, piece, colour);
+    picture.triangle(pose * t.a, pose * t.b, pose * t.c, colour);
 }
 
 /// Draws the links at a configuration. Links whose names are in `hit` get another colour.
@@ -99,11 +101,14 @@ int time_random_configurations(const Options& options, const Job& job, RobotChec
 }  // namespace
 
 Exit run_demo(const Options& options) {
+  if (std::filesystem::path(options.out).extension() != ".svg")
+    throw hinge::ModelError("--out " + options.out + ": expected a file name with .svg");
   Job job = load(options);
   check_limits(options, *job.robot);
   const std::vector<double> from = read_path_end("--from", options.from, options, job);
   const std::vector<double> to = read_path_end("--to", options.to, options, job);
   Worker worker = make_worker(options, job);
+  print_notes(job);
   fmt::print("{}", heading(options, job));
   const int different = time_random_configurations(options, job, worker.checker);
 
@@ -138,6 +143,7 @@ Exit run_demo(const Options& options) {
   file.stream() << svg.document();
   file.finish();
   fmt::print("written: {}\n", options.out);
+  print_incomplete(*job.robot);
   return different == 0 ? Exit::free : Exit::bad_input;
 }
 

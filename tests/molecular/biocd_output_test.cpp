@@ -206,5 +206,29 @@ TEST(BiocdView, SpareInputs) {
   EXPECT_FALSE(folder.holds("1ubq.dcd"));
 }
 
+TEST(BiocdDemo, DrawsThePictureOfReadme) {
+  const Folder folder;
+  const Said said = folder.run("demo" + file() + "-n 1 --out .");
+  EXPECT_EQ(said.status, 0) << said.out;
+  std::ifstream shown(HINGE_SOURCE_DIR "/docs/images/tail.svg", std::ios::binary);
+  EXPECT_TRUE(folder.content("tail.svg") == std::string(std::istreambuf_iterator<char>(shown), {}))
+      << "copy the new picture";
+}
+
+TEST(BiocdDemo, TakesAChainWithoutAName) {
+  const Folder folder;
+  std::ifstream in(test::ubiquitin());
+  std::ofstream out(folder.path() / "1ubq.pdb");
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("ATOM") || line.starts_with("TER")) line[21] = ' ';
+    if (line.starts_with("ATOM") || line.starts_with("TER")) out << line << '\n';
+  }
+  out << "END\n";
+  out.close();
+  const Said said = folder.run("demo 1ubq.pdb -n 1 --out . 2>&1");
+  EXPECT_EQ(said.status, 0) << said.out;
+  EXPECT_TRUE(has(folder.content("tail.svg"), "19 of 40 samples free"));
+}
+
 }  // namespace biocd_output_test
 }  // namespace hinge::molecular

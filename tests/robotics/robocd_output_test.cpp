@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tests what robocd prints for people: tables, lists that are cut, and --exit-zero.
+// Tests what robocd prints for people: tables, lists that are cut, --exit-zero, and the picture of the demo.
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -64,6 +67,25 @@ TEST(RobocdExitZero, HidesVerdictsButNoErrors) {
   EXPECT_EQ(run_robocd(undecided + "--exit-zero").status, 0);
   EXPECT_EQ(run_robocd("check /nonexistent --zero --exit-zero 2>/dev/null").status, 3);
   EXPECT_EQ(run_robocd("check" + arm + "--exit-zero 2>/dev/null").status, 2);
+}
+
+std::string content(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(RobocdDemo, DrawsThePictureOfReadme) {
+  const test::ArmFolder folder;
+  const std::filesystem::path svg = folder.path() / "robot.svg", png = folder.path() / "robot.png";
+  const std::string motion =
+      "demo" + arm + "--from state:arm/home --to state:arm/reach --env shelf=" + data + "shelf.obj";
+  const Said said = run_robocd(motion + " --out " + svg.string());
+  EXPECT_EQ(said.status, 0) << said.out;
+  EXPECT_TRUE(has(said.out, "brute force on 100 of them: 0 differences\n")) << said.out;
+  EXPECT_TRUE(has(said.out, "collides at t = 0.8804\n  wrist                        shelf\n")) << said.out;
+  EXPECT_TRUE(content(svg) == content(HINGE_SOURCE_DIR "/docs/images/robot.svg")) << "copy the new picture";
+  EXPECT_EQ(run_robocd(motion + " --out " + png.string() + " 2>/dev/null").status, 2);
+  EXPECT_FALSE(std::filesystem::exists(png));
 }
 
 }  // namespace robocd_output_test
