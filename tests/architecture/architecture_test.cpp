@@ -60,9 +60,9 @@ TEST(PublicFace, NeedsNothingThatIsNotInstalled) {
 
 TEST(PublicFace, IsOneIncludeAway) { EXPECT_EQ(joined(architecture::not_under_umbrella(library())), ""); }
 
-/// Checks the examples and the pages.
+/// Checks examples, pages and the program that uses an installed core.
 TEST(PublicFace, IsAllThatUsersAreShown) {
-  SourceTree shown = architecture::read_sources(root, {"docs"}, {".hpp", ".cpp", ".md"});
+  SourceTree shown = architecture::read_sources(root, {"docs", "tests/consumer"}, {".hpp", ".cpp", ".md"});
   EXPECT_GE(shown.size(), 10U);
   std::ifstream in(root / "README.md");
   for (std::string line; std::getline(in, line);) shown["README.md"].push_back(line);

@@ -28,7 +28,8 @@ function(check_package)
   endforeach()
 endfunction()
 
-# As a part of another project, Hinge adds no tests and no install rules, and sets no warnings or standards.
+# As a part of another project, Hinge adds no tests and no install rules, and sets no warnings or standards. It has
+# the libraries that the project asks for: the tests ask for hinge::molecular too.
 function(check_guest)
   if(HINGE_BUILD_TESTS OR HINGE_BUILD_BENCH OR HINGE_INSTALL OR TARGET biocd OR DEFINED CMAKE_CXX_EXTENSIONS)
     message(FATAL_ERROR "hinge behaves as if it were the top level")
@@ -36,6 +37,8 @@ function(check_guest)
   if(NOT "${CMAKE_BUILD_TYPE}" STREQUAL "" OR DEFINED CMAKE_RUNTIME_OUTPUT_DIRECTORY)
     message(FATAL_ERROR "hinge changed the host's build type or folders")
   endif()
+  add_executable(loop ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../../docs/examples/find_package/loop.cpp)
+  target_link_libraries(loop PRIVATE hinge::molecular)
 endfunction()
 
 if(PROJECT_NAME STREQUAL "loop")

@@ -42,7 +42,8 @@ protein=$root/molecular/data/1ubq.pdb
 consume find_package -DCMAKE_PREFIX_PATH="$scratch/prefix"
 expect "$free_loops" "$scratch/find_package/loop" "$protein"
 
-consume fetch_content -DFETCHCONTENT_SOURCE_DIR_HINGE="$root" -DBUILD_SHARED_LIBS=ON
+consume fetch_content -DFETCHCONTENT_SOURCE_DIR_HINGE="$root" -DBUILD_SHARED_LIBS=ON -DHINGE_BUILD_MOLECULAR=ON
+expect "$free_loops" "$scratch/fetch_content/loop" "$protein"
 expect free "$scratch/fetch_content/arm" "$root/robotics/data/arm.urdf"
 library=$(find "$scratch/fetch_content" -name 'libhinge_robotics.so.[0-9]*' -type f)
 # Only T, functions of the library's own: std is visible, and so are its templates, which are weak.
@@ -60,6 +61,9 @@ echo "== pkg-config"
 PKG_CONFIG_PATH=$(dirname "$(find "$scratch/prefix" -name hinge.pc)")
 export PKG_CONFIG_PATH
 case " $(pkg-config --cflags hinge) " in *" -ffp-contract=off "*) ;; *) pkg-config --cflags hinge; exit 1 ;; esac
+# shellcheck disable=SC2046
+"$compiler" -std=c++20 -Wall -Wextra -Werror $(pkg-config --cflags hinge) core.cpp -o "$scratch/core"
+"$scratch/core"
 # shellcheck disable=SC2046
 "$compiler" -std=c++20 "$examples/find_package/loop.cpp" $(pkg-config --cflags --libs hinge-molecular) -o "$scratch/loop"
 expect "$free_loops" "$scratch/loop" "$protein"
