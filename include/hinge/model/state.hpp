@@ -40,7 +40,8 @@ class State {
     begin(false);
   }
 
-  /// poses: one world pose per rigid group. ConfigurationError: see ForwardKinematics::set_poses.
+  /// poses: one world pose per rigid group. ConfigurationError: see
+  /// detail::ForwardKinematics::set_poses.
   void update_poses(std::span<const Pose> poses) {
     kinematics_.set_poses(poses);
     begin(false);
