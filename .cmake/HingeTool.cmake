@@ -41,9 +41,6 @@ function(hinge_add_tool tool library)
   set(libraries hinge_ensemble hinge_own CLI11::CLI11 nlohmann_json::nlohmann_json fmt::fmt)
   add_executable(${tool} ${sources})
   target_link_libraries(${tool} PRIVATE ${library} ${libraries})
-  if(HINGE_BUILD_TESTS)  # compiling the command line takes longer than running it; the library is optimised
-    target_compile_options(${tool} PRIVATE $<$<CONFIG:Release>:-O1>)
-  endif()
   set(programs ${tool})
   # One more program per instruction set, compiled as a whole: a shared library would mix copies of inline functions.
   # The tool starts the best program. Only for Release builds, where speed matters.
