@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -110,10 +111,13 @@ TEST(CheckBatch, GivesTheVerdictsOfSingleChecks) {
     }
 }
 
+/// Brute force takes most of the time, so `./run test` compares fewer conformations than `./run test --all`.
+int conformations() { return std::getenv("HINGE_TEST_ALL") != nullptr ? 500 : 100; }
+
 TEST(Engines, EqualBruteForceOnUbiquitin) {
   const auto molecule = std::make_shared<const Molecule>(read_structure(test::ubiquitin()));
-  expect_equal_engines(molecule, "all", 500);
-  expect_equal_engines(molecule, "count:5", 500);
+  expect_equal_engines(molecule, "all", conformations());
+  expect_equal_engines(molecule, "count:5", conformations());
   expect_equal_engines(molecule, "loops", 100);
 }
 
@@ -122,7 +126,7 @@ TEST(Engines, EqualBruteForceOnBuiltProteins) {
        {std::pair("ACDEFGHIKLMNPQRSTVWYACDEFGHIKLMNPQRSTVWY", "CCHHHHHHHHHHCCCCEEEEEEECCCHHHHHHHHHHCCCC"),
         std::pair("GGGGG", "CCCCC"), std::pair("A", "C"), std::pair("WP", "EE")}) {
     const auto molecule = std::make_shared<const Molecule>(build_ideal_protein(sequence, structure));
-    expect_equal_engines(molecule, "all", 1000);
+    expect_equal_engines(molecule, "all", 2 * conformations());
   }
 }
 
@@ -141,8 +145,8 @@ TEST_P(SharedProteins, GiveEqualAnswersOnAllEngines) {
   options.keep_hydrogens = GetParam().hydrogens;
   options.model = 1;
   const auto molecule = std::make_shared<const Molecule>(read_structure(file, options));
-  expect_equal_engines(molecule, "count:7", 500);
-  expect_equal_engines(molecule, "all", 500);
+  expect_equal_engines(molecule, "count:7", conformations());
+  expect_equal_engines(molecule, "all", conformations());
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, SharedProteins,

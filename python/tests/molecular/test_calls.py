@@ -70,7 +70,7 @@ def test_many_threads_of_python_may_share_a_checker(c):
 
 def test_the_lock_is_released(m):
     c = hm.Checker(m, "none")
-    x = np.repeat(m.coordinates[None], 20000, axis=0)
+    x = np.repeat(m.coordinates[None], 2000, axis=0)
     ticks, done = [0], threading.Event()
 
     def count():
@@ -138,7 +138,7 @@ def test_ctrl_c_ends_every_kind_of_call(m, c, call):
 
 
 def test_progress_is_a_callback_or_a_bar(c):
-    q = np.repeat(c.sample(1000, 5, 0.01), 50, axis=0)
+    q = np.repeat(c.sample(1000, 5, 0.01), 10, axis=0)
     calls = []
     c.closest(q, progress=lambda done, total: calls.append((done, total)))
     assert calls[-1] == (len(q), len(q))
