@@ -3,11 +3,11 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 
+#include "hinge/detail/core/same_bits.hpp"
 #include "hinge/detail/core/sincos.hpp"
 
 namespace hinge {
@@ -54,27 +54,11 @@ class SampleStream {
   /// is at least 2^-53.
   double normal() noexcept {
     constexpr double two_pi = 6.283185307179586;
-    const double radius = std::sqrt(-2.0 * log_of(1.0 - uniform()));
+    const double radius = std::sqrt(-2.0 * detail::log(1.0 - uniform()));
     return radius * detail::sincos(two_pi * uniform()).cos;
   }
 
  private:
-  /// Natural logarithm of a normal x > 0. With x = 2^e m and m in [0.7, 1.42), log m = 2 artanh((m - 1) / (m + 1)). The
-  /// first omitted term of the series is below 1e-19.
-  static double log_of(double x) noexcept {
-    auto bits = std::bit_cast<std::uint64_t>(x);
-    auto exponent = static_cast<int>(bits >> 52) - 1023;
-    double m = std::bit_cast<double>((bits & 0xf'ffff'ffff'ffffULL) | 0x3ff0'0000'0000'0000ULL);
-    if (m > 1.4142135623730951) {
-      m /= 2;
-      ++exponent;
-    }
-    const double s = (m - 1.0) / (m + 1.0), z = s * s;
-    double series = 0.0;
-    for (int n = 23; n >= 1; n -= 2) series = series * z + 1.0 / n;
-    return exponent * 0.6931471805599453 + 2.0 * s * series;
-  }
-
   std::array<std::uint32_t, 2> key_;
   std::array<std::uint32_t, 2> index_;
   std::uint32_t stream_;

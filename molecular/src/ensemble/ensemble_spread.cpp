@@ -9,6 +9,7 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/id.hpp"
+#include "hinge/detail/core/same_bits.hpp"
 #include "hinge/detail/core/sincos.hpp"
 #include "hinge/molecular/fit_torsions.hpp"
 
@@ -121,7 +122,8 @@ void EnsembleSpread::add(std::span<const Vec3> positions) {
 double EnsembleSpread::circular_std(std::size_t k) const noexcept {
   const double n = static_cast<double>(count_);
   const double squared = (cosines_[k] * cosines_[k] + sines_[k] * sines_[k]) / (n * n);
-  return squared > 0.0 ? std::sqrt(std::max(0.0, -std::log(squared))) : std::numeric_limits<double>::infinity();
+  return std::isnormal(squared) ? std::sqrt(std::max(0.0, -detail::log(squared)))
+                                : std::numeric_limits<double>::infinity();
 }
 
 double EnsembleSpread::distance_spread(std::size_t first, std::size_t second) const noexcept {

@@ -2,15 +2,15 @@
 // Fits torsions and placements to coordinates, by dihedral angles and by least-squares superposition.
 #include "hinge/molecular/fit_torsions.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
 
 #include "hinge/core/error.hpp"
+#include "hinge/detail/core/same_bits.hpp"
 
 namespace hinge::molecular {
 
@@ -24,23 +24,61 @@ Vec3 centre(std::span<const Vec3> positions) {
   return sum / static_cast<double>(positions.size());
 }
 
+using Quaternion = std::array<double, 4>;
+
+/// Returns the eigenvector of the largest eigenvalue of a symmetric matrix, by Jacobi's rotations (Golub & Van Loan,
+/// Matrix Computations, section 8.5). Only scalars, in a fixed order: the bits are the same for every instruction set.
+Quaternion largest_eigenvector(std::array<Quaternion, 4> n) {
+  std::array<Quaternion, 4> vectors{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};  // in columns
+  constexpr int most_sweeps = 30;  // five are usual: convergence is quadratic
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    double off = 0.0, scale = 0.0;
+    for (std::size_t p = 0; p < 4; ++p)
+      for (std::size_t q = 0; q < 4; ++q) (p == q ? scale : off) += std::abs(n[p][q]);
+    if (!(off > 0x1p-60 * scale)) break;
+    for (std::size_t p = 0; p < 3; ++p)
+      for (std::size_t q = p + 1; q < 4; ++q) {
+        if (n[p][q] == 0.0) continue;
+        const double tau = (n[q][q] - n[p][p]) / (2.0 * n[p][q]);
+        const double t = std::copysign(1.0, tau) / (std::abs(tau) + std::sqrt(1.0 + tau * tau));
+        const double c = 1.0 / std::sqrt(1.0 + t * t), s = t * c;
+        const auto rotate = [&](double& a, double& b) {
+          const double old = a;
+          a = c * old - s * b;
+          b = s * old + c * b;
+        };
+        for (std::size_t k = 0; k < 4; ++k) rotate(n[k][p], n[k][q]);
+        for (std::size_t k = 0; k < 4; ++k) rotate(n[p][k], n[q][k]);
+        for (Quaternion& row : vectors) rotate(row[p], row[q]);
+        n[p][q] = n[q][p] = 0.0;
+      }
+  }
+  std::size_t largest = 0;
+  for (std::size_t k = 1; k < 4; ++k)
+    if (n[k][k] > n[largest][largest]) largest = k;
+  return {vectors[0][largest], vectors[1][largest], vectors[2][largest], vectors[3][largest]};
+}
+
 /// Returns the least-squares rotation from `moved` to `onto`, each relative to its centre: the quaternion of the
 /// largest eigenvalue (Horn, J. Opt. Soc. Am. A 4:629, 1987).
-Eigen::Matrix3d closest_rotation(std::span<const Vec3> moved, const Vec3& centre_moved, std::span<const Vec3> onto,
-                                 const Vec3& centre_onto) {
-  Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
+Mat3 closest_rotation(std::span<const Vec3> moved, const Vec3& centre_moved, std::span<const Vec3> onto,
+                      const Vec3& centre_onto) {
+  double m[3][3] = {};
   for (std::size_t i = 0; i < moved.size(); ++i)
     for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) m(r, c) += (moved[i][r] - centre_moved[r]) * (onto[i][c] - centre_onto[c]);
-  // long double prevents vectorisation: with AVX-512, g++ 12 warns that Eigen's undefined registers are uninitialized.
-  Eigen::Matrix<long double, 4, 4> n;
-  n << m(0, 0) + m(1, 1) + m(2, 2), m(1, 2) - m(2, 1), m(2, 0) - m(0, 2), m(0, 1) - m(1, 0),  //
-      m(1, 2) - m(2, 1), m(0, 0) - m(1, 1) - m(2, 2), m(0, 1) + m(1, 0), m(2, 0) + m(0, 2),   //
-      m(2, 0) - m(0, 2), m(0, 1) + m(1, 0), m(1, 1) - m(0, 0) - m(2, 2), m(1, 2) + m(2, 1),   //
-      m(0, 1) - m(1, 0), m(2, 0) + m(0, 2), m(1, 2) + m(2, 1), m(2, 2) - m(0, 0) - m(1, 1);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<long double, 4, 4>> solver(n);
-  const auto q = solver.eigenvectors().col(3);
-  return Eigen::Quaternion<long double>(q[0], q[1], q[2], q[3]).toRotationMatrix().cast<double>();
+      for (int c = 0; c < 3; ++c) m[r][c] += (moved[i][r] - centre_moved[r]) * (onto[i][c] - centre_onto[c]);
+  auto [w, x, y, z] =
+      largest_eigenvector({{{m[0][0] + m[1][1] + m[2][2], m[1][2] - m[2][1], m[2][0] - m[0][2], m[0][1] - m[1][0]},
+                            {m[1][2] - m[2][1], m[0][0] - m[1][1] - m[2][2], m[0][1] + m[1][0], m[2][0] + m[0][2]},
+                            {m[2][0] - m[0][2], m[0][1] + m[1][0], m[1][1] - m[0][0] - m[2][2], m[1][2] + m[2][1]},
+                            {m[0][1] - m[1][0], m[2][0] + m[0][2], m[1][2] + m[2][1], m[2][2] - m[0][0] - m[1][1]}}});
+  const double length = std::sqrt(w * w + x * x + y * y + z * z);
+  w /= length, x /= length, y /= length, z /= length;
+  Mat3 rotation;
+  rotation << 1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y),  //
+      2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x),          //
+      2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y);
+  return rotation;
 }
 
 }  // namespace
@@ -85,7 +123,7 @@ std::vector<std::array<double, 6>> fit_placements(const Molecule& molecule, std:
     return !moved.empty();
   };
   // Transform from the frame of `positions` to the frame of the atoms that are not placed, which stay fixed.
-  Eigen::Matrix3d back = Eigen::Matrix3d::Identity();
+  Mat3 back = Mat3::Identity();
   Vec3 from = Vec3::Zero(), to = Vec3::Zero();
   if (gather([&](std::size_t i) {
         return std::none_of(in.begin(), in.end(), [&](const auto& part) { return part[i]; });
@@ -99,13 +137,14 @@ std::vector<std::array<double, 6>> fit_placements(const Molecule& molecule, std:
     gather([&](std::size_t i) { return in[k][i]; });
     for (Vec3& x : onto) x = back * (x - from) + to;
     const Vec3 here = centre(moved), there = centre(onto), c = molecule.placed_parts()[k].centre;
-    const Eigen::Matrix3d r = closest_rotation(moved, here, onto, there);
+    const Mat3 r = closest_rotation(moved, here, onto, there);
     const Vec3 move = r * (c - here) + there - c;
     // Solves r = Rx(a) Ry(b) Rz(c). Each angle is computed after the previous rotations are removed, so b = pi/2 needs
     // no special case.
-    const double a = std::atan2(-r(1, 2), r(2, 2)), sin = std::sin(a), cos = std::cos(a);
-    const double b = std::atan2(r(0, 2), cos * r(2, 2) - sin * r(1, 2));
-    const double turn = std::atan2(cos * r(1, 0) + sin * r(2, 0), cos * r(1, 1) + sin * r(2, 1));
+    const double a = detail::atan2(-r(1, 2), r(2, 2));
+    const auto [sin, cos] = detail::sincos(a);
+    const double b = detail::atan2(r(0, 2), cos * r(2, 2) - sin * r(1, 2));
+    const double turn = detail::atan2(cos * r(1, 0) + sin * r(2, 0), cos * r(1, 1) + sin * r(2, 1));
     all.push_back({move[0], move[1], move[2], a, b, turn});
   }
   return all;
@@ -113,7 +152,7 @@ std::vector<std::array<double, 6>> fit_placements(const Molecule& molecule, std:
 
 Superposition superpose(std::span<const Vec3> moved, std::span<const Vec3> onto) {
   const Vec3 from = centre(moved), to = centre(onto);
-  const Eigen::Matrix3d rotation = closest_rotation(moved, from, onto, to);
+  const Mat3 rotation = closest_rotation(moved, from, onto, to);
   Superposition found;
   double sum = 0.0;
   for (std::size_t i = 0; i < moved.size(); ++i) {

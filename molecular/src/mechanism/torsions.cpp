@@ -12,6 +12,7 @@
 
 #include "chemistry/nucleotide_table.hpp"
 #include "chemistry/residue_table.hpp"
+#include "hinge/detail/core/same_bits.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/bonds.hpp"
 #include "mechanism/rotatable_bonds.hpp"
@@ -26,7 +27,7 @@ double dihedral(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) noex
     return !(squared_norm(product) > 0x1p-90 * squared_norm(p) * squared_norm(q));
   };
   if (undefined(m, u, v) || undefined(n, v, w)) return std::numeric_limits<double>::quiet_NaN();
-  return std::atan2(std::sqrt(squared_norm(v)) * dot(u, n), dot(m, n));
+  return detail::atan2(std::sqrt(squared_norm(v)) * dot(u, n), dot(m, n));
 }
 
 namespace {
