@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Prints one line per hash of the answers of every primitive and engine, for random scenes, ties and threads.
 // build_all.sh compiles this in many ways and compares the lines; this program compares only engines and threads.
+// HINGE_ONE_THREAD leaves the threads out, for systems without TBB.
+#ifndef HINGE_ONE_THREAD
 #include <tbb/global_control.h>
+#endif
 
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <vector>
 
+#ifndef HINGE_ONE_THREAD
 #include "hinge/batch/ensemble.hpp"
+#endif
 #include "hinge/detail/simd/instruction_set.hpp"
 #include "hinge/engine/brute.hpp"
 #include "hinge/engine/lazy.hpp"
@@ -60,7 +65,10 @@ void ties(const char* what, std::uint64_t seed, Grid grid, const Model<P>& model
 
 /// Prints hashes of verdicts and pairs of one model, and compares one, two and eight threads.
 template <class P, class F, class D>
-void threads(const char* what, std::uint64_t seed, Grid grid, const Model<P>& model, const F& filter, const D& matrix) {
+void threads([[maybe_unused]] const char* what, [[maybe_unused]] std::uint64_t seed, [[maybe_unused]] Grid grid,
+             [[maybe_unused]] const Model<P>& model, [[maybe_unused]] const F& filter,
+             [[maybe_unused]] const D& matrix) {
+#ifndef HINGE_ONE_THREAD
   constexpr std::size_t count = 40;
   // Allows more threads than the machine may have.
   const tbb::global_control eight(tbb::global_control::max_allowed_parallelism, 8);
@@ -89,6 +97,7 @@ void threads(const char* what, std::uint64_t seed, Grid grid, const Model<P>& mo
     ++differences;
     std::printf("%s: %u threads answer otherwise than one\n", what, n);
   }
+#endif
 }
 
 template <class P>
