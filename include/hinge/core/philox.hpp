@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "hinge/detail/core/same_bits.hpp"
+#include "hinge/detail/core/elementary.hpp"
 #include "hinge/detail/core/sincos.hpp"
 
 namespace hinge {

@@ -9,7 +9,7 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/id.hpp"
-#include "hinge/detail/core/same_bits.hpp"
+#include "hinge/detail/core/elementary.hpp"
 #include "hinge/detail/core/sincos.hpp"
 #include "hinge/molecular/fit_torsions.hpp"
 

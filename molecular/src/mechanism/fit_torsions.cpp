@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "hinge/core/error.hpp"
-#include "hinge/detail/core/same_bits.hpp"
+#include "hinge/detail/core/elementary.hpp"
 
 namespace hinge::molecular {
 

@@ -12,7 +12,7 @@
 
 #include "chemistry/nucleotide_table.hpp"
 #include "chemistry/residue_table.hpp"
-#include "hinge/detail/core/same_bits.hpp"
+#include "hinge/detail/core/elementary.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/bonds.hpp"
 #include "mechanism/rotatable_bonds.hpp"

@@ -43,8 +43,8 @@ struct Superposition {
   std::uint32_t atom = 0;  ///< the atom with that distance
 };
 
-/// Returns the distances after the best rigid superposition without reflection, with equal weights (S. Umeyama, IEEE
-/// PAMI 13(4), 1991, eq. 34-42). moved, onto: angstrom, of the same length, at least one position.
+/// Returns the distances after the best rigid superposition without reflection, with equal weights (Horn, J. Opt. Soc.
+/// Am. A 4:629, 1987). moved, onto: angstrom, of the same length, at least one position.
 HINGE_API Superposition superpose(std::span<const Vec3> moved, std::span<const Vec3> onto);
 
 }  // namespace hinge::molecular

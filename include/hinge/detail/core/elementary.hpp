@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Angle of a vector and natural logarithm with the same bits on every CPU and compiler, which libm does not promise.
+// Elementary functions with the same bits on every CPU and compiler, which libm does not promise: atan2 and log.
 #pragma once
 
 #include <bit>
@@ -13,7 +13,7 @@
 namespace hinge::detail {
 
 /// Returns the angle of the vector (x, y) from the x axis (rad), in [-pi, pi], within 3 ulp. Zeros, infinities and NaN
-/// give what std::atan2 gives. It uses only + - * / and sincos (with -ffp-contract=off).
+/// are handled as in std::atan2. It uses only + - * / and sincos (with -ffp-contract=off).
 inline double atan2(double y, double x) noexcept {
   if (std::isnan(x) || std::isnan(y)) return std::numeric_limits<double>::quiet_NaN();
   const double across = std::abs(x), up = std::abs(y);

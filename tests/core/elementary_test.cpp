@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // detail::atan2 and detail::log against libm, at special values, and their bits.
-#include "hinge/detail/core/same_bits.hpp"
+#include "hinge/detail/core/elementary.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <random>
 
 namespace hinge {
-namespace same_bits_test {
+namespace elementary_test {
 
 double ulp(double value) { return std::nextafter(std::abs(value), 1e308) - std::abs(value); }
 
@@ -72,5 +72,5 @@ TEST(Atan2, HasTheseBitsEverywhere) {
   EXPECT_EQ(hash, 0x2699f9c4f636860ULL);
 }
 
-}  // namespace same_bits_test
+}  // namespace elementary_test
 }  // namespace hinge
