@@ -32,7 +32,8 @@ builds() {
       done
     done
   done
-  if [ "$(uname -m)" = x86_64 ] && command -v aarch64-linux-gnu-g++ qemu-aarch64 >/dev/null; then
+  if [ "$(uname -m)" = x86_64 ] && command -v aarch64-linux-gnu-g++ >/dev/null &&
+    command -v qemu-aarch64 >/dev/null; then
     echo "aarch64-linux-gnu-g++ -O3 off armv8-a"
   fi
 }
@@ -43,7 +44,8 @@ build_and_run() {
   local start=$SECONDS status=0
   local main=$out/main.o link=(g++) libraries=(-ltbb) emulator=() more=()
   if [ "$compiler" = aarch64-linux-gnu-g++ ]; then  # Debian has TBB for it only as a foreign architecture
-    more=(-DHINGE_ONE_THREAD -Wno-psabi) main=$out/main-arm64.o link=("$compiler" -static) libraries=() emulator=(qemu-aarch64)
+    more=(-DHINGE_ONE_THREAD -Wno-psabi) main=$out/main-arm64.o
+    link=("$compiler" -static) libraries=() emulator=(qemu-aarch64)
     # shellcheck disable=SC2086
     $compiler $common -O1 -c tests/isa/main.cpp -o "$main"
   fi

@@ -4,6 +4,8 @@
 // HINGE_ONE_THREAD leaves the threads out, for systems without TBB.
 #ifndef HINGE_ONE_THREAD
 #include <tbb/global_control.h>
+
+#include "hinge/batch/ensemble.hpp"
 #endif
 
 #include <cstddef>
@@ -11,9 +13,7 @@
 #include <cstdio>
 #include <vector>
 
-#ifndef HINGE_ONE_THREAD
-#include "hinge/batch/ensemble.hpp"
-#endif
+#include "hinge/detail/core/elementary.hpp"
 #include "hinge/detail/simd/instruction_set.hpp"
 #include "hinge/engine/brute.hpp"
 #include "hinge/engine/lazy.hpp"
@@ -63,12 +63,13 @@ void ties(const char* what, std::uint64_t seed, Grid grid, const Model<P>& model
         tied_answers_of<P, F, D, Lazy>(seed, grid, model, filter, matrix, steps));
 }
 
+#ifdef HINGE_ONE_THREAD
+template <class... Arguments>
+void threads(const Arguments&...) {}
+#else
 /// Prints hashes of verdicts and pairs of one model, and compares one, two and eight threads.
 template <class P, class F, class D>
-void threads([[maybe_unused]] const char* what, [[maybe_unused]] std::uint64_t seed, [[maybe_unused]] Grid grid,
-             [[maybe_unused]] const Model<P>& model, [[maybe_unused]] const F& filter,
-             [[maybe_unused]] const D& matrix) {
-#ifndef HINGE_ONE_THREAD
+void threads(const char* what, std::uint64_t seed, Grid grid, const Model<P>& model, const F& filter, const D& matrix) {
   constexpr std::size_t count = 40;
   // Allows more threads than the machine may have.
   const tbb::global_control eight(tbb::global_control::max_allowed_parallelism, 8);
@@ -97,7 +98,20 @@ void threads([[maybe_unused]] const char* what, [[maybe_unused]] std::uint64_t s
     ++differences;
     std::printf("%s: %u threads answer otherwise than one\n", what, n);
   }
+}
 #endif
+
+/// Prints hashes of the elementary functions that coordinates, torsions and samples are computed with.
+void elementary_functions(std::uint64_t seed) {
+  Random random(seed);
+  Hash angles, logarithms;
+  for (int k = 0; k < 100000; ++k) {
+    const double y = random.uniform(-1.0, 1.0), x = random.uniform(-1.0, 1.0);
+    angles.add(detail::atan2(y, x));
+    logarithms.add(detail::log(random.uniform(0x1p-53, 1.0)));
+  }
+  print("atan2", "distances", angles.value());
+  print("log", "distances", logarithms.value());
 }
 
 template <class P>
@@ -139,5 +153,6 @@ int compare_answers() {
     threads("triangles, corner on face, 1, 2 and 8 threads", seed, Grid::binary, model, AdmitAll{},
             UniformClearance{0.0});
   }
+  elementary_functions(26);
   return differences;
 }
