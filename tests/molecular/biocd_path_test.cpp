@@ -16,9 +16,7 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
-#include "hinge/core/pose.hpp"
 #include "hinge/core/vec3.hpp"
-#include "hinge/kinematics/joint.hpp"
 #include "hinge/molecular/fit_torsions.hpp"
 #include "hinge/molecular/path_checker.hpp"
 #include "hinge/molecular/read_structure.hpp"
@@ -230,22 +228,6 @@ TEST(FitTurns, TakesTheShorterWay) {
   const std::vector<double> expected{-3.0 + 2 * std::numbers::pi, 3.0 - 2 * std::numbers::pi, 0.4,
                                      20.0 - 6 * std::numbers::pi};
   for (std::size_t k = 0; k < turns.size(); ++k) EXPECT_NEAR(turns[k], expected[k], 1e-12);
-}
-
-TEST(Superpose, LeavesWhatNoMotionTakesAway) {
-  const std::vector<Vec3> a{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}, {4, 1, 1}};
-  const Pose motion{rotation_about(Vec3(1, 2, 3).normalized(), 2.0), Vec3(10, -20, 30)};
-  std::vector<Vec3> b;
-  for (const Vec3& x : a) b.push_back(motion * x);
-  EXPECT_NEAR(superpose(a, b).rmsd, 0.0, 1e-12);
-  // A mirror image is not a rigid motion.
-  for (Vec3& x : b) x[0] = -x[0];
-  EXPECT_GT(superpose(a, b).rmsd, 0.5);
-  // Two points each: the difference in length is shared equally by both ends.
-  const Superposition pairs =
-      superpose(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}}, std::vector<Vec3>{{0, 0, 0}, {2, 0, 0}});
-  EXPECT_NEAR(pairs.rmsd, 0.5, 1e-12);
-  EXPECT_NEAR(pairs.farthest, 0.5, 1e-12);
 }
 
 /// Each slice tests an eighth of the paths to keep tests short; with HINGE_TEST_ALL 13 000 paths in all.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Superposition and fitted placements: random motions, points on a line or in a plane, and another algorithm.
+// Superpositions: known motions, points on a line or in a plane, and another algorithm.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "hinge/core/pose.hpp"
+#include "hinge/core/vec3.hpp"
+#include "hinge/kinematics/joint.hpp"
 #include "hinge/molecular/fit_torsions.hpp"
 
 namespace hinge::molecular {
@@ -29,7 +31,7 @@ Pose random_motion(std::mt19937_64& random) {
           50.0 * Vec3(normal(random), normal(random), normal(random))};
 }
 
-/// The same by a singular value decomposition (Eigen's umeyama).
+/// Returns the same rmsd by a singular value decomposition (Eigen's umeyama).
 double reference_rmsd(const std::vector<Vec3>& moved, const std::vector<Vec3>& onto) {
   Eigen::Matrix3Xd a(3, moved.size()), b(3, onto.size());
   for (std::size_t i = 0; i < moved.size(); ++i) {
@@ -39,6 +41,22 @@ double reference_rmsd(const std::vector<Vec3>& moved, const std::vector<Vec3>& o
   const Eigen::Matrix4d fit = Eigen::umeyama(a, b, false);
   const Eigen::Matrix3Xd off = ((fit.topLeftCorner<3, 3>() * a).colwise() + fit.topRightCorner<3, 1>().eval()) - b;
   return std::sqrt(off.squaredNorm() / static_cast<double>(moved.size()));
+}
+
+TEST(Superpose, LeavesWhatNoMotionTakesAway) {
+  const std::vector<Vec3> a{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}, {4, 1, 1}};
+  const Pose motion{rotation_about(Vec3(1, 2, 3).normalized(), 2.0), Vec3(10, -20, 30)};
+  std::vector<Vec3> b;
+  for (const Vec3& x : a) b.push_back(motion * x);
+  EXPECT_NEAR(superpose(a, b).rmsd, 0.0, 1e-12);
+  // A mirror image is not a rigid motion.
+  for (Vec3& x : b) x[0] = -x[0];
+  EXPECT_GT(superpose(a, b).rmsd, 0.5);
+  // Two points each: the difference in length is shared equally by both ends.
+  const Superposition pairs =
+      superpose(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}}, std::vector<Vec3>{{0, 0, 0}, {2, 0, 0}});
+  EXPECT_NEAR(pairs.rmsd, 0.5, 1e-12);
+  EXPECT_NEAR(pairs.farthest, 0.5, 1e-12);
 }
 
 TEST(Superpose, UndoesRigidMotions) {
@@ -66,8 +84,8 @@ TEST(Superpose, IsAsCloseAsASingularValueDecompositionMakesIt) {
   }
 }
 
-TEST(Superpose, LeavesAHalfTurnToThePointsThatNeedOne) {
-  // The largest eigenvalue of these belongs to quaternions without a real part.
+/// The quaternion of a half turn has no real part.
+TEST(Superpose, UndoesHalfTurns) {
   const std::vector<Vec3> points{{1, 0, 0}, {0, 2, 0}, {0, 0, 3}, {-4, 1, 0}};
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<Vec3> onto = points;
