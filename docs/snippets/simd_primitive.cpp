@@ -4,12 +4,12 @@
 #include <hinge/hinge.hpp>
 #include <vector>
 
-struct Bubble {  // a plain value in its link's frame, metres
+struct SimdBall {  // a plain value in its link's frame, metres
   hinge::Vec3 center;
   double radius;
-  Bubble placed(const hinge::Pose& x) const noexcept { return {x * center, radius}; }
+  SimdBall placed(const hinge::Pose& x) const noexcept { return {x * center, radius}; }
   hinge::Aabb bounds() const noexcept { return hinge::Aabb(center).inflated(radius); }
-  friend double squared_distance(const Bubble& a, const Bubble& b) noexcept {
+  friend double squared_distance(const SimdBall& a, const SimdBall& b) noexcept {
     const double d = (a.center - b.center).norm() - (a.radius + b.radius);
     return d > 0 ? d * d : 0.0;
   }
@@ -18,14 +18,14 @@ struct Bubble {  // a plain value in its link's frame, metres
   std::array<hinge::Vec3, 1> hull() const noexcept { return {center}; }
   double hull_radius() const noexcept { return radius; }
 };
-static_assert(hinge::FillsHull<Bubble>);
+static_assert(hinge::FillsHull<SimdBall>);
 
 int main() {
-  const std::vector<Bubble> samples{{{0, 0, 0}, 0.1}, {{1, 0, 0}, 0.2}, {{0.2, 0, 0}, 0.1}};
+  const std::vector<SimdBall> samples{{{0, 0, 0}, 0.1}, {{1, 0, 0}, 0.2}, {{0.2, 0, 0}, 0.1}};
   const std::vector<hinge::Pose> poses{{hinge::rotation_about({0, 0, 1}, 0.7), {1, 2, 3}}};
-  if (!hinge::laws::check_primitive<Bubble>(samples, poses).empty()) return 1;
+  if (!hinge::laws::check_primitive<SimdBall>(samples, poses).empty()) return 1;
 
-  hinge::ModelBuilder<Bubble> build;  // a chain of forty links with three balls each
+  hinge::ModelBuilder<SimdBall> build;  // a chain of forty links with three balls each
   hinge::LinkId parent = hinge::world;
   const hinge::Pose next{hinge::Mat3::Identity(), {0.3, 0, 0}};
   for (int k = 0; k < 40; ++k)
@@ -34,7 +34,7 @@ int main() {
   const auto model = build.finish();
   const hinge::DifferentLinks filter({model.links().begin(), model.links().end()});
   hinge::Hierarchy chain(model, filter, hinge::UniformClearance{0.0});
-  hinge::Hierarchy<Bubble, hinge::DifferentLinks, hinge::UniformClearance, hinge::Brute> brute(
+  hinge::Hierarchy<SimdBall, hinge::DifferentLinks, hinge::UniformClearance, hinge::Brute> brute(
       model, filter, hinge::UniformClearance{0.0});
   int colliding = 0;
   for (int step = 0; step < 40; ++step) {  // the chain rolls up; its ends meet at 40 joints of 0.157 rad
