@@ -146,9 +146,12 @@ class Hierarchy {
         .hit();
   }
 
-  /// Passes the pairs to a custom collector, in the order of the engine.
+  /// Passes the pairs to a custom collector, in the order of the engine. ConfigurationError: clearances as in
+  /// self_query, or a range of groups (valid only in queries of one model).
   template <Collector C, PairFilter G = AdmitAll>
   void query(const Hierarchy& other, C& collector, const G& across = {}, const QueryOptions& options = {}) const {
+    if (!options.groups.is_all())
+      throw ConfigurationError("groups: expected all groups in a query of two models; a range is for one model");
     detail::check_clearance(options.clearance, model().groups()->size());
     detail::check_clearance(options.other_clearance, other.model().groups()->size());
     check_laws(across, model().model().links(), other.model().model().links());

@@ -2,7 +2,9 @@
 // Every query on every engine equals brute force, and brute force equals a plain double loop written here.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "engine/random_mechanism.hpp"
@@ -64,6 +66,52 @@ TYPED_TEST(EngineEquality, BruteEqualsTheFormula) {
     for (const Hit& hit : brute.self_collisions()) found.emplace_back(hit.first, hit.second);
     EXPECT_EQ(found, expected);
   }
+}
+
+TYPED_TEST(EngineEquality, RangesOfGroupsReportEveryPairOnce) {
+  using P = TypeParam;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const auto model = test::random_model(random, 12, 5, random.one_in(2), make_primitive<P>);
+    const ExcludedPairs filter(model.size(), random, 5);
+    const auto matrix = test::random_thresholds(model.size(), random);
+    const Hierarchy hierarchy(model, filter, matrix);
+    const auto groups = hierarchy.model().groups()->size();
+    // The values of later groups must not matter: they change from one range to the next.
+    Hierarchy<P, ExcludedPairs, TypedThresholds> grown(model, filter, matrix), whole = grown;
+    std::vector<double> q(grown.dof_count()), chosen(grown.dof_count());
+    for (double& value : chosen) value = random.uniform(-3.0, 3.0);
+    whole.update(chosen);
+    std::vector<Hit> found;
+    for (std::size_t first = 0, end = 0; first < groups; first = end) {
+      end = std::min(groups, first + 1 + random.below(4));
+      for (double& value : q) value = random.uniform(-3.0, 3.0);
+      for (std::size_t g = 0; g < end; ++g) {
+        const std::size_t dof = (*grown.model().groups())[id<GroupId>(g)].dof;
+        if (g > 0) q[dof] = chosen[dof];
+      }
+      grown.update(q);
+      QueryOptions options;
+      options.groups = {id<GroupId>(first), id<GroupId>(end)};
+      const std::vector<Hit> hits = grown.self_within(0.3, options);
+      EXPECT_EQ(grown.self_collides(options), !grown.self_collisions(options).empty());
+      found.insert(found.end(), hits.begin(), hits.end());
+    }
+    std::sort(found.begin(), found.end(),
+              [](const Hit& a, const Hit& b) { return std::pair(a.first, a.second) < std::pair(b.first, b.second); });
+    EXPECT_EQ(found, whole.self_within(0.3));
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+TEST(Hierarchy, RefusesARangeOfGroupsBetweenTwoModels) {
+  Random random(1);
+  const auto model = test::random_model(random, 4, 3, false, make_primitive<Point>);
+  const Hierarchy one(model, AdmitAll{}, test::random_thresholds(model.size(), random)), other = one;
+  QueryOptions options;
+  options.groups.end = GroupId{1};
+  EXPECT_THROW(one.collides(other, AdmitAll{}, options), ConfigurationError);
 }
 
 TEST(Hierarchy, KeepsNoHistory) {

@@ -79,6 +79,10 @@ class Pair {
       options.clearance = clearance;
     }
     options.moved_only = random.one_in(3);
+    if (random.one_in(3)) {
+      const std::size_t groups = tested.model().groups()->size();
+      options.groups = {id<GroupId>(random.below(groups + 1)), id<GroupId>(random.below(groups + 2))};
+    }
     const auto all = tested.self_collisions(options);
     expect_same(all, reference.self_collisions(options));
     expect_same(tested.self_within(0.7, options), reference.self_within(0.7, options));

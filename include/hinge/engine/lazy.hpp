@@ -177,15 +177,17 @@ class Lazy {
     traverse(
         upper_, upper_, stack_, counts, [&] { return collector.cutoff(); },
         [&](std::uint32_t a, std::uint32_t b) {
-          return (options.moved_only && !moved_apart(a, b, rules.state)) || test_bodies(a, b, collector, rules, counts);
+          return !admits_bodies(a, b, rules) || test_bodies(a, b, collector, rules, counts);
         },
         skip_never_colliding);
   }
 
-  bool moved_apart(std::uint32_t a, std::uint32_t b, State<P>& state) const noexcept {
+  /// Returns true if the options admit pairs of the two bodies.
+  bool admits_bodies(std::uint32_t a, std::uint32_t b, const Rules& rules) const noexcept {
+    if (!rules.options.moved_only && rules.options.groups.is_all()) return true;
     for (const GroupId g : layout_->groups(a))
       for (const GroupId h : layout_->groups(b))
-        if (state.moved_apart(g, h)) return true;
+        if (rules.admits_groups(g, h)) return true;
     return false;
   }
 

@@ -30,12 +30,15 @@ struct SelfRules {
     const auto m = detail::threshold_of(matrix, i, j);
     return options.clearance.empty() ? m : m + (clearance(i) + clearance(j));
   }
-  /// Returns true when the filter admits the pair, its distance is not constant and, in moved-only queries, the two
-  /// groups moved relative to each other.
+  /// Returns true when the options admit the pairs of two groups: the range of groups holds them and, in moved-only
+  /// queries, the groups moved relative to each other.
+  bool admits_groups(GroupId g, GroupId h) const noexcept {
+    return options.groups.holds_larger(g, h) && (!options.moved_only || state.moved_apart(g, h));
+  }
+  /// Returns true when the filter admits the pair, its distance is not constant, and the options admit its groups.
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept {
     const auto& model = state.model();
-    return filter.admits(i, j) && !state.constant(i, j) &&
-           (!options.moved_only || state.moved_apart(model.group_of(i), model.group_of(j)));
+    return filter.admits(i, j) && !state.constant(i, j) && admits_groups(model.group_of(i), model.group_of(j));
   }
   /// Passes the pair i < j of primitives p and q, in world coordinates, to the collector if it counts and lies within
   /// the cutoff. The engines of the library decide pairs by the same function, detail::test_pair.

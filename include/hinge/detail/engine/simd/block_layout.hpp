@@ -34,6 +34,7 @@ struct SweepEntry {
   /// Only entries before this one can be partners: entries of the same rigid group are excluded.
   std::uint32_t sweep_end = 0;
   std::uint32_t last_group = 0;  ///< forward kinematics must be complete up to this group
+  std::uint32_t least_from = 0;  ///< the first of the groups of this entry and of all later ones
 };
 
 /// Computed once when the DOF are selected. Entries are ordered by the last group they need, static entries first.
@@ -158,7 +159,8 @@ void BlockLayout::assemble(const SelectedModel<P>& model, std::vector<Piece> pie
       const auto b = static_cast<std::uint32_t>(blocks.size());
       if (!tree || members.data() == piece.blocks.front().data())
         entries.push_back({b, tree ? static_cast<std::uint32_t>(piece.blocks.size()) : 1U,
-                           piece.rigid ? first_entry : static_cast<std::uint32_t>(entries.size()), piece.last_group});
+                           piece.rigid ? first_entry : static_cast<std::uint32_t>(entries.size()), piece.last_group,
+                           0});
       Block block;
       block.rigid = piece.rigid;
       block.real = (simd::Bits{1} << members.size()) - 1;
@@ -177,6 +179,11 @@ void BlockLayout::assemble(const SelectedModel<P>& model, std::vector<Piece> pie
       blocks.push_back(block);
     }
     if (piece.last_group == 0) static_entries = entries.size();
+  }
+  std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
+  for (std::size_t u = entries.size(); u-- > 0;) {
+    least = std::min(least, static_cast<std::uint32_t>(index(groups_of(blocks[entries[u].first_block]).front())));
+    entries[u].least_from = least;
   }
 }
 

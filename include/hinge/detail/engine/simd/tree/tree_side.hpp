@@ -47,7 +47,8 @@ class TreeSide {
     trees_.refresh(state);
     const TreeOperand<P> mine{trees_, state, options.clearance};
     const auto wanted = [&](const TreePart& a, const TreePart& b) {
-      return !options.moved_only || state.moved_apart(id<GroupId>(a.group), id<GroupId>(b.group));
+      const auto g = id<GroupId>(a.group), h = id<GroupId>(b.group);
+      return options.groups.holds_larger(g, h) && (!options.moved_only || state.moved_apart(g, h));
     };
     const double most = mine.largest_clearance();
     if constexpr (C::ranks) {
