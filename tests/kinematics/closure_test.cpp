@@ -148,6 +148,33 @@ TEST(ClosureSolver, ForgetsWhatItSolvedBefore) {
   }
 }
 
+TEST(ClosureSolver, DoesNotChangeHeldValues) {
+  Random random(16);
+  int closed = 0;
+  for (int round = 0; round < 200; ++round) {
+    const KinematicTree tree = ring(any_polygon(random, 14));
+    std::vector<std::size_t> held;
+    for (std::size_t k = 0; k < tree.dof_count(); ++k)
+      if (random.one_in(3)) held.push_back(k);
+    ClosureSolver solver(tree, DofSelection::all(tree), all_closures(tree), {}, held);
+    const std::vector<bool> in_cycles = solver.dofs_in_cycles();
+    std::vector<double> q(tree.dof_count());
+    for (double& value : q) value = random.uniform(-0.2, 0.2);
+    const std::vector<double> start = q;
+    const bool said = solver.close(q);
+    closed += said ? 1 : 0;
+    EXPECT_EQ(said, plain_residual(tree, q) <= 1.001e-9) << round;
+    for (const std::size_t k : held) {
+      EXPECT_EQ(q[k], start[k]);
+      EXPECT_FALSE(in_cycles[k]);
+    }
+  }
+  EXPECT_GT(closed, 100);
+  const KinematicTree tree = ring(any_polygon(random, 8));
+  const std::vector<std::size_t> unknown{tree.dof_count()};
+  EXPECT_THROW(ClosureSolver(tree, DofSelection::all(tree), all_closures(tree), {}, unknown), ModelError);
+}
+
 TEST(ClosureSolver, SaysThatWhatCannotCloseDoesNot) {
   KinematicTree tree;
   const LinkId arm = tree.add_link(world, Revolute{Vec3::UnitZ(), Vec3::Zero(), {}, {}});

@@ -32,17 +32,18 @@ inline std::vector<std::size_t> all_closures(const KinematicTree& tree) {
 }
 
 /// Residuals and Jacobian of some closures. A closure gives six rows (two points, first link minus second link) or,
-/// with lengths, three. A column is a selected DOF on the cycle of a closure: on the path between its two links.
-/// Forward kinematics uses the order of operations of Pose and computes only the groups that closures need. Not
-/// thread-safe.
+/// with lengths, three. A column is a selected DOF on the cycle of a closure: on the path between its two links, and
+/// not held. Forward kinematics uses the order of operations of Pose and computes only the groups that closures need.
+/// Not thread-safe.
 class ClosureEquations {
  public:
   /// Equations of all closures of the tree at the reference. ModelError: a selection for another tree.
   ClosureEquations(const KinematicTree& tree, const DofSelection& selection)
       : ClosureEquations(tree, selection, all_closures(tree)) {}
-  /// Equations of the closures with these indices in tree.closures(), renumbered 0, 1, ... in the given order.
-  /// ModelError: also an index that does not exist.
-  ClosureEquations(const KinematicTree& tree, const DofSelection& selection, std::span<const std::size_t> closures);
+  /// Equations of the closures with these indices in tree.closures(), renumbered 0, 1, ... in the given order. held:
+  /// indices of selected DOF that are no columns. ModelError: also an index that does not exist.
+  ClosureEquations(const KinematicTree& tree, const DofSelection& selection, std::span<const std::size_t> closures,
+                   std::span<const std::size_t> held = {});
 
   /// Evaluates the residuals at q, one value per selected DOF. ConfigurationError: wrong length, or a value that is not
   /// finite.
@@ -134,10 +135,16 @@ class ClosureEquations {
 };
 
 inline ClosureEquations::ClosureEquations(const KinematicTree& tree, const DofSelection& selection,
-                                          std::span<const std::size_t> closures)
+                                          std::span<const std::size_t> closures, std::span<const std::size_t> held)
     : groups_(tree, selection), dof_count_(selection.size()), poses_(groups_.size()), axes_(groups_.size()) {
   constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-  std::vector<bool> needed(groups_.size(), false);
+  std::vector<bool> needed(groups_.size(), false), is_held(dof_count_, false);
+  for (const std::size_t k : held) {
+    if (k >= dof_count_)
+      throw ModelError("held DOF " + std::to_string(k) + ": expected below " + std::to_string(dof_count_) +
+                       ", the number of selected DOF");
+    is_held[k] = true;
+  }
   std::vector<std::size_t> column_of(groups_.size(), none);
   const auto parent = [&](std::size_t g) { return index(groups_[id<GroupId>(g)].parent); };
   std::size_t row = 0;
@@ -156,12 +163,15 @@ inline ClosureEquations::ClosureEquations(const KinematicTree& tree, const DofSe
     while (a != b) {
       const bool first = a > b;  // parents have smaller indices
       std::size_t& g = first ? a : b;
-      if (column_of[g] == none) {
-        column_of[g] = column_dof_.size();
-        column_dof_.push_back(groups_[id<GroupId>(g)].dof);
-        column_group_.push_back(g);
+      const std::size_t dof = groups_[id<GroupId>(g)].dof;
+      if (!is_held[dof]) {
+        if (column_of[g] == none) {
+          column_of[g] = column_dof_.size();
+          column_dof_.push_back(dof);
+          column_group_.push_back(g);
+        }
+        cycle.movers.push_back({column_of[g], g, first});
       }
-      cycle.movers.push_back({column_of[g], g, first});
       g = parent(g);
     }
     for (std::size_t g : {cycle.first, cycle.second})

@@ -38,11 +38,11 @@ class ClosureSolver {
   /// negative most_steps.
   ClosureSolver(const KinematicTree& tree, const DofSelection& selection, const ClosureOptions& options = {})
       : ClosureSolver(tree, selection, all_closures(tree), options) {}
-  /// Closes the closures with these indices in tree.closures() and ignores the others. ModelError: also an unknown
-  /// index.
+  /// Closes the closures with these indices in tree.closures() and ignores the others. held: indices of selected DOF
+  /// whose values close() does not change. ModelError: also an unknown index.
   ClosureSolver(const KinematicTree& tree, const DofSelection& selection, std::span<const std::size_t> closures,
-                const ClosureOptions& options = {})
-      : equations_(tree, selection, closures), options_(options) {
+                const ClosureOptions& options = {}, std::span<const std::size_t> held = {})
+      : equations_(tree, selection, closures, held), options_(options) {
     if (!(options.tolerance > 0.0) || !is_length(options.tolerance))
       throw ModelError("closure tolerance " + number_text(options.tolerance) + ": expected a length above 0");
     if (options.most_steps < 0)
