@@ -11,14 +11,11 @@
 #include "hinge/core/finite.hpp"
 #include "hinge/core/number_text.hpp"
 #include "hinge/detail/core/sincos.hpp"
+#include "mechanism/draw_turn.hpp"
 
 namespace hinge::molecular {
 
 namespace {
-
-double sample_turn(const Sampling& sampling, SampleStream& stream) {
-  return sampling.sigma ? *sampling.sigma * stream.normal() : std::numbers::pi * (1.0 - 2.0 * stream.uniform());
-}
 
 /// Returns sin^2 of half the rotation angle of Rx(a) Ry(b) Rz(c): the squared vector part of the product of the three
 /// quaternions.
@@ -34,7 +31,7 @@ double squared_half_sine(double a, double b, double c) noexcept {
 
 std::vector<double> draw_configuration(const Sampling& sampling, SampleStream& stream, std::size_t dof_count) {
   std::vector<double> q(dof_count);
-  for (double& value : q) value = sample_turn(sampling, stream);
+  for (double& value : q) value = draw_turn(sampling.sigma, stream);
   return q;
 }
 
@@ -88,7 +85,7 @@ std::vector<double> sample_configuration(const Sampling& sampling, std::uint64_t
     for (const DofId dof : part.dofs) places[hinge::index(dof)] = true;
   SampleStream stream(sampling.seed, index);
   for (const DofId dof : selection.dofs())
-    if (!places[hinge::index(dof)]) of_dof[hinge::index(dof)] = sample_turn(sampling, stream);
+    if (!places[hinge::index(dof)]) of_dof[hinge::index(dof)] = draw_turn(sampling.sigma, stream);
   for (std::size_t k = 0; k < placed.size(); ++k) {
     const PlacementRange& range = ranges[k];
     if (!is_length(range.distance) || range.distance < 0.0 || !(range.turn >= 0.0 && range.turn <= std::numbers::pi))

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// draw_turn: one torsion by itself.
+#pragma once
+
+#include <numbers>
+#include <optional>
+
+#include "hinge/core/philox.hpp"
+
+namespace hinge::molecular {
+
+/// Returns a rotation relative to the reference, rad: Gaussian with standard deviation sigma, or uniform in (-pi, pi].
+inline double draw_turn(const std::optional<double>& sigma, SampleStream& stream) {
+  return sigma ? *sigma * stream.normal() : std::numbers::pi * (1.0 - 2.0 * stream.uniform());
+}
+
+}  // namespace hinge::molecular
