@@ -16,7 +16,7 @@ void add_exit_zero(Command& command, bool& value) {
 
 /// Returns the exit status of a command that ended with `status`. exit_zero: the value of --exit-zero.
 inline Exit final_status(Exit status, bool exit_zero) {
-  const bool is_verdict = status == Exit::collision || status == Exit::undecided;
+  const bool is_verdict = status == Exit::collision || status == Exit::undecided || status == Exit::shortfall;
   return exit_zero && is_verdict ? Exit::free : status;
 }
 
@@ -24,7 +24,8 @@ inline Exit final_status(Exit status, bool exit_zero) {
 inline Topic exit_status_topic() {
   return {"Exit status",
           {"  0  free, or nothing to decide", "  1  a collision was found (0 with --exit-zero)", "  2  wrong usage",
-           "  3  bad input", "  4  undecided: path proved neither (0 with --exit-zero)"}};
+           "  3  bad input", "  4  undecided: path proved neither (0 with --exit-zero)",
+           "  5  fewer conformations than asked for (0 with --exit-zero)"}};
 }
 
 }  // namespace hinge::tool

@@ -17,7 +17,7 @@
 namespace hinge::tool {
 
 /// Exit statuses, as grep uses them; the same for every tool, documented in docs/reference.
-enum class Exit : int { free = 0, collision = 1, usage = 2, bad_input = 3, undecided = 4 };
+enum class Exit : int { free = 0, collision = 1, usage = 2, bad_input = 3, undecided = 4, shortfall = 5 };
 
 /// Returns the text on one line: control characters are escaped as \n or \x1b.
 inline std::string one_line(std::string_view text) {

@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "help.hpp"
+#include "hinge/core/error.hpp"
 #include "hinge/detail/simd/instruction_set.hpp"
 #include "hinge/molecular/components.hpp"
 #include "hinge/version.hpp"
+#include "hinge_tools/choice_option.hpp"
 #include "hinge_tools/exit_zero_option.hpp"
 #include "hinge_tools/help_texts.hpp"
 #include "hinge_tools/number_option.hpp"
@@ -88,12 +90,28 @@ Exit run(int argc, char** argv) {
              "standard deviation of a Gaussian about the reference (default: uniform over the full range)")
       ->type_name("DEGREES");
   biocd::add_closures_option(*sample, o);
-  sample->add_flag("--collision-free", o.collision_free, "draw only conformations that do not collide");
+  sample->add_flag("--collision-free", o.collision_free,
+                   "draw only conformations that do not collide: grow each one residue by residue (with --loop, the "
+                   "loops' side chains are free by default)");
+  hinge::tool::add_choice(
+      *sample, "--prior", {"ramachandran", "uniform"},
+      [&o](const std::string& word) {
+        o.prior = word == "uniform" ? hinge::molecular::Prior::independent : hinge::molecular::Prior::ramachandran;
+      },
+      "with --collision-free: distribution of the torsions of proteins, by statistics of phi and psi and by rotamers "
+      "of side chains, or uniform (default: ramachandran; with --sigma a Gaussian)");
   add_number(*sample, "--tries", o.most_tries, counts,
-             "largest number of starts for each conformation (with closed cycles or --collision-free)");
+             "largest number of starts for each conformation, with closed cycles (default: 100) or --collision-free "
+             "(default: 1000)");
+  add_number(*sample, "--time", o.seconds, lengths_above_0, "with --collision-free: begin no start after this time")
+      ->type_name("SECONDS");
   sample->callback([&] {
     o.keep_closures = o.keep_closures.value_or(true);
     o.draws = true;
+    if (!o.collision_free && (o.prior || o.seconds))
+      throw hinge::ModelError(std::string(o.prior ? "--prior" : "--time") + ": expected with --collision-free only");
+    if (o.prior && o.sigma_degrees)
+      throw hinge::ModelError("--prior and --sigma are both given, expected one of the two");
     command = biocd::run_sample;
   });
 

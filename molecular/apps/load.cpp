@@ -2,6 +2,7 @@
 // Loads the molecule, selection and rules that the options name, and explains one pair.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <memory>
 #include <optional>
@@ -24,6 +25,18 @@ namespace biocd {
 
 using namespace hinge::molecular;
 
+namespace {
+
+bool loops_have_chi(const Molecule& molecule) {
+  return std::any_of(molecule.torsions().begin(), molecule.torsions().end(), [&](const Torsion& torsion) {
+    return torsion.name.starts_with("chi") &&
+           std::any_of(molecule.loops().begin(), molecule.loops().end(),
+                       [&](const Loop& loop) { return loop.first <= torsion.residue && torsion.residue <= loop.last; });
+  });
+}
+
+}  // namespace
+
 Job load(const Options& options) {
   Structure structure = read_files(options);
   MoleculeOptions made;
@@ -39,8 +52,10 @@ Job load(const Options& options) {
   if (loops) made.loops = find_loops(structure, options.loop);
   made.keep_hydrogen_bonds = options.keep_hydrogen_bonds;
   auto molecule = std::make_shared<const Molecule>(std::move(structure), made);
-  SelectedTorsions selected = read_selection(*molecule, options.free, options.omega);
-  auto torsions = loops ? select_loop_torsions(*molecule, options.free, options.omega) : selected.torsions;
+  // Loops of glycine and alanine have no side chains to free.
+  const std::string free = options.free_by_loop && !loops_have_chi(*molecule) ? "none" : options.free;
+  SelectedTorsions selected = read_selection(*molecule, free, options.omega);
+  auto torsions = loops ? select_loop_torsions(*molecule, free, options.omega) : selected.torsions;
   std::optional<EnsembleGroups> ensemble;
   if (!options.rigid_from.empty()) {
     if (loops) throw hinge::ModelError("--rigid-from and --loop are both given, expected one of the two");

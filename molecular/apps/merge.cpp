@@ -66,7 +66,7 @@ class ShardFile {
       use(line_, is_new);
     }
     const bool ended = is_end();
-    const std::uint64_t missing = ended ? read_missing() : 0;
+    missing = ended ? read_missing() : 0;
     if (!ended || absent + (first + count - expected) != missing)
       refuse(fmt::format("ends before conformation {}, expected {} conformations from {} on, of which {} are missing",
                          expected, count, first, missing));
@@ -75,10 +75,11 @@ class ShardFile {
   void close() { stream_.close(); }
 
   const std::string& path() const { return path_; }
-  std::string question;  ///< equal in all shards of a run
-  std::string header;    ///< CSV only
-  Json head;             ///< JSON only, without the shard
-  Json summary;          ///< JSON only
+  std::string question;       ///< equal in all shards of a run
+  std::uint64_t missing = 0;  ///< samples that the run could not find, after for_rows()
+  std::string header;         ///< CSV only
+  Json head;                  ///< JSON only, without the shard
+  Json summary;               ///< JSON only
   bool is_json = false;
   Shard shard;
   std::uint64_t first = 0, count = 0, total = 0;
@@ -105,11 +106,11 @@ class ShardFile {
       return summary.value("missing", std::uint64_t{0});
     }
     const std::string_view text = std::string_view(line_).substr(std::string_view(csv_shard_end).size() + 1);
-    std::uint64_t missing = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), missing);
+    std::uint64_t number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error != std::errc{} || end != text.data() + text.size())
       refuse("its last line is damaged, expected the number of missing samples");
-    return missing;
+    return number;
   }
 
   void open_csv() {
@@ -210,7 +211,10 @@ Exit run_merge(const Options& options) {
         throw LoadError(file.path() + ": a row is damaged: " + row);
       }
     });
-    if (file.is_json) summary.add_closures(file.summary);
+    if (file.is_json)
+      summary.add_closures(file.summary);
+    else if (file.missing > 0)
+      summary.add(Starts{file.missing, 0, 0});
   }
   const bool is_json = files.front().is_json;
   if (is_json)
@@ -227,7 +231,7 @@ Exit run_merge(const Options& options) {
     });
   }
   if (is_json) print_json_end(summary.json_like(files.front().summary));
-  return summary.colliding() > 0 ? Exit::collision : Exit::free;
+  return exit_of(summary);
 }
 
 }  // namespace biocd

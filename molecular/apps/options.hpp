@@ -17,6 +17,7 @@
 #include "hinge/molecular/read_structure.hpp"
 #include "hinge/molecular/sampler.hpp"
 #include "hinge/molecular/selection.hpp"
+#include "hinge/molecular/torsion_prior.hpp"
 #include "hinge/path/path_answer.hpp"
 #include "hinge_tools/run_tool.hpp"
 
@@ -49,17 +50,20 @@ struct Options {
   hinge::molecular::ReadOptions read;                        ///< how to read files
   hinge::molecular::CheckOptions check;                      ///< rules of a check
   std::string free = "all";                                  ///< selection of free torsions
+  bool free_by_loop = false;                                 ///< --loop chose `free`
   bool omega = false;                                        ///< free omega too
   std::string loop;                                          ///< residues of loops; empty: none
   bool keep_hydrogen_bonds = false;                          ///< backbone hydrogen bonds are closures
-  std::vector<std::string> rigid_from;          ///< conformations whose rigid groups stay rigid; empty: none
-  double rigid_tolerance = 0.5;                 ///< angstrom
-  std::optional<bool> keep_closures;            ///< true: close all cycles; false: only loops; nothing: close none
-  bool draws = false;                           ///< sample: conformations are drawn at random
-  bool collision_free = false;                  ///< sample: only conformations that do not collide
-  std::uint64_t most_tries = 100;               ///< sample: starts for each closed conformation
-  std::string mode = "all";                     ///< check, sample: text of Mode::parse
-  Output output = Output::table;                ///< format of standard output
+  std::vector<std::string> rigid_from;           ///< conformations whose rigid groups stay rigid; empty: none
+  double rigid_tolerance = 0.5;                  ///< angstrom
+  std::optional<bool> keep_closures;             ///< true: close all cycles; false: only loops; nothing: close none
+  bool draws = false;                            ///< sample: conformations are drawn at random
+  bool collision_free = false;                   ///< sample: only conformations that do not collide
+  std::optional<std::uint64_t> most_tries;       ///< sample: starts for each conformation; nothing: see sample.cpp
+  std::optional<hinge::molecular::Prior> prior;  ///< sample: nothing: by sigma_degrees
+  std::optional<double> seconds;                 ///< sample: no new start after this time
+  std::string mode = "all";                      ///< check, sample: text of Mode::parse
+  Output output = Output::table;                 ///< format of standard output
   std::optional<std::uint64_t> max_pairs;       ///< pairs printed per conformation, 0: all; nothing: see pairs_to_print
   std::optional<Viewer> view;                   ///< check, sample, walk, path: write a viewer script
   bool exit_zero = false;                       ///< status 0 whatever the verdict

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,10 +18,9 @@
 #include "hinge/batch/ensemble.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/closed_sampler.hpp"
+#include "hinge/molecular/free_sampler.hpp"
 #include "hinge/molecular/sampler.hpp"
-#include "hinge_tools/complete_file.hpp"
 #include "hinge_tools/counted.hpp"
-#include "hinge_tools/csv_field.hpp"
 #include "hinge_tools/progress_bar.hpp"
 #include "options.hpp"
 #include "pair_table.hpp"
@@ -28,7 +28,9 @@
 #include "report.hpp"
 #include "results.hpp"
 #include "scene.hpp"
+#include "shortfall.hpp"
 #include "summary.hpp"
+#include "torsion_columns.hpp"
 #include "view.hpp"
 
 namespace biocd {
@@ -40,8 +42,10 @@ using namespace hinge::molecular;
 struct Sample {
   Verdict verdict;
   std::vector<hinge::Vec3> positions;  // empty unless --out takes them
-  bool found = true;                   // false: no start closed (with --collision-free: no closed start was free)
+  bool found = true;                   // false: no start closed, or none gave a free conformation
+  bool stopped = false;                // the time was over
   std::uint64_t unclosed = 0, refused = 0;
+  std::vector<hinge::Hit> blockers{};  // see FreeSample
   Placements placements{};
   std::string pairs{};             // JSON; empty for other outputs, and for modes without a list
   std::vector<double> torsions{};  // values of the selected DOF, as torsion_values gives them
@@ -51,36 +55,37 @@ struct Sample {
 struct Worker {
   Checker checker;
   std::optional<ClosedSampler> closed;
+  std::optional<FreeSampler> free;
 };
 
-/// A sample with the outputs that depend on q only.
-Sample sample_at(const Job& job, const std::vector<double>& q) {
-  Sample sample;
+/// Sets the outputs that depend on q only.
+void describe(Sample& sample, const Job& job, const std::vector<double>& q) {
   sample.placements = placements_of(job, q);
   sample.torsions = torsion_values(job, q);
-  return sample;
 }
 
 Sample draw(Worker& worker, const Job& job, const Sampling& sampling, std::uint64_t k, const Mode& mode,
-            bool collision_free) {
-  if (!worker.closed) {
-    const std::vector<double> q = sample_configuration(sampling, k, *job.molecule, job.checker.selection(), job.ranges);
-    Sample sample = sample_at(job, q);
-    sample.verdict = worker.checker.check(q, mode);
-    return sample;
-  }
-  const auto accept = [&](std::span<const double> q) {
-    return !collision_free || !worker.checker.check(q, Mode::parse("any")).collides;
-  };
-  const ClosedSample closed = worker.closed->sample(k, accept);
+            const std::function<bool()>& stop = {}) {
+  std::vector<double> q;
   Sample sample;
-  if (closed.found()) {
-    sample = sample_at(job, closed.q);
-    sample.verdict = worker.checker.check(closed.q, mode);
+  if (worker.free) {
+    FreeSample found = worker.free->sample(k, stop);
+    q = std::move(found.q);
+    sample.unclosed = found.unclosed;
+    sample.refused = found.dead_ends;
+    sample.blockers = std::move(found.blockers);
+    sample.stopped = found.stopped;
+  } else if (worker.closed) {
+    ClosedSample closed = worker.closed->sample(k);
+    q = std::move(closed.q);
+    sample.unclosed = closed.unclosed;
+  } else {
+    q = sample_configuration(sampling, k, *job.molecule, job.checker.selection(), job.ranges);
   }
-  sample.found = closed.found();
-  sample.unclosed = closed.unclosed;
-  sample.refused = closed.refused;
+  sample.found = !q.empty();
+  if (!sample.found) return sample;
+  describe(sample, job, q);
+  sample.verdict = worker.checker.check(q, mode);
   return sample;
 }
 
@@ -98,7 +103,7 @@ std::vector<Sample> draw_block(Worker& worker, const Job& job, const Sampling& s
   for (std::uint64_t k = first; k < last; ++k) {
     const std::vector<double> q = sample_configuration(sampling, k, *job.molecule, job.checker.selection(), job.ranges);
     all.insert(all.end(), q.begin(), q.end());
-    samples.push_back(sample_at(job, q));
+    describe(samples.emplace_back(), job, q);
   }
   const std::vector<std::uint8_t> verdicts = worker.checker.check_batch(all);
   for (std::size_t k = 0; k < verdicts.size(); ++k) {
@@ -111,51 +116,22 @@ std::vector<Sample> draw_block(Worker& worker, const Job& job, const Sampling& s
   return samples;
 }
 
-/// Output file of --torsions-out: an array of samples x DOF. Does nothing if the path is empty.
-class TorsionFile {
- public:
-  TorsionFile(const std::string& path, std::size_t dof) : file_(path) {
-    if (file_.wanted()) writer_.emplace(file_.stream(), dof);
-  }
-  void add(const std::vector<double>& row) {
-    if (!writer_) return;
-    writer_->add(row);
-    file_.check();
-  }
-  void finish() {
-    if (writer_) writer_->finish();
-    file_.finish();
-  }
-
- private:
-  hinge::tool::CompleteFile file_;
-  std::optional<RowWriter> writer_;
-};
-
-std::string torsion_names(const Job& job) {
-  std::string names;
-  for (const hinge::DofId dof : job.checker.selection().dofs())
-    names += ',' + hinge::tool::csv_field(dof_label(job, dof));
-  return names;
-}
-
-std::string torsion_columns(const std::vector<double>& torsions) {
-  std::string columns;
-  for (const double value : torsions) columns += fmt::format(",{}", value);
-  return columns;
-}
-
-void print_table(const Job& job, const Summary& summary, double seconds) {
+void print_table(const Job& job, const Summary& summary, bool collision_free, double seconds) {
   const auto share = [](std::uint64_t part, std::uint64_t all) {
     return all == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(all);
   };
-  fmt::print("{} ({:.2f} %), {:.0f} conformations per second\n",
-             hinge::tool::collide_text(summary.colliding(), summary.checked(), "conformation"),
-             share(summary.colliding(), summary.checked()), static_cast<double>(summary.checked()) / seconds);
+  const double rate = static_cast<double>(summary.checked()) / seconds;
+  if (collision_free)
+    fmt::print("{} of {} found, all free, {:.1f} per second\n", summary.checked(),
+               hinge::tool::counted(summary.checked() + summary.starts()->missing, "conformation"), rate);
+  else
+    fmt::print("{} ({:.2f} %), {:.0f} conformations per second\n",
+               hinge::tool::collide_text(summary.colliding(), summary.checked(), "conformation"),
+               share(summary.colliding(), summary.checked()), rate);
   if (const auto& starts = summary.starts()) {
     const std::uint64_t all = summary.checked() + starts->refused + starts->unclosed;
-    fmt::print("starts: {}; closed: {} ({:.2f} %); closed, but rejected for a collision: {}; samples missing: {}\n",
-               all, all - starts->unclosed, share(all - starts->unclosed, all), starts->refused, starts->missing);
+    fmt::print("starts: {}; closed: {} ({:.2f} %); ended by a collision: {}; samples missing: {}\n", all,
+               all - starts->unclosed, share(all - starts->unclosed, all), starts->refused, starts->missing);
   } else if (summary.worst_residual() > 0.0) {
     fmt::print("closures: not solved, so cycles open (--closures keep closes them)\n");
   }
@@ -181,6 +157,8 @@ Exit run_sample(const Options& options) {
   }
   const Sampling sampling = sampling_of(options);
   const bool closed = !job.kept.closures.empty() || options.collision_free;
+  const bool statistics = options.prior ? *options.prior == Prior::ramachandran : !options.sigma_degrees;
+  const std::uint64_t most_starts = options.most_tries.value_or(options.collision_free ? 1000 : 100);
   const Structure& s = job.molecule->structure();
   const auto [begin, end] = shard_range(options.shard.value_or(Shard{}), options.count);
   ConformationFile file(options, s, s.atoms.size(), false);
@@ -192,6 +170,8 @@ Exit run_sample(const Options& options) {
   Json head{{"tool", "biocd"}, {"command", "sample"}, {"model", model_json(options, job)}, {"mode", mode.text()}};
   head["seed"] = options.seed;
   head["sigma_degrees"] = options.sigma_degrees ? Json(*options.sigma_degrees) : Json();
+  if (options.collision_free)
+    head["prior"] = statistics ? "ramachandran" : options.sigma_degrees ? "gaussian" : "uniform";
   if (options.torsions) head["dofs"] = dofs_json(job);
   head["constant_contacts"] = constant_contacts_json(job);
   Results results(options, std::move(head), options.count,
@@ -204,14 +184,24 @@ Exit run_sample(const Options& options) {
   Summary summary(closure_names(job), closed, options.output != Output::csv);
   hinge::tool::ProgressBar bar(end - begin);
   const auto start = std::chrono::steady_clock::now();
-  Worker worker{job.checker, {}};
+  const auto out_of_time = [&] {
+    return options.seconds &&
+           std::chrono::steady_clock::now() - start >= std::chrono::duration<double>(*options.seconds);
+  };
+  Worker worker{job.checker, {}, {}};
+  Shortfall shortfall(s);
   ViewChoice choice;
   std::uint64_t left_out = 0;  // pairs that are not printed
-  if (closed)
-    worker.closed.emplace(*job.molecule, job.checker.selection(), sampling, options.most_tries, job.kept.closures,
-                          job.ranges);
+  if (options.collision_free) {
+    const FreeSampling how{.sampling = sampling,
+                           .prior = statistics ? Prior::ramachandran : Prior::independent,
+                           .most_starts = most_starts};
+    worker.free.emplace(job.checker, how, job.kept.closures, job.ranges);
+  } else if (closed) {
+    worker.closed.emplace(*job.molecule, job.checker.selection(), sampling, most_starts, job.kept.closures, job.ranges);
+  }
   const auto judge = [&, begin = begin](Worker& mine, std::size_t n) {
-    Sample sample = draw(mine, job, sampling, begin + n, mode, options.collision_free);
+    Sample sample = draw(mine, job, sampling, begin + n, mode, out_of_time);
     if (sample.found && file.takes(sample.verdict.collides)) sample.positions = mine.checker.positions();
     if (sample.found && pair_text) sample.pairs = pair_text->list(pairs_to_print(options, sample.verdict.pairs));
     return sample;
@@ -220,7 +210,7 @@ Exit run_sample(const Options& options) {
     const std::uint64_t k = begin + n;
     bar.show(n + 1);
     if (closed) summary.add(Starts{sample.found ? 0U : 1U, sample.unclosed, sample.refused});
-    if (!sample.found) return;
+    if (!sample.found) return shortfall.add(sample.blockers, sample.stopped);
     summary.add(s, sample.verdict);
     choice.offer(k, sample.verdict);
     const std::size_t printed = pairs_to_print(options, sample.verdict.pairs).size();
@@ -230,6 +220,7 @@ Exit run_sample(const Options& options) {
       add_left_out(row, options, sample.verdict.pairs, mode);
       if (!sample.verdict.closure_residuals.empty())
         row["closures"] = closures_json(job, sample.verdict.closure_residuals);
+      if (options.collision_free) row["starts"] = sample.unclosed + sample.refused + 1;
       if (!sample.placements.empty()) row["placements"] = placements_json(job, sample.placements);
       if (options.torsions) row["torsions"] = sample.torsions;
       results.add(row, sample.pairs);
@@ -269,21 +260,15 @@ Exit run_sample(const Options& options) {
   const std::chrono::duration<double> checking = std::chrono::steady_clock::now() - start;
   results.finish(summary.json(true));
   note_left_out(options, left_out);
-  if (options.output == Output::table) print_table(job, summary, checking.count());
+  if (options.output == Output::table) print_table(job, summary, options.collision_free, checking.count());
   if (options.view && choice.best()) {
-    const Sample shown = draw(worker, job, sampling, *choice.best(), Mode{Mode::Kind::all}, options.collision_free);
+    const Sample shown = draw(worker, job, sampling, *choice.best(), Mode{Mode::Kind::all});
     write_view(options, job,
                {fmt::format("conformation {}", *choice.best()), worker.checker.positions(), shown.verdict.pairs},
                file.size() > 0);
   }
-  const std::uint64_t missing = summary.starts() ? summary.starts()->missing : 0;
-  if (missing > 0)
-    std::fputs(fmt::format("{} of {} samples are missing: none of {} starts closed{}\n", missing, end - begin,
-                           options.most_tries, options.collision_free ? " without a collision" : "")
-                   .c_str(),
-               stderr);
-  if (summary.checked() == 0 && end > begin) return Exit::usage;
-  return summary.colliding() > 0 ? Exit::collision : Exit::free;
+  shortfall.print(options.collision_free, end - begin, most_starts);
+  return exit_of(summary);
 }
 
 }  // namespace biocd

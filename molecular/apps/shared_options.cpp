@@ -46,7 +46,9 @@ void add_free_options(CLI::App& command, Options& o) {
                   "loops such as A:40-52, free between two fixed ends; everything outside the loops is fixed")
       ->type_name("RESIDUES");
   command.parse_complete_callback([&o, free] {
-    if (!o.loop.empty() && free->count() == 0) o.free = "none";
+    if (o.loop.empty() || free->count() > 0) return;
+    o.free = o.collision_free ? "(" + o.loop + ") and chi" : "none";
+    o.free_by_loop = true;
   });
   command.add_flag("--keep-hbonds", o.keep_hydrogen_bonds,
                    "treat hydrogen bonds of the backbone (Kabsch & Sander) as closures");

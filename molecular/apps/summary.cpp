@@ -119,4 +119,9 @@ Json Summary::json(bool with_closures) const {
   return summary;
 }
 
+Exit exit_of(const Summary& summary) {
+  if (summary.colliding() > 0) return Exit::collision;
+  return summary.starts() && summary.starts()->missing > 0 ? Exit::shortfall : Exit::free;
+}
+
 }  // namespace biocd

@@ -12,6 +12,7 @@
 
 #include "hinge/molecular/checker.hpp"
 #include "hinge_tools/frequent_keys.hpp"
+#include "options.hpp"
 #include "report.hpp"
 
 namespace biocd {
@@ -23,11 +24,11 @@ struct Offender {
   std::uint64_t count = 0;
 };
 
-/// Counts of random starts and of samples without a closed conformation.
+/// Counts of random starts and of samples without a conformation.
 struct Starts {
   std::uint64_t missing = 0;   ///< samples for which no start was accepted
   std::uint64_t unclosed = 0;  ///< starts that did not close
-  std::uint64_t refused = 0;   ///< starts that closed but collide
+  std::uint64_t refused = 0;   ///< starts that ended at a collision
 };
 
 /// Counts over the conformations of a run. One thread only.
@@ -86,5 +87,8 @@ class Summary {
   const hinge::molecular::Structure* structure_ = nullptr;
   std::unordered_map<std::uint32_t, std::string> labels_;  // label per atom, from rows
 };
+
+/// Returns the exit status of a run with these counts.
+Exit exit_of(const Summary& summary);
 
 }  // namespace biocd

@@ -60,8 +60,12 @@ class ExcludedPairs {
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept {
     return !std::binary_search(excluded_[index(i)].begin(), excluded_[index(i)].end(), j);
   }
-  std::span<const PrimitiveId> excluded(PrimitiveId i) const noexcept { return excluded_[index(i)]; }
+  std::span<const PrimitiveId> excluded(PrimitiveId i) const noexcept {
+    return lists_ ? std::span<const PrimitiveId>(excluded_[index(i)]) : std::span<const PrimitiveId>();
+  }
   std::size_t size() const noexcept { return excluded_.size(); }
+  /// Makes excluded() empty: engines must call admits() for every pair. own_filter_test has types without lists.
+  void list_nothing() noexcept { lists_ = false; }
 
  private:
   void sort() {
@@ -71,6 +75,7 @@ class ExcludedPairs {
     }
   }
   std::vector<std::vector<PrimitiveId>> excluded_;
+  bool lists_ = true;
 };
 
 static_assert(ListsExclusions<ExcludedPairs>);

@@ -89,7 +89,8 @@ TEST(BiocdLoop, LeavesOutWhatDidNotCloseAndSaysSo) {
   for (const Json& row : json.at("conformations")) indices.insert(row.at("index").get<int>());
   EXPECT_EQ(indices.size(), 60 - missing);
   const auto note = run_biocd("sample " + file() + " --loop A:8-11 -n 60 --tries 1 2>&1 >/dev/null");
-  EXPECT_NE(note.out.find(std::to_string(missing) + " of 60 samples are missing: none of 1 starts closed"),
+  EXPECT_NE(note.out.find(std::to_string(missing) + " of 60 samples are missing: for " + std::to_string(missing) +
+                          " of them, none of 1 starts closed"),
             std::string::npos)
       << note.out;
 }
@@ -101,7 +102,63 @@ TEST(BiocdLoop, GivesCollisionFreeOnesOnRequest) {
   const Json json = Json::parse(said.out);
   ASSERT_EQ(json.at("conformations").size(), 10U);
   for (const Json& row : json.at("conformations")) EXPECT_FALSE(row.at("collides").get<bool>());
-  EXPECT_GT(json.at("summary").at("closed_refused").get<int>(), 0);
+  EXPECT_EQ(json.at("prior"), "ramachandran");
+}
+
+TEST(BiocdLoop, WritesCollisionFreeLoopsWithoutFurtherOptions) {
+  const test::TemporaryFile out("");
+  const auto said = run_biocd("sample " + file() + " --loop A:8-17 --collision-free --exempt-reference -n 12 --out " +
+                              out.path().string() + " 2>&1");
+  EXPECT_EQ(said.status, 0) << said.out;
+  EXPECT_EQ(models_of(out.path()).size(), 12U);
+  EXPECT_NE(said.out.find("(A:8-17) and chi"), std::string::npos) << said.out;
+  // Read again, the models are free: coordinates of a file have three decimals.
+  const auto again = run_biocd("check " + out.path().string() + " --json 2>/dev/null");
+  const Json checked = Json::parse(again.out);
+  ASSERT_EQ(checked.at("conformations").size(), 12U);
+  const Json reference = Json::parse(run_biocd("check " + file() + " --json 2>/dev/null").out);
+  for (const Json& row : checked.at("conformations"))
+    EXPECT_LE(row.at("pairs").size(), reference.at("conformations")[0].at("pairs").size());
+}
+
+TEST(BiocdLoop, SaysHowManySamplesAreMissingAndWhy) {
+  const std::string question = "sample " + file() + " --free A:70-76 --rules biocd --rho 3 --collision-free -n 4";
+  const auto said = run_biocd(question + " --tries 3 2>&1 >/dev/null");
+  EXPECT_EQ(said.status, 5);
+  EXPECT_NE(said.out.find("4 of 4 samples are missing: for 4 of them, none of 3 starts gave a conformation without a "
+                          "collision; most often in the way: A:"),
+            std::string::npos)
+      << said.out;
+  EXPECT_EQ(run_biocd(question + " --tries 3 --exit-zero >/dev/null 2>&1").status, 0);
+  const Json json = Json::parse(run_biocd(question + " --tries 3 --json 2>/dev/null").out);
+  EXPECT_EQ(json.at("summary").at("missing"), 4);
+  EXPECT_EQ(json.at("summary").at("closed_refused"), 12);
+  // The time ends a run that would not end.
+  const auto late = run_biocd(question + " --tries 1000000000 --time 0.5 2>&1 >/dev/null");
+  EXPECT_EQ(late.status, 5);
+  EXPECT_NE(late.out.find("for 4 of them, the time of --time was over"), std::string::npos) << late.out;
+}
+
+TEST(BiocdLoop, DrawsFromThePriorThatIsAskedFor) {
+  const std::string question = "sample " + file() + " --free A:70-76 --exempt-reference -n 20 --collision-free --json";
+  const auto row = [&](const std::string& more) {
+    const auto said = run_biocd(question + more + " 2>/dev/null");
+    EXPECT_EQ(said.status, 0);
+    return Json::parse(said.out);
+  };
+  EXPECT_EQ(row("").at("prior"), "ramachandran");
+  EXPECT_EQ(row(" --prior uniform").at("prior"), "uniform");
+  EXPECT_EQ(row(" --sigma 5").at("prior"), "gaussian");
+  EXPECT_EQ(row("").at("conformations")[0].at("starts"), 1);
+  const auto refused = [&](const std::string& arguments, const char* text) {
+    const auto said = run_biocd("sample " + file() + arguments + " 2>&1");
+    EXPECT_EQ(said.status, 2);
+    EXPECT_NE(said.out.find(text), std::string::npos) << said.out;
+  };
+  refused(" --prior uniform", "--prior: expected with --collision-free only");
+  refused(" --time 3", "--time: expected with --collision-free only");
+  refused(" --collision-free --prior uniform --sigma 3", "--prior and --sigma are both given");
+  refused(" --collision-free --prior flat", "expected ramachandran or uniform");
 }
 
 TEST(BiocdLoop, IsNotNeededForCollisionFreeSamples) {

@@ -155,23 +155,6 @@ TEST(Loops, AreAFunctionOfSeedAndIndexAndJudgedAsByBruteForce) {
   EXPECT_LT(colliding, 50);
 }
 
-TEST(Loops, AreOnlyThoseAccepted) {
-  const Structure s = read_structure(test::ubiquitin());
-  const auto m = with_loop(s, "A:7-11");
-  const DofSelection selection = m->select(select_loop_torsions(*m, "none", false));
-  Checker checker(m, selection, {});
-  ClosedSampler sampler(*m, selection, {3, {}}, 500);
-  const auto free = [&](std::span<const double> q) { return !checker.check(q, Mode::parse("any")).collides; };
-  for (std::uint64_t k = 0; k < 10; ++k) {
-    const ClosedSample sample = sampler.sample(k, free);
-    ASSERT_TRUE(sample.found());
-    EXPECT_FALSE(checker.check(sample.q, Mode::parse("any")).collides);
-  }
-  const ClosedSample none = ClosedSampler(*m, selection, {3, {}}, 7).sample(0, [](auto) { return false; });
-  EXPECT_FALSE(none.found());
-  EXPECT_EQ(none.unclosed + none.refused, 7U);
-}
-
 TEST(Loops, SpreadOverTheTorsionsThatTheirEndsLeave) {
   const Structure s = read_structure(test::ubiquitin());
   const auto m = with_loop(s, "A:34-41");

@@ -233,6 +233,19 @@ Verdict Checker::check(std::span<const double> q, const Mode& mode) {
       *hierarchy_);
 }
 
+bool Checker::collides_in(std::span<const double> q, GroupRange groups) {
+  return std::visit(
+      [&](auto& hierarchy) {
+        hierarchy.update(q);
+        return hierarchy.self_collides({.groups = groups});
+      },
+      *hierarchy_);
+}
+
+std::vector<Hit> Checker::collisions_in(GroupRange groups) const {
+  return std::visit([&](const auto& hierarchy) { return hierarchy.self_collisions({.groups = groups}); }, *hierarchy_);
+}
+
 Verdict Checker::check_coordinates(std::span<const Vec3> positions, const Mode& mode) {
   return std::visit(
       [&](auto& hierarchy) {
@@ -240,6 +253,11 @@ Verdict Checker::check_coordinates(std::span<const Vec3> positions, const Mode& 
         return ask(hierarchy, as_written(*thresholds_), mode);
       },
       *hierarchy_);
+}
+
+Vec3 Checker::position(std::uint32_t atom) const {
+  return std::visit([&](const auto& hierarchy) { return hierarchy.placed(id<PrimitiveId>(atom)).position; },
+                    *hierarchy_);
 }
 
 std::vector<Vec3> Checker::positions() {

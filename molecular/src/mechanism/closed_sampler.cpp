@@ -3,7 +3,9 @@
 #include "hinge/molecular/closed_sampler.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
+#include <utility>
 
 #include "hinge/core/error.hpp"
 #include "hinge/detail/kinematics/rigid_cycles.hpp"
@@ -12,31 +14,29 @@ namespace hinge::molecular {
 
 StartStream::StartStream(const Sampling& sampling, std::uint64_t index, const Molecule& molecule,
                          const DofSelection& selection, std::span<const PlacementRange> ranges)
-    : sampling_(sampling), ranges_(ranges.begin(), ranges.end()), turns_(sampling.seed, index), q_(selection.size()) {
+    : sampling_(sampling), turns_(sampling.seed, index), q_(selection.size()) {
   if (ranges.size() != molecule.placed_parts().size())
     throw ModelError(std::to_string(ranges.size()) + " ranges of placements, expected one for each of " +
                      std::to_string(molecule.placed_parts().size()) + " placed parts");
   const auto dofs = selection.dofs();
   std::vector<bool> places(dofs.size(), false);
-  for (const PlacedPart& part : molecule.placed_parts()) {
-    auto& positions = placing_.emplace_back();
+  for (std::size_t part = 0; part < ranges.size(); ++part) {
+    SampleStream stream(sampling.seed, index, static_cast<std::uint32_t>(part + 1));
+    const std::array<double, 6> values = sample_placement(stream, ranges[part]);
     for (std::size_t k = 0; k < 6; ++k) {
-      positions[k] = static_cast<std::size_t>(std::ranges::lower_bound(dofs, part.dofs[k]) - dofs.begin());
-      places.at(positions[k]) = true;
+      const auto found = std::lower_bound(dofs.begin(), dofs.end(), molecule.placed_parts()[part].dofs[k]);
+      const auto position = static_cast<std::size_t>(found - dofs.begin());
+      places.at(position) = true;
+      q_[position] = values[k];
     }
-    places_.emplace_back(sampling.seed, index, static_cast<std::uint32_t>(placing_.size()));
   }
   for (std::size_t k = 0; k < dofs.size(); ++k)
     if (!places[k]) turning_.push_back(k);
 }
 
-std::vector<double> StartStream::next(bool place) {
+std::vector<double> StartStream::next() {
   const std::vector<double> turns = draw_configuration(sampling_, turns_, turning_.size());
   for (std::size_t k = 0; k < turning_.size(); ++k) q_[turning_[k]] = turns[k];
-  for (std::size_t part = 0; place && part < placing_.size(); ++part) {
-    const std::array<double, 6> values = sample_placement(places_[part], ranges_[part]);
-    for (std::size_t k = 0; k < 6; ++k) q_[placing_[part][k]] = values[k];
-  }
   return q_;
 }
 
@@ -52,6 +52,19 @@ ClosedSampler::ClosedSampler(const Molecule& molecule, const DofSelection& selec
   if (most_tries == 0) throw ModelError("0 tries per sample, expected at least one");
   if (selection.size() == 0) throw ModelError("no torsion is free, expected at least one");
   static_cast<void>(sample_configuration(sampling, 0, molecule, selection, ranges));  // validates the ranges
+}
+
+ClosedSample ClosedSampler::sample(std::uint64_t index) {
+  StartStream stream(sampling_, index, *molecule_, selection_, ranges_);
+  ClosedSample result;
+  while (!result.found() && result.unclosed < most_tries_) {
+    std::vector<double> q = stream.next();
+    if (solver_.close(q))
+      result.q = std::move(q);
+    else
+      ++result.unclosed;
+  }
+  return result;
 }
 
 std::vector<std::size_t> find_held_torsions(const Molecule& molecule, std::span<const std::size_t> torsions) {

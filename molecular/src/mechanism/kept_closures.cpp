@@ -75,7 +75,7 @@ std::vector<std::size_t> find_unclosable(const Molecule& molecule, const DofSele
     ClosureSolver solver(molecule.model().tree(), selection, kept);
     std::vector<std::size_t> failures(kept.size(), 0);
     for (std::uint64_t k = 0; k < start_count; ++k) {
-      std::vector<double> q = StartStream(sampling, first_start + k, molecule, selection, ranges).next(true);
+      std::vector<double> q = StartStream(sampling, first_start + k, molecule, selection, ranges).next();
       if (solver.close(q)) {
         std::ranges::sort(dropped);
         return dropped;

@@ -25,6 +25,7 @@
 #include "hinge/policy/collector.hpp"
 #include "hinge/primitive/point.hpp"
 #include "hinge/query/mode.hpp"
+#include "hinge/query/query_options.hpp"
 
 namespace hinge::molecular {
 
@@ -102,6 +103,11 @@ class HINGE_API Checker {
   /// Tests the conformation at q. q: dof_count() values, angles in rad and slides in angstrom, relative to the
   /// reference. Throws ConfigurationError if their number is wrong or a value is not finite.
   Verdict check(std::span<const double> q, const Mode& mode);
+  /// Tests only the pairs whose rigid group of the larger index is in `groups` (QueryOptions::groups), at q. The values
+  /// of later groups do not matter. Returns true if one collides. Throws ConfigurationError as above.
+  bool collides_in(std::span<const double> q, GroupRange groups);
+  /// Returns the pairs of the same kind that collide at the conformation of the last check, sorted.
+  std::vector<Hit> collisions_in(GroupRange groups) const;
   /// Returns one verdict per conformation: 1 if it collides, otherwise 0, as check() in mode any. conformations: one
   /// after the other, dof_count() values each; the last one becomes the state. The SIMD engine tests them one by one or
   /// sixteen at a time (see StateBatch), whichever way was faster recently. Sixteen at a time is faster for
@@ -112,6 +118,8 @@ class HINGE_API Checker {
   /// selection. Distances of atoms whose coordinates have at most three decimals, as in files, are compared in exact
   /// decimals.
   Verdict check_coordinates(std::span<const Vec3> positions, const Mode& mode);
+  /// The coordinates of one atom at the last check, angstrom.
+  Vec3 position(std::uint32_t atom) const;
   /// The coordinates of the last check, angstrom, one per atom.
   std::vector<Vec3> positions();
 

@@ -3,11 +3,9 @@
 // backbones.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "hinge/core/api.hpp"
@@ -21,12 +19,11 @@ namespace hinge::molecular {
 
 /// The result of one sample. If a start does not close, the next one is drawn from the same stream.
 struct ClosedSample {
-  /// One value per selected DOF, relative to the reference, rad or angstrom; empty: no start gave a sample.
+  /// One value per selected DOF, relative to the reference, rad or angstrom; empty: no start closed.
   std::vector<double> q;
   std::uint64_t unclosed = 0;  ///< starts that did not close
-  std::uint64_t refused = 0;   ///< closed conformations that accept() refused
 
-  /// True if a start gave a sample.
+  /// True if a start closed.
   bool found() const noexcept { return !q.empty(); }
 };
 
@@ -37,16 +34,13 @@ class HINGE_API StartStream {
   /// ranges is wrong.
   StartStream(const Sampling& sampling, std::uint64_t index, const Molecule& molecule, const DofSelection& selection,
               std::span<const PlacementRange> ranges);
-  /// Returns the next start, one value per selected DOF. place: also draw new placements; required in the first call.
-  std::vector<double> next(bool place);
+  /// Returns the next start, one value per selected DOF. All starts have the same placements.
+  std::vector<double> next();
 
  private:
   Sampling sampling_;
-  std::vector<PlacementRange> ranges_;
   SampleStream turns_;
-  std::vector<SampleStream> places_;                 // one stream per placed part
-  std::vector<std::size_t> turning_;                 // indices in a configuration
-  std::vector<std::array<std::size_t, 6>> placing_;  // per placed part, indices in a configuration
+  std::vector<std::size_t> turning_;  // indices in a configuration
   std::vector<double> q_;
 };
 
@@ -59,39 +53,14 @@ class HINGE_API ClosedSampler {
   ClosedSampler(const Molecule& molecule, const DofSelection& selection, const Sampling& sampling,
                 std::uint64_t most_tries)
       : ClosedSampler(molecule, selection, sampling, most_tries, all_closures(molecule.model().tree()), {}) {}
-  /// Keeps these closures (find_kept_closures), indices in the tree's. ranges: one per placed part. A placement is
-  /// redrawn only after a closed conformation was not accepted. The molecule must outlive the sampler. Throws
-  /// ModelError as above, and for bad ranges (sample_configuration).
+  /// Keeps these closures (find_kept_closures), indices in the tree's. ranges: one per placed part. The molecule must
+  /// outlive the sampler. Throws ModelError as above, and for bad ranges (sample_configuration).
   ClosedSampler(const Molecule& molecule, const DofSelection& selection, const Sampling& sampling,
                 std::uint64_t most_tries, const std::vector<std::size_t>& closures,
                 std::span<const PlacementRange> ranges);
 
-  /// Returns the first closed conformation for which accept(q) is true, from at most most_tries starts. accept takes a
-  /// std::span<const double> of one value per selected DOF, valid during the call.
-  template <class Accept>
-  ClosedSample sample(std::uint64_t index, const Accept& accept) {
-    StartStream stream(sampling_, index, *molecule_, selection_, ranges_);
-    ClosedSample result;
-    bool place = true;
-    for (std::uint64_t k = 0; k < most_tries_; ++k) {
-      std::vector<double> q = stream.next(place);
-      place = false;
-      if (!solver_.close(q)) {
-        ++result.unclosed;
-      } else if (!accept(std::span<const double>(q))) {
-        ++result.refused;
-        place = true;
-      } else {
-        result.q = std::move(q);
-        break;
-      }
-    }
-    return result;
-  }
-  /// Returns the first closed conformation.
-  ClosedSample sample(std::uint64_t index) {
-    return sample(index, [](std::span<const double>) { return true; });
-  }
+  /// Returns the first closed conformation, from at most most_tries starts.
+  ClosedSample sample(std::uint64_t index);
 
  private:
   const Molecule* molecule_;
