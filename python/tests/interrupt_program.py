@@ -18,6 +18,9 @@ import hinge
 import hinge.molecular as hm
 import hinge.robotics as hr
 
+# A shell starts background jobs with SIGINT ignored, and their children inherit it.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 

@@ -234,7 +234,8 @@ class Checker:
         *,
         first: int = 0,
         collision_free: bool = False,
-        tries: int = 100,
+        prior: str | None = None,
+        tries: int | None = None,
         threads: int | None = None,
         progress: _Progress = None,
     ) -> NDArray[np.float64]: ...

@@ -162,18 +162,37 @@ class Checker(_core.CheckerBase):
         return [str(labels[t]) if t >= 0 else next(placed) for t in self.torsion_of_dof]
 
     def sample(
-        self, n, seed=1, sigma=None, *, first=0, collision_free=False, tries=100, threads=None, progress=None
+        self,
+        n,
+        seed=1,
+        sigma=None,
+        *,
+        first=0,
+        collision_free=False,
+        prior=None,
+        tries=None,
+        threads=None,
+        progress=None,
     ):
         """Return random configurations, shape (n, dof), rad and angstrom: those that `biocd sample` draws.
 
         seed: configuration k depends on (seed, first + k) alone. sigma: standard deviation about the reference, rad
         (sigma = numpy.radians(5) is --sigma 5); None: uniform over the full turn. first: index of the first one.
-        collision_free: only configurations that do not collide. With closures to keep, or collision_free, starts are
-        repeated up to `tries` times; a sample for which none succeeds is left out, with a warning.
+        collision_free: only configurations that do not collide; each one is grown residue by residue. prior, with
+        collision_free: 'ramachandran' draws proteins by statistics of phi and psi and by rotamers of side chains,
+        'uniform' over the full turn; None: 'ramachandran' without sigma. Free the side chains of a loop, too:
+        Checker(m, '(A:8-14) and chi').
+        tries: starts of a sample with closures to keep (None: 100) or with collision_free (None: 1000). A sample for
+        which none succeeds is left out, with a warning.
         Raises ModelError if random starts do not close some cycles (see unclosable()).
         """
         n, first = _integer("n", n, 0), _integer("first", first, 0)
-        seed, tries = _integer("seed", seed, 0), _integer("tries", tries, 1)
+        seed = _integer("seed", seed, 0)
+        tries = (1000 if collision_free else 100) if tries is None else _integer("tries", tries, 1)
+        if prior not in (None, "ramachandran", "uniform"):
+            raise ValueError(f"prior: {prior!r}, expected 'ramachandran', 'uniform' or None")
+        if prior is not None and (not collision_free or sigma is not None):
+            raise ValueError(f"prior: {prior!r}, expected None without collision_free=True, and with sigma")
         sigma = None if sigma is None else _number("sigma", sigma)
         if self.kept_closures.size and (seed, sigma) not in self._closing:
             open_closures = self.unclosable(seed, sigma)
@@ -184,11 +203,14 @@ class Checker(_core.CheckerBase):
                     f"Checker(..., open_closures={given})"
                 )
             self._closing.add((seed, sigma))
-        q, found, _, _ = self._sample(n, seed, sigma, first, bool(collision_free), tries, threads, progress)
+        statistics = sigma is None and prior != "uniform"
+        q, found, _, _ = self._sample(
+            n, seed, sigma, first, bool(collision_free), statistics, tries, threads, progress
+        )
         if len(q) < n:
-            free = " without a collision" if collision_free else ""
+            what = "gave a conformation without a collision" if collision_free else "closed"
             warnings.warn(
-                f"{n - len(q)} of {n} samples are missing: none of {tries} starts closed{free}; the first is "
+                f"{n - len(q)} of {n} samples are missing: none of {tries} starts {what}; the first is "
                 f"{first + int(np.flatnonzero(~found)[0])}",
                 stacklevel=2,
             )

@@ -12,7 +12,9 @@
 #include "checker_handle.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/closed_sampler.hpp"
+#include "hinge/molecular/free_sampler.hpp"
 #include "hinge/molecular/sampler.hpp"
+#include "hinge/molecular/torsion_prior.hpp"
 #include "hinge/moves/move_checker.hpp"
 #include "hinge/moves/move_closer.hpp"
 #include "hinge/moves/random_move.hpp"
@@ -32,6 +34,7 @@ struct SampleArguments {
   Sampling sampling;
   bool collision_free = false;
   std::uint64_t most_tries = 100;
+  Prior prior = Prior::independent;  // of collision-free samples
 };
 
 Sampling as_sampling(std::uint64_t seed, std::optional<double> sigma) {
@@ -48,26 +51,42 @@ struct Samples {
   std::atomic<std::uint64_t> unclosed{0}, refused{0};
 };
 
+/// Stores sample k, a ClosedSample or a FreeSample. refused: starts that ended at a collision.
+template <class Drawn>
+void keep(const Drawn& sample, std::uint64_t refused, std::size_t k, std::size_t dof, Samples& samples) {
+  samples.unclosed += sample.unclosed;
+  samples.refused += refused;
+  samples.found[k] = sample.found() ? 1 : 0;
+  if (sample.found()) std::copy(sample.q.begin(), sample.q.end(), samples.q + k * dof);
+}
+
 void draw_closed(CheckerHandle& self, const SampleArguments& given, unsigned threads, const py::object& progress,
                  Samples& samples) {
-  const Checker& prototype = self.checker();
   const std::size_t dof = self.dof();
-  const ClosedSampler first_sampler(*self.molecule, prototype.selection(), given.sampling, given.most_tries,
+  const ClosedSampler first_sampler(*self.molecule, self.checker().selection(), given.sampling, given.most_tries,
                                     self.kept.closures, self.molecule.ranges);
-  const Mode any_pair{Mode::Kind::any};
   run_slices(static_cast<std::size_t>(given.count), threads, progress, [&]() -> Slice {
     const auto sampler = std::make_shared<ClosedSampler>(first_sampler);
-    const auto checker = std::make_shared<WorkerPool<Checker>::Loan>(self.pool);
-    return [&, sampler, checker](std::size_t begin, std::size_t end) {
-      const auto accept = [&](std::span<const double> q) {
-        return !given.collision_free || !(**checker).check(q, any_pair).collides;
-      };
+    return [&, sampler](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) keep(sampler->sample(given.first + k), 0, k, dof, samples);
+    };
+  });
+}
+
+void draw_free(CheckerHandle& self, const SampleArguments& given, unsigned threads, const py::object& progress,
+               Samples& samples) {
+  const std::size_t dof = self.dof();
+  const FreeSampling how{.sampling = given.sampling, .prior = given.prior, .most_starts = given.most_tries};
+  const FreeSampler first_sampler(self.checker(), how, self.kept.closures, self.molecule.ranges);
+  run_slices(static_cast<std::size_t>(given.count), threads, progress, [&]() -> Slice {
+    const auto sampler = std::make_shared<FreeSampler>(first_sampler);
+    return [&, sampler](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
-        const ClosedSample sample = sampler->sample(given.first + k, accept);
-        samples.unclosed += sample.unclosed;
-        samples.refused += sample.refused;
-        samples.found[k] = sample.found() ? 1 : 0;
-        if (sample.found()) std::copy(sample.q.begin(), sample.q.end(), samples.q + k * dof);
+        const FreeSample sample = sampler->sample(given.first + k, [] {
+          poll();
+          return false;
+        });
+        keep(sample, sample.dead_ends, k, dof, samples);
       }
     };
   });
@@ -89,10 +108,11 @@ void draw_open(CheckerHandle& self, const SampleArguments& given, unsigned threa
 }
 
 py::tuple sample(CheckerHandle& self, std::uint64_t count, std::uint64_t seed, std::optional<double> sigma,
-                 std::uint64_t first, bool collision_free, std::uint64_t most_tries, const py::object& given_threads,
-                 const py::object& progress) {
+                 std::uint64_t first, bool collision_free, bool statistics, std::uint64_t most_tries,
+                 const py::object& given_threads, const py::object& progress) {
   if (most_tries == 0) throw py::value_error("tries: 0, expected at least 1");
-  const SampleArguments given{count, first, as_sampling(seed, sigma), collision_free, most_tries};
+  const SampleArguments given{count,          first,      as_sampling(seed, sigma),
+                              collision_free, most_tries, statistics ? Prior::ramachandran : Prior::independent};
   const unsigned threads = as_threads(given_threads, self.threads);
   const std::size_t dof = self.dof();
   if (dof > 0 && count > (std::uint64_t{1} << 40) / dof)
@@ -103,7 +123,9 @@ py::tuple sample(CheckerHandle& self, std::uint64_t count, std::uint64_t seed, s
   Samples samples;
   samples.q = q.mutable_data();
   samples.found.assign(static_cast<std::size_t>(count), 1);
-  if (!self.kept.closures.empty() || collision_free)
+  if (collision_free)
+    draw_free(self, given, threads, progress, samples);
+  else if (!self.kept.closures.empty())
     draw_closed(self, given, threads, progress, samples);
   else
     draw_open(self, given, threads, progress, samples);
@@ -203,7 +225,7 @@ py::tuple walk(CheckerHandle& self, std::uint64_t steps, double sigma, std::uint
 void add_sampling(CheckerClass& checker) {
   checker
       .def("_sample", &sample, py::arg("n"), py::arg("seed"), py::arg("sigma"), py::arg("first"),
-           py::arg("collision_free"), py::arg("tries"), py::arg("threads"), py::arg("progress"))
+           py::arg("collision_free"), py::arg("statistics"), py::arg("tries"), py::arg("threads"), py::arg("progress"))
       .def("unclosable", &unclosable, py::arg("seed") = 1, py::arg("sigma") = py::none(),
            "unclosable(self, seed=1, sigma=None)\n--\n\n"
            "Return indices of closures that random starts do not close, for Checker(..., open_closures=).\n\n"
