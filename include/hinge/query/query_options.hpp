@@ -37,10 +37,6 @@ struct GroupRange {
 struct QueryOptions {
   /// Reports only pairs whose distance may have changed in the last update.
   bool moved_only = false;
-  /// In queries of one model: reports only pairs whose rigid group of the larger index is in this range. The pose of a
-  /// group depends only on values of groups with smaller indices and its own, so a chain can be tested while its values
-  /// are chosen: the ranges [0, a), [a, b), ... together report every pair once.
-  GroupRange groups{};
   /// Extra clearance per rigid group (model length unit, finite, >= 0). A pair's threshold grows by the clearances of
   /// both its groups. An empty span means none. The caller keeps the memory alive during the query.
   std::span<const double> clearance{};
@@ -48,6 +44,10 @@ struct QueryOptions {
   std::span<const double> other_clearance{};
   /// Counters to add to, or null. Not owned.
   QueryCounts* counts = nullptr;
+  /// In queries of one model: reports only pairs whose rigid group of the larger index is in this range. The pose of a
+  /// group depends only on its own value and on those of groups with smaller indices. So a chain can be tested while
+  /// its values are being chosen: the ranges [0, a), [a, b), ... together report every pair once.
+  GroupRange groups{};
 
   /// Returns true when either clearance list is given.
   bool adds_clearance() const noexcept { return !clearance.empty() || !other_clearance.empty(); }
