@@ -21,6 +21,7 @@
 #include "hinge_tools/pick_instruction_set.hpp"
 #include "hinge_tools/run_tool.hpp"
 #include "options.hpp"
+#include "report.hpp"
 #include "shared_options.hpp"
 
 namespace {
@@ -71,7 +72,18 @@ Exit run(int argc, char** argv) {
   check->add_option("TRAJECTORY", o.trajectories,
                     "conformations to check instead of the models of FILE: DCD, XTC, .npy, PDB, mmCIF, plain or .gz");
   biocd::add_check_options(*check, o);
-  check->callback([&] { command = biocd::run_check; });
+  check->option_defaults()->group(title::output);
+  hinge::tool::add_choice(
+      *check, "--by", {"residue", "chain"},
+      [&o](const std::string& word) { o.by = word == "residue" ? biocd::By::residue : biocd::By::chain; },
+      "count the clashes of all models or frames by pairs of residues or chains, most frequent first (a table, or with "
+      "--json `clashes` in the summary)");
+  check->callback([&] {
+    if (o.by && o.output == biocd::Output::csv) throw hinge::ModelError("--by: expected a table or --json, not --csv");
+    if (o.by && !biocd::lists_pairs(hinge::Mode::parse(o.mode, "angstrom")))
+      throw hinge::ModelError("--by: expected --mode all or within:D, which list pairs");
+    command = biocd::run_check;
+  });
 
   CLI::App* sample = app.add_subcommand("sample", "draw random conformations of the free torsions and check each one");
   biocd::add_model_options(*sample, o);

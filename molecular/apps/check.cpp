@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "clash_table.hpp"
 #include "conformation_file.hpp"
 #include "frames.hpp"
 #include "hinge/batch/ensemble.hpp"
@@ -18,6 +19,7 @@
 #include "hinge/molecular/bond_gauge.hpp"
 #include "hinge/molecular/severity.hpp"
 #include "hinge_tools/counted.hpp"
+#include "hinge_tools/max_pairs_option.hpp"
 #include "hinge_tools/progress_bar.hpp"
 #include "options.hpp"
 #include "pair_table.hpp"
@@ -88,7 +90,7 @@ void print_table_row(const Options& options, const Job& job, const std::string& 
   if (mode.kind == Mode::Kind::within) fmt::print(", {} closer than the threshold + {} angstrom", pairs, mode.margin);
   if (clashscore) fmt::print(", clashscore {:.2f}", *clashscore);
   fmt::print("{}\n", deviations_text(checked));
-  fmt::print("{}", pair_table(options, job, verdict.pairs, headed));
+  if (!options.by) fmt::print("{}", pair_table(options, job, verdict.pairs, headed));
   if (verdict.closest) fmt::print("{}", pair_table(options, job, {*verdict.closest}, headed, "  (closest)"));
   headed = headed && verdict.pairs.empty() && !verdict.closest;
 }
@@ -160,6 +162,8 @@ Exit run_check(const Options& options) {
   std::string worst_name;
   bool headed = true;  // the next list of pairs starts with the names of its columns
   ViewChoice choice;
+  std::optional<ClashTable> clashes;
+  if (options.by) clashes.emplace(*options.by);
   std::uint64_t left_out = 0;  // pairs that are not printed
   std::size_t others = 0;      // models with other atoms than the first
   hinge::tool::ProgressBar bar(end - begin);
@@ -207,6 +211,7 @@ Exit run_check(const Options& options) {
     } else {
       summary.add(s, checked.verdict);
     }
+    if (clashes) clashes->add(of, checked.verdict);
     const std::size_t printed = pairs_to_print(options, checked.verdict.pairs).size();
     left_out += checked.verdict.pairs.size() - printed;
     const std::optional<double> clashscore = clashscore_of(options, of, checked.verdict, mode);
@@ -239,8 +244,14 @@ Exit run_check(const Options& options) {
       fmt::print(stderr, "note: {} other atoms than the first model; see `other_atoms` of --json\n",
                  counted(others - 1, "more model has", "more models have"));
     note_left_out(options, left_out);
-    results.finish(summary.json(has_closures), error);
+    Json all = summary.json(has_closures);
+    if (clashes) {
+      all["by"] = word_of(*options.by);
+      all["clashes"] = clashes->json();
+    }
+    results.finish(std::move(all), error);
     if (options.output != Output::table) return;
+    if (clashes) fmt::print("{}", clashes->text(options.max_pairs.value_or(hinge::tool::usual_max_pairs)));
     if (worst.residual >= 0.0005)
       fmt::print("bond farthest from its length in the reference: {} - {}, {:.3f} angstrom against {:.3f} ({})\n",
                  label(s, worst.first), label(s, worst.second), worst.length, worst.reference, worst_name);

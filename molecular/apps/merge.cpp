@@ -9,12 +9,14 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "clash_table.hpp"
 #include "hinge/core/error.hpp"
 #include "options.hpp"
 #include "results.hpp"
@@ -200,6 +202,7 @@ Exit run_merge(const Options& options) {
 
   // Validate everything before printing anything.
   Summary summary;
+  std::optional<ClashTable> clashes;
   for (ShardFile& file : files) {
     file.for_rows([&](const std::string& row, bool is_new) {
       try {
@@ -211,10 +214,19 @@ Exit run_merge(const Options& options) {
         throw LoadError(file.path() + ": a row is damaged: " + row);
       }
     });
-    if (file.is_json)
-      summary.add_closures(file.summary);
-    else if (file.missing > 0)
+    if (file.is_json) {
+      try {
+        summary.add_closures(file.summary);
+        if (file.summary.contains("clashes")) {
+          if (!clashes) clashes.emplace(file.summary.at("by") == "chain" ? By::chain : By::residue);
+          clashes->add(file.summary.at("clashes"));
+        }
+      } catch (const Json::exception&) {
+        throw LoadError(file.path() + ": its summary is damaged");
+      }
+    } else if (file.missing > 0) {
       summary.add(Starts{file.missing, 0, 0});
+    }
   }
   const bool is_json = files.front().is_json;
   if (is_json)
@@ -230,7 +242,14 @@ Exit run_merge(const Options& options) {
         fmt::print("{}\n", row);
     });
   }
-  if (is_json) print_json_end(summary.json_like(files.front().summary));
+  if (is_json) {
+    Json all = summary.json_like(files.front().summary);
+    if (clashes) {
+      all["by"] = files.front().summary.at("by");
+      all["clashes"] = clashes->json();
+    }
+    print_json_end(all);
+  }
   return exit_of(summary);
 }
 

@@ -33,6 +33,9 @@ enum class Output : std::uint8_t { table, json, csv };
 /// Program that --view writes a script for.
 enum class Viewer : std::uint8_t { chimerax, pymol };
 
+/// What a table of clashes counts by.
+enum class By : std::uint8_t { residue, chain };
+
 /// Shard number `index` (from 1) of `of` shards.
 struct Shard {
   std::uint64_t index = 1;
@@ -65,6 +68,7 @@ struct Options {
   std::string mode = "all";                      ///< check, sample: text of Mode::parse
   Output output = Output::table;                 ///< format of standard output
   std::optional<std::uint64_t> max_pairs;       ///< pairs printed per conformation, 0: all; nothing: see pairs_to_print
+  std::optional<By> by;                         ///< check: a table of clashes over all conformations
   std::optional<Viewer> view;                   ///< check, sample, walk, path: write a viewer script
   bool exit_zero = false;                       ///< status 0 whatever the verdict
   std::string explain;                          ///< "i,j"; empty: explain nothing
