@@ -316,5 +316,30 @@ TEST(SelectionGrammar, IsThatOfPartsAndLoops) {
   EXPECT_THROW(find_loops(ubiquitin, "A:7-20 and not A:12"), ModelError);
 }
 
+TEST(SelectionGrammar, SelectsByConfidence) {
+  Structure s = three_chains();
+  using Residues = std::vector<std::uint32_t>;
+  EXPECT_EQ(read_structure(test::molecule_file("1crn.pdb")).atoms.front().b_factor,
+            static_cast<double>(13.79F));  // the first atom record
+  for (std::uint32_t r = 0; r < s.residues.size(); ++r)
+    for (std::uint32_t atom = s.residues[r].first_atom; atom < s.residues[r].last_atom; ++atom)
+      s.atoms[atom].b_factor = 4.0 * r;
+  EXPECT_EQ(find_part(s, "plddt<8").residues, (Residues{0, 1}));
+  EXPECT_EQ(find_part(s, "plddt<=8").residues, (Residues{0, 1, 2}));
+  EXPECT_EQ(find_part(s, "plddt>76").residues, (Residues{20}));
+  EXPECT_EQ(find_part(s, "plddt>=76 and _").residues, (Residues{19, 20}));
+  EXPECT_EQ(find_part(s, "A and not plddt>=4.5").residues, (Residues{0, 1}));
+  // A mean over the atoms of a residue.
+  s.atoms[s.residues[0].first_atom].b_factor = 100.0;
+  EXPECT_EQ(find_part(s, "plddt<8").residues, (Residues{1}));
+  const Molecule m(s);
+  for (const std::size_t k : select_torsions(m, "plddt>=40 and chi", false)) EXPECT_GE(m.torsions()[k].residue, 10U);
+  for (const char* bad : {"plddt<", "plddt<x", "plddt>101", "plddt<-1", "plddt<nan", "plddt", "plddt=3", "plddt<7,0"})
+    EXPECT_THROW(find_part(s, bad), ModelError) << bad;
+  EXPECT_THROW(select_torsions(m, "plddt>99.5", false), ModelError);  // selects nothing
+  s.atoms[3].b_factor = 131.0;
+  EXPECT_NE(test::refusal<ModelError>([&] { find_part(s, "plddt<8"); }).find("this one holds 131"), std::string::npos);
+}
+
 }  // namespace selection_test
 }  // namespace hinge::molecular

@@ -35,7 +35,7 @@ using test::XtcPacker;
 /// Returns a structure of `count` carbons in one residue.
 Structure atoms(std::size_t count) {
   Structure s;
-  s.atoms.assign(count, Atom{"C", "C", 0, '\0', 0, 0});
+  s.atoms.assign(count, Atom{"C", "C", 0, '\0', 0, 0, 0.0});
   s.residues.push_back(Residue{"UNL", 1, '\0', 0, 0, static_cast<std::uint32_t>(count), ResidueKind::other});
   s.chains.push_back({"A", 0, 1});
   return s;

@@ -7,6 +7,8 @@
 #include <limits>
 #include <system_error>
 
+#include "hinge/core/number_text.hpp"
+
 namespace hinge::molecular {
 
 namespace {
@@ -99,6 +101,10 @@ std::optional<std::vector<bool>> ResidueWords::find_bare(const SelectionWord& wo
   std::vector<bool> set(s_.residues.size(), text == "all");
   if (text == "all") return set;
   if (text == "loops") return loops(word);
+  constexpr std::string_view confidence = "plddt";
+  if (text.starts_with(confidence) && text.size() > confidence.size() &&
+      (text[confidence.size()] == '<' || text[confidence.size()] == '>'))
+    return by_confidence(word, text.substr(confidence.size()));
   for (std::uint32_t r = 0; r < set.size(); ++r) set[r] = text == "ligands" ? !in_polymer(r) : is_in(r, text);
   if (text == "ligands" || std::ranges::any_of(set, [](bool in) { return in; })) return set;
   for (std::uint32_t r = 0; r < set.size(); ++r) set[r] = s_.residues[r].name == text;
@@ -158,6 +164,28 @@ std::optional<std::vector<bool>> ResidueWords::find_in_chain(const SelectionWord
   if (from > to) refuse(word, "the first residue to come before the last");
   for (std::uint32_t r = 0; r < in.size(); ++r) in[r] = in[r] && from <= r && r <= to;
   return in;
+}
+
+/// comparison: "<70", "<=70", ">70" or ">=70".
+std::vector<bool> ResidueWords::by_confidence(const SelectionWord& word, std::string_view comparison) const {
+  const bool below = comparison.front() == '<', or_equal = comparison.size() > 1 && comparison[1] == '=';
+  const std::string_view text = comparison.substr(or_equal ? 2 : 1);
+  double limit = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), limit);
+  if (error != std::errc{} || end != text.data() + text.size() || !(limit >= 0.0 && limit <= 100.0))
+    refuse(word, "plddt<N, plddt<=N, plddt>N or plddt>=N with N from 0 to 100");
+  for (const Atom& atom : s_.atoms)
+    if (!(atom.b_factor >= 0.0 && atom.b_factor <= 100.0))
+      refuse(word, "a predicted model, whose B-factor column holds pLDDT from 0 to 100; this one holds " +
+                       number_text(atom.b_factor));
+  std::vector<bool> set;
+  for (const Residue& residue : s_.residues) {
+    double sum = 0.0;
+    for (std::uint32_t atom = residue.first_atom; atom < residue.last_atom; ++atom) sum += s_.atoms[atom].b_factor;
+    const double mean = sum / static_cast<double>(residue.last_atom - residue.first_atom);
+    set.push_back((below ? mean < limit : mean > limit) || (or_equal && mean == limit));
+  }
+  return set;
 }
 
 std::vector<bool> ResidueWords::of_file(const SelectionWord& word, std::string_view number) const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ResidueWords: words that select residues: "A", "KNI", "A:45", "A:10-20", "_:60A", "A:HEM", "file:2", "loops",
-// "every:4".
+// "every:4", "plddt<70".
 #pragma once
 
 #include <cstdint>
@@ -45,6 +45,7 @@ class ResidueWords {
   std::optional<std::vector<bool>> find_bare(const SelectionWord& word, std::string_view text) const;
   std::optional<std::vector<bool>> find_in_chain(const SelectionWord& word, std::string_view name,
                                                  std::string_view text) const;
+  std::vector<bool> by_confidence(const SelectionWord& word, std::string_view comparison) const;
   std::vector<bool> of_file(const SelectionWord& word, std::string_view number) const;
   std::vector<bool> every(std::size_t n) const;
   std::vector<bool> count(const SelectionWord& word, std::size_t n) const;

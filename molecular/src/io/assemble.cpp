@@ -140,8 +140,8 @@ class Assembler {
         difference_ = name_of(raw) + ":" + atom.name;
       positions.push_back(atom.position);
       if (!first) continue;
-      s_.atoms.push_back(
-          {atom.name, element, static_cast<std::uint32_t>(s_.residues.size()), atom.altloc, atom.serial, atom.record});
+      s_.atoms.push_back({atom.name, element, static_cast<std::uint32_t>(s_.residues.size()), atom.altloc, atom.serial,
+                          atom.record, atom.b_factor});
     }
     if (!first || s_.atoms.size() == residue.first_atom) return;
     residue.last_atom = static_cast<std::uint32_t>(s_.atoms.size());

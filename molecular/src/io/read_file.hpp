@@ -62,6 +62,7 @@ struct RawAtom {
   int serial = 0;
   std::uint32_t record = 0;  ///< index among the atom records of its model
   double occupancy = 1.0;
+  double b_factor = 0.0;
   Vec3 position = Vec3::Zero();  ///< angstrom
 };
 

@@ -20,6 +20,7 @@ struct Atom {
   char altloc = '\0';         ///< alternative location; '\0': the file has none
   int serial = 0;             ///< serial number in the file
   std::uint32_t record = 0;   ///< index among the atom records of its model in the file, from 0
+  double b_factor = 0.0;      ///< temperature factor (angstrom^2); in predicted models the confidence pLDDT, 0 to 100
 };
 
 /// Waters, amino acids and nucleotides by name and backbone atoms; ions, ligands, sugars and chain caps are `other`.
