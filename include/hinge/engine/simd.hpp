@@ -78,9 +78,6 @@ class Simd {
     double cutoff = 0.0;
     // Entries are ordered by the last group they need, but not if coordinates are given.
     const GroupRange range = state.groups_may_deform() ? GroupRange{} : options.groups;
-    const auto before_range = [&](const detail::SweepEntry& entry) {
-      return id<GroupId>(entry.last_group) < range.first;
-    };
     std::size_t u = side.blocks().first_entry();
     for (; u < layout.entries.size() && !collector.done() && !budget.is_too_much(); ++u) {
       if (id<GroupId>(layout.entries[u].least_from) >= range.end) {
@@ -88,7 +85,7 @@ class Simd {
         break;
       }
       side.refresh(u, state);
-      if (u < layout.static_entries || before_range(layout.entries[u])) continue;
+      if (u < layout.static_entries || id<GroupId>(layout.entries[u].last_group) < range.first) continue;
       // The margin depends on the cutoff and on the extent of the placed coordinates (a power of two).
       if (side.blocks().extent() != extent || collector.cutoff() != cutoff) {
         extent = side.blocks().extent();

@@ -14,8 +14,8 @@ import sys
 import numpy as np
 
 HERE = pathlib.Path(__file__).parent
-HEADER = """// SPDX-License-Identifier: BSD-3-Clause AND CC-BY-4.0
-// {what}
+HEADER = """// SPDX-License-Identifier: BSD-3-Clause
+// {what} Data: CC-BY-4.0.
 // Made by make_torsion_tables.py from the Top8000 data set of the Richardson laboratory, Duke University, licence CC BY
 // 4.0, https://github.com/rlabduke/reference_data. {changed}
 #include "chemistry/{name}.hpp"

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause AND CC-BY-4.0
-// Shares of backbone torsions (phi, psi) in bins, by kind of residue.
+// SPDX-License-Identifier: BSD-3-Clause
+// Shares of backbone torsions (phi, psi) in bins, by kind of residue. Data: CC-BY-4.0.
 // Made by make_torsion_tables.py from the Top8000 data set of the Richardson laboratory, Duke University, licence CC BY
 // 4.0, https://github.com/rlabduke/reference_data. Changed: densities from percentiles, in
 // bins of 10 degrees.

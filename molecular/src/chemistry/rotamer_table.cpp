@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause AND CC-BY-4.0
-// Rotamers of amino acids: shares, means and standard deviations of side chain torsions.
+// SPDX-License-Identifier: BSD-3-Clause
+// Rotamers of amino acids: shares, means and standard deviations of side chain torsions. Data: CC-BY-4.0.
 // Made by make_torsion_tables.py from the Top8000 data set of the Richardson laboratory, Duke University, licence CC BY
 // 4.0, https://github.com/rlabduke/reference_data. Changed: rotamers below 0.1 % and bond
 // angles are left out.

@@ -93,10 +93,7 @@ RawModel convert(const gemmi::Model& model, int number, const AtomIds& ids) {
         a.position = Vec3(atom.pos.x, atom.pos.y, atom.pos.z);
         parts[ids.labels.empty() ? 0 : ids.labels.at(id)].push_back(std::move(a));
       }
-      for (auto& part : parts) {
-        r.atoms = std::move(part.second);
-        raw.residues.push_back(r);
-      }
+      for (auto& part : parts) raw.residues.emplace_back(r).atoms = std::move(part.second);
     }
     std::stable_sort(raw.residues.begin() + chain_start, raw.residues.end(),
                      [](const RawResidue& a, const RawResidue& b) { return a.atoms[0].record < b.atoms[0].record; });
