@@ -46,10 +46,10 @@ HelpTexts help_texts() {
   texts.topics = {selections(), hinge::tool::exit_status_topic()};
   texts.commands[""] = {{"Exit status"}, {"biocd check" + file, "biocd sample --help"}};
   texts.commands["info"] = {{"Selections"}, {"biocd info" + file, "biocd info" + file + " --free A:70-76 --json"}};
-  texts.commands["check"] = {both, {"biocd check" + file, "biocd check" + file + " --mode within:0.3 --max-pairs 5"}};
+  texts.commands["check"] = {both, {"biocd check" + file, "biocd check" + file + " --mode within:0.3 --by residue"}};
   texts.commands["sample"] = {both,
                               {"biocd sample" + file + " --free A:70-76 --sigma 5 --exempt-reference",
-                               "biocd sample" + file + " --free A:73-76 -n 50 --filter free --out tail.pdb"}};
+                               "biocd sample" + file + " --loop A:7-11 --collision-free -n 50 --out loops.pdb"}};
   texts.commands["walk"] = {both,
                             {"biocd walk" + file + " --exempt-reference --steps 2000 --out walk.pdb",
                              "biocd walk" + file + " --exempt-reference --free A:70-76 --step-size 10 --steps 500"}};
