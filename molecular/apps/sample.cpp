@@ -70,6 +70,7 @@ Sample draw(Worker& worker, const Job& job, const Sampling& sampling, std::uint6
   Sample sample;
   if (worker.free) {
     FreeSample found = worker.free->sample(k, stop);
+    sample.found = found.found();
     q = std::move(found.q);
     sample.unclosed = found.unclosed;
     sample.refused = found.dead_ends;
@@ -77,12 +78,12 @@ Sample draw(Worker& worker, const Job& job, const Sampling& sampling, std::uint6
     sample.stopped = found.stopped;
   } else if (worker.closed) {
     ClosedSample closed = worker.closed->sample(k);
+    sample.found = closed.found();
     q = std::move(closed.q);
     sample.unclosed = closed.unclosed;
   } else {
     q = sample_configuration(sampling, k, *job.molecule, job.checker.selection(), job.ranges);
   }
-  sample.found = !q.empty();
   if (!sample.found) return sample;
   describe(sample, job, q);
   sample.verdict = worker.checker.check(q, mode);

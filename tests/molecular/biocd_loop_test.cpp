@@ -139,6 +139,15 @@ TEST(BiocdLoop, SaysHowManySamplesAreMissingAndWhy) {
   EXPECT_NE(late.out.find("for 4 of them, the time of --time was over"), std::string::npos) << late.out;
 }
 
+TEST(BiocdLoop, ChecksSamplesWithoutFreeTorsions) {
+  const auto said = run_biocd("sample " + file() + " --free none -n 3 --json 2>/dev/null");
+  EXPECT_EQ(said.status, 0);
+  EXPECT_EQ(Json::parse(said.out).at("conformations").size(), 3U);
+  const auto refused = run_biocd("sample " + file() + " --free none -n 3 --collision-free 2>&1");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.out.find("no torsion is free"), std::string::npos) << refused.out;
+}
+
 TEST(BiocdLoop, DrawsFromThePriorThatIsAskedFor) {
   const std::string question = "sample " + file() + " --free A:70-76 --exempt-reference -n 20 --collision-free --json";
   const auto row = [&](const std::string& more) {
