@@ -134,16 +134,13 @@ int main() {
 
   // A closed conformation as goal, with at least one torsion that changes by more than 1 rad.
   const std::vector<double> reference(dofs, 0.0);
-  ClosedSampler sampler(*ubiquitin, selection, {2005, 0.5}, 100'000);
-  const std::vector<double> goal =
-      sampler
-          .sample(0,
-                  [&](std::span<const double> q) {
-                    const auto far = [](double turn) { return std::abs(turn) > 1.0; };
-                    return std::ranges::any_of(q, far) && !checker.check(q, Mode{Mode::Kind::any}).collides;
-                  })
-          .q;
-  if (goal.empty()) return 1;
+  ClosedSampler sampler(*ubiquitin, selection, {2005, 0.5}, 100);
+  std::vector<double> goal;
+  for (std::uint64_t k = 0; goal.empty(); ++k) {
+    const ClosedSample sample = sampler.sample(k);
+    const auto far = [](double turn) { return std::abs(turn) > 1.0; };
+    if (std::ranges::any_of(sample.q, far) && !checker.check(sample.q, Mode{Mode::Kind::any}).collides) goal = sample.q;
+  }
 
   const auto turning = std::make_shared<ob::RealVectorStateSpace>(dofs);
   turning->setBounds(-std::numbers::pi, std::numbers::pi);
