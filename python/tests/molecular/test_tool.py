@@ -114,16 +114,16 @@ def test_sample_draws_the_same_bytes(molecules, tmp_path, name, sigma):
 @pytest.mark.parametrize(
     "more, free, sigma, prior",
     [
-        (["--sigma", 8], "(A:8-14) and chi", 8, None),
+        (["--sigma", 8], "(A:7-11) and chi", 8, None),
         (["--free", "none", "--prior", "uniform"], "none", None, "uniform"),
-        ([], "(A:8-14) and chi", None, None),
+        ([], "(A:7-11) and chi", None, None),
     ],
 )
 def test_sample_of_a_free_loop(tmp_path, more, free, sigma, prior):
     coordinates = tmp_path / "x.npy"
-    given = ["--loop", "A:8-14", "--collision-free", "--exempt-reference", "--out", coordinates, *more]
+    given = ["--loop", "A:7-11", "--collision-free", "--exempt-reference", "--out", coordinates, *more]
     told = biocd("sample", "1ubq", "-n", 5, *given, ok=(0,))
-    m = hm.Molecule(path_of("1ubq"), loops="A:8-14")
+    m = hm.Molecule(path_of("1ubq"), loops="A:7-11")
     c = hm.Checker(m, free, exempt_reference=True)
     q = c.sample(5, 1, None if sigma is None else np.radians(sigma), collision_free=True, prior=prior, threads=2)
     assert len(q) == told["summary"]["checked"]
