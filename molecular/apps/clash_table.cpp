@@ -19,8 +19,8 @@ namespace {
 
 /// Returns "A:LYS77" or "A"; a chain without a name is "_".
 std::string name_of(const Structure& s, By by, std::uint32_t atom) {
-  const std::string text = label(s, atom);
-  return text.substr(0, by == By::residue ? text.rfind(':') : text.find(':'));
+  const std::string text = residue_label(s, s.atoms[atom].residue);
+  return by == By::residue ? text : text.substr(0, text.find(':'));
 }
 
 }  // namespace

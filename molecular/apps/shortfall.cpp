@@ -31,13 +31,10 @@ void Shortfall::print(bool collision_free, std::uint64_t asked, std::uint64_t mo
             fmt::format("for {} of them, none of {} starts {}", missing_ - stopped_, most_starts,
                         collision_free ? "gave a conformation without a collision" : "closed");
   if (stopped_ > 0) text += begin + fmt::format("for {} of them, the time of --time was over", stopped_);
-  const auto label_of = [&](std::uint64_t r) {
-    const std::string atom = label(structure_, structure_.residues[r].first_atom);
-    return atom.substr(0, atom.rfind(':'));
-  };
   begin = "; most often in the way: ";
   for (const auto& [key, count] : blockers_.top(3))
-    text += std::exchange(begin, ", ") + label_of(key >> 32U) + " and " + label_of(key & 0xffffffffU);
+    text += std::exchange(begin, ", ") + residue_label(structure_, static_cast<std::uint32_t>(key >> 32U)) + " and " +
+            residue_label(structure_, static_cast<std::uint32_t>(key));
   std::fputs((text + '\n').c_str(), stderr);
 }
 

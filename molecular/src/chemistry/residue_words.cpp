@@ -66,11 +66,6 @@ bool ResidueWords::is_in(std::uint32_t residue, std::string_view chain) const {
   return s_.chains[s_.residues[residue].chain].name == (chain == "_" ? std::string_view() : chain);
 }
 
-std::string ResidueWords::name_of(std::uint32_t residue) const {
-  const std::string atom = label(s_, s_.residues[residue].first_atom);
-  return atom.substr(0, atom.rfind(':'));
-}
-
 std::vector<bool> ResidueWords::select(const SelectionWord& word, std::span<const SelectionWord> /*bound*/) {
   if (auto found = find(word, word.text)) return *std::move(found);
   const std::size_t colon = word.text.find(':');
@@ -122,7 +117,7 @@ std::optional<std::vector<bool>> ResidueWords::named(const SelectionWord& word, 
   std::string some = std::to_string(count) + ":";
   for (std::uint32_t r = 0, shown = 0; r < set.size() && shown < 4; ++r)
     if (set[r]) {
-      some += ' ' + name_of(r);
+      some += ' ' + residue_label(s_, r);
       ++shown;
     }
   refuse(word, "one residue, found " + some + (count > 4 ? " ..." : "") + "; choose one as CHAIN:NUMBER");
@@ -158,7 +153,8 @@ std::optional<std::vector<bool>> ResidueWords::find_in_chain(const SelectionWord
     refuse(word, "a residue of chain " + std::string(name) + "; the chain has no residue " +
                      std::to_string(wanted.number) +
                      (wanted.insertion_code != '\0' ? std::string(1, wanted.insertion_code) : "") + ", it goes from " +
-                     name_of(static_cast<std::uint32_t>(first)) + " to " + name_of(static_cast<std::uint32_t>(last)));
+                     residue_label(s_, static_cast<std::uint32_t>(first)) + " to " +
+                     residue_label(s_, static_cast<std::uint32_t>(last)));
   };
   const std::uint32_t from = residue(range->first), to = residue(range->last);
   if (from > to) refuse(word, "the first residue to come before the last");

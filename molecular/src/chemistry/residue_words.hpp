@@ -53,7 +53,6 @@ class ResidueWords {
   std::optional<std::vector<bool>> named(const SelectionWord& word, std::vector<bool> set) const;
   std::vector<std::uint32_t> polymer() const;
   bool is_in(std::uint32_t residue, std::string_view chain) const;
-  std::string name_of(std::uint32_t residue) const;
 
   const Structure& s_;
   ResidueNames names_;

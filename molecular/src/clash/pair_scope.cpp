@@ -22,11 +22,9 @@ PairScope::PairScope(const Structure& structure, std::span<const std::pair<Part,
   for (std::size_t k = 0; k < between.size(); ++k) {
     const auto& [a, b] = between[k];
     for (const std::uint32_t r : a.residues)
-      if (std::ranges::binary_search(b.residues, r)) {
-        const std::string atom = label(structure, structure.residues[r].first_atom);
+      if (std::ranges::binary_search(b.residues, r))
         throw ModelError("between '" + a.name + "' and '" + b.name + "': both parts hold " +
-                         atom.substr(0, atom.rfind(':')) + ", expected two parts without common residues");
-      }
+                         residue_label(structure, r) + ", expected two parts without common residues");
     hold(a, 2 * k);
     hold(b, 2 * k + 1);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Structure: labels of atoms, and the search for hydrogens.
+// Structure: labels of atoms and residues, and the search for hydrogens.
 #include "hinge/molecular/structure.hpp"
 
 #include <algorithm>
@@ -7,12 +7,16 @@
 namespace hinge::molecular {
 
 std::string label(const Structure& structure, std::uint32_t atom) {
-  const Residue& residue = structure.residues[structure.atoms[atom].residue];
-  const std::string& chain = structure.chains[residue.chain].name;
+  return residue_label(structure, structure.atoms[atom].residue) + ":" + structure.atoms[atom].name;
+}
+
+std::string residue_label(const Structure& structure, std::uint32_t residue) {
+  const Residue& of = structure.residues[residue];
+  const std::string& chain = structure.chains[of.chain].name;
   std::string text = chain.empty() ? "_" : chain;
-  text += ":" + residue.name + std::to_string(residue.sequence_number);
-  if (residue.insertion_code != '\0') text += residue.insertion_code;
-  return text + ":" + structure.atoms[atom].name;
+  text += ":" + of.name + std::to_string(of.sequence_number);
+  if (of.insertion_code != '\0') text += of.insertion_code;
+  return text;
 }
 
 bool has_hydrogens(const Structure& structure) noexcept {

@@ -184,9 +184,7 @@ class Finder {
 }  // namespace
 
 std::string torsion_label(const Structure& structure, const Torsion& torsion) {
-  std::string text = label(structure, structure.residues[torsion.residue].first_atom);
-  text.resize(text.rfind(':') + 1);  // without the atom name
-  return text += torsion.name;
+  return residue_label(structure, torsion.residue) + ":" + torsion.name;
 }
 
 std::vector<Torsion> find_torsions(const Structure& structure, std::vector<std::string>& notes) {

@@ -123,6 +123,9 @@ struct Structure {
 /// chain name is printed as "_".
 HINGE_API std::string label(const Structure& structure, std::uint32_t atom);
 
+/// Returns "A:LYS77" for an index in structure.residues, in the form of label().
+HINGE_API std::string residue_label(const Structure& structure, std::uint32_t residue);
+
 /// True if any atom is a hydrogen (or deuterium).
 HINGE_API bool has_hydrogens(const Structure& structure) noexcept;
 

@@ -37,7 +37,7 @@ class HINGE_API TorsionPrior {
  public:
   /// units: for each unit the positions of its torsions in a configuration of the selection, in the order in which
   /// draw() will be called. No unit has a DOF that places a part. sigma (rad): standard deviation of the Gaussian;
-  /// nullopt: uniform. The molecule must outlive the prior. Throws ModelError if Prior::ramachandran comes with sigma.
+  /// nullopt: uniform. Throws ModelError if Prior::ramachandran comes with sigma.
   TorsionPrior(const Molecule& molecule, const DofSelection& selection, Prior prior, std::optional<double> sigma,
                std::vector<std::vector<std::size_t>> units);
 
