@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "conformation_file.hpp"
+#include "hinge/molecular/write_trajectory.hpp"
 #include "hinge_tools/complete_file.hpp"
 #include "hinge_tools/csv_field.hpp"
 #include "options.hpp"
@@ -35,7 +36,7 @@ class TorsionFile {
 
  private:
   hinge::tool::CompleteFile file_;
-  std::optional<RowWriter> writer_;
+  std::optional<hinge::molecular::RowWriter> writer_;
 };
 
 /// Returns the CSV columns of the selected DOF: ",NAME,NAME".

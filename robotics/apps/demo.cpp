@@ -34,7 +34,6 @@ using hinge::tool::Picture;
 
 namespace {
 
-constexpr double piece = 0.2;                     // m
 constexpr std::uint64_t seed = 1, timed = 10000;  // random configurations
 constexpr std::uint64_t verified = 100;           // of them, by brute force
 constexpr Colour link_colour{120, 150, 190}, start_colour{214, 224, 236}, body_colour{214, 190, 150},
