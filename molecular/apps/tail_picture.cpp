@@ -93,7 +93,7 @@ std::string draw_tail(const std::shared_ptr<const Molecule>& molecule, const Che
       if (residues.contains(s.atoms[bond.first].residue) && residues.contains(s.atoms[bond.second].residue))
         picture.rod(positions[bond.first], positions[bond.second], 0.3, {90, 90, 90});
     for (const Contact& pair : verdict.pairs) {
-      const auto a = positions[hinge::index(pair.hit.first)], b = positions[hinge::index(pair.hit.second)];
+      const hinge::Vec3 &a = positions[hinge::index(pair.hit.first)], &b = positions[hinge::index(pair.hit.second)];
       picture.ball(a, 0.6, hit_colour);
       picture.ball(b, 0.6, hit_colour);
       picture.rod(a, b, 0.3, {60, 0, 0});

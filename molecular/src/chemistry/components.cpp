@@ -25,7 +25,7 @@ bool is_plain(const std::string& name) {
 /// Returns the dictionary's file of a monomer: a/ATP.cif, or c/CON_CON.cif for names that some file systems reserve.
 std::filesystem::path file_of(const std::filesystem::path& dictionary, const std::string& name) {
   const char folder = static_cast<char>(std::tolower(static_cast<unsigned char>(name.front())));
-  const std::filesystem::path plain = dictionary / std::string(1, folder) / (name + ".cif");
+  std::filesystem::path plain = dictionary / std::string(1, folder) / (name + ".cif");
   if (std::filesystem::is_regular_file(plain)) return plain;
   return dictionary / std::string(1, folder) / (name + "_" + name + ".cif");
 }

@@ -63,7 +63,7 @@ NpyFile::NpyFile(BinaryFile file) : file_(std::move(file)) {
   const auto refuse = [&](const std::string& what) { throw LoadError(file_.name() + ": NumPy array: " + what); };
   constexpr bool is_big = std::endian::native == std::endian::big;
   const std::vector<char> start = file_.read_all(0, 10, "its header");
-  const int version = start[6];
+  const int version = static_cast<unsigned char>(start[6]);
   if (version < 1 || version > 3) refuse("format version " + std::to_string(version) + ", expected 1 to 3");
   const std::size_t length_bytes = version == 1 ? 2 : 4;
   const std::vector<char> length = file_.read_all(8, length_bytes, "its header");

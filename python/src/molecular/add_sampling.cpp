@@ -173,7 +173,7 @@ void check_start(const Structure& structure, Moves& moves) {
 py::tuple walk(CheckerHandle& self, std::uint64_t steps, double sigma, std::uint64_t count, std::uint64_t seed,
                std::uint64_t every, const py::object& start, const py::object& progress) {
   const std::size_t dof = self.dof();
-  if (self.molecule->placed_parts().size() > 0)
+  if (!self.molecule->placed_parts().empty())
     throw ModelError("walk: changes only torsions, expected a molecule without placed parts");
   if (dof == 0) throw ModelError("walk: no torsion is free, expected at least one");
   if (!(sigma > 0.0 && sigma <= 1e9)) throw py::value_error("step_size: expected an angle above 0, at most 1e9 rad");

@@ -62,7 +62,7 @@ py::array_t<double> fit(const CheckerHandle& self, const py::object& x, const py
   const FrameSource frames(x, "x", self.molecule, py::none());
   const std::size_t dof = self.dof();
   const DofSelection& selection = self.checker().selection();
-  if (self.molecule->placed_parts().size() > 0) throw ModelError("fit: expected a molecule without placed parts");
+  if (!self.molecule->placed_parts().empty()) throw ModelError("fit: expected a molecule without placed parts");
   std::vector<double> values(frames.size() * dof);
   run_slices(frames.size(), self.threads, progress, [&]() -> Slice {
     return [&](std::size_t first, std::size_t last) {
