@@ -35,7 +35,7 @@ std::vector<std::string> read_lines(const fs::path& path) {
 
 /// Returns a folder like a clone after ./run build: commands run unchanged and do not write into the source tree.
 fs::path make_clone(const std::string& name) {
-  const fs::path folder = fs::temp_directory_path() / ("hinge_docs_" + name + std::to_string(getpid()));
+  fs::path folder = fs::temp_directory_path() / ("hinge_docs_" + name + std::to_string(getpid()));
   fs::remove_all(folder);
   fs::create_directories(folder / "build/release");
   fs::create_directory_symlink(tools_folder, folder / "build/release/bin");

@@ -149,10 +149,10 @@ class SceneReader {
     if (m[12] != 0.0 || m[13] != 0.0 || m[14] != 0.0 || m[15] != 1.0)
       file_.refuse(element, " has a last row other than 0 0 0 1");
     Affine result;
-    for (int r = 0; r < 3; ++r) {
-      const double* row = &m[static_cast<std::size_t>(4 * r)];
-      result.linear.row(r) = Vec3(row).transpose();
-      result.shift[r] = row[3];
+    for (std::size_t r = 0; r < 3; ++r) {
+      const double* row = &m[4 * r];
+      result.linear.row(static_cast<Eigen::Index>(r)) = Vec3(row).transpose();
+      result.shift[static_cast<Eigen::Index>(r)] = row[3];
     }
     return result;
   }

@@ -108,7 +108,7 @@ const std::array<Vec3, 12>& icosahedron_vertices() {
 /// Divides one face of the icosahedron into parts^2 equal triangles and scales their vertices to the unit sphere.
 Triangles unit_face(const std::array<std::size_t, 3>& face, std::size_t parts) {
   const std::array<Vec3, 12>& v = icosahedron_vertices();
-  const Vec3 a = v[face[0]], b = v[face[1]], c = v[face[2]];
+  const Vec3 &a = v[face[0]], &b = v[face[1]], &c = v[face[2]];
   const auto n = static_cast<double>(parts);
   const auto vertex = [&](std::size_t i, std::size_t j) {
     // Weighted so that both faces at an edge compute the same bits.
