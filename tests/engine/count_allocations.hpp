@@ -14,6 +14,7 @@ inline std::size_t allocations = 0;
 
 // malloc guarantees the alignment of the plain forms. Not inlined: g++ 12 would warn about a free() that it sees next
 // to a call of new.
+// NOLINTBEGIN(misc-definitions-in-headers): see above.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++hinge::test::allocations;
   if (void* memory = std::malloc(size)) return memory;
@@ -21,3 +22,4 @@ inline std::size_t allocations = 0;
 }
 [[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+// NOLINTEND(misc-definitions-in-headers)

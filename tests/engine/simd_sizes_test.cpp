@@ -299,8 +299,9 @@ TEST(SimdSizes, LosesNoPairAtItsThreshold) {
       for (const std::size_t size : test::share_out(343, groups, random)) {
         if (placed > 0 || size == 0) link = builder.add_link(link, Revolute{Vec3::UnitZ(), random.vector(far), {}, {}});
         for (std::size_t k = 0; k < size; ++k, ++placed) {
+          const std::size_t layer = placed / 49;
           const Vec3 cell(static_cast<double>(placed % 7), static_cast<double>(placed / 7 % 7),
-                          static_cast<double>(placed / 49));
+                          static_cast<double>(layer));
           builder.add_primitive(link, Point{lattice * cell});
         }
       }

@@ -42,12 +42,12 @@ std::vector<std::uint32_t> collect(const detail::TreeStore& store, detail::BoxId
       EXPECT_NE(store.nodes[id / 16].inner >> id % 16 & 1U, 0U);
       const std::uint32_t node = store.child(id);
       for (detail::BoxId lane = 0; lane < 16; ++lane)
-        if ((store.nodes[node].used >> lane & 1U) != 0) stack.push_back({node * 16 + lane, above});
+        if ((store.nodes[node].used >> lane & 1U) != 0) stack.emplace_back(node * 16 + lane, above);
       continue;
     }
     const std::uint32_t leaf = store.leaf(id);
     for (std::size_t k = 0; k < 16; ++k) {
-      const std::uint32_t primitive = store.slots[leaf * 16 + k];
+      const std::uint32_t primitive = store.slots[std::size_t{leaf} * 16 + k];
       if ((store.real[leaf] >> k & 1U) == 0) continue;
       found.push_back(primitive);
       for (const detail::BoxId box_id : above) {

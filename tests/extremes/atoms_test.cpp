@@ -159,9 +159,11 @@ TEST(Atoms, AtDecimalTiesEqualTheExactAnswerOnTheStoredDoubles) {
 TEST(Atoms, OnALatticeAtTheThresholdAreFreeAndAllNeighboursHitOneUlpAbove) {
   const std::size_t side = test::exhaustive() ? 100 : 32;
   std::vector<Vec3> points;
-  for (std::size_t k = 0; k < side * side * side; ++k)
+  for (std::size_t k = 0; k < side * side * side; ++k) {
+    const std::size_t layer = k / side / side;
     points.emplace_back(1.25 * static_cast<double>(k % side), 1.25 * static_cast<double>(k / side % side),
-                        1.25 * static_cast<double>(k / side / side));
+                        1.25 * static_cast<double>(layer));
+  }
   const Model<Point> model = own_groups(points);
   const std::size_t neighbours = 3 * side * side * (side - 1);
   const auto expect = [&](double m, std::size_t hits) {

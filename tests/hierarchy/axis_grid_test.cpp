@@ -54,7 +54,7 @@ TEST(AxisGrid, NamesEveryLineThroughAPoint) {
       Aabb box;
       for (int k = 0; k < 300; ++k) {
         const detail::AxisGrid::Line line{place(random, manner, offset), direction(random, manner)};
-        points.push_back(line.point + line.direction * random.uniform(-2.0, 2.0));
+        points.emplace_back(line.point + line.direction * random.uniform(-2.0, 2.0));
         box.extend(points.back());
         lines.push_back(line);
       }

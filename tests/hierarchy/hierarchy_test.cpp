@@ -52,7 +52,7 @@ TYPED_TEST(EveryHierarchy, AnswersForNoAndOnePrimitive) {
     EXPECT_FALSE(points.self_collides());
     EXPECT_TRUE(points.self_collisions().empty());
     EXPECT_FALSE(points.self_closest().has_value());
-    Points other = points;
+    const Points other = points;  // NOLINT(performance-unnecessary-copy-initialization): a query needs two objects
     EXPECT_EQ(points.collides(other), n == 1);
     EXPECT_EQ(points.closest(other).has_value(), n == 1);
   }

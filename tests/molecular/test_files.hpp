@@ -35,7 +35,7 @@ inline std::vector<std::filesystem::path> committed_molecules() {
 inline std::filesystem::path molecule_file(const std::filesystem::path& name) {
   for (const auto& folder : committed_molecules())
     for (const char* extension : {"", ".gz"}) {
-      const auto committed = folder / (name.filename().string() + extension);
+      auto committed = folder / (name.filename().string() + extension);
       if (std::filesystem::exists(committed)) return committed;
     }
   return shared_molecules() / name;
