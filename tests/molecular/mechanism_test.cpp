@@ -64,6 +64,32 @@ TEST(Torsions, TurnTheDihedralByTheJointValue) {
   }
 }
 
+// So side chains turn, and the rest of their chain stays.
+TEST(Torsions, MoveAtMostHalfOfTheAtomsOfTheirMolecule) {
+  for (const char* name :
+       {"1ubq", "1crn.pdb", "1l2y.pdb", "2src.pdb", "4hhb.pdb", "1d66.pdb", "1ehz.pdb", "5pti.pdb"}) {
+    SCOPED_TRACE(name);
+    const Molecule m(read_structure(name == std::string("1ubq") ? test::ubiquitin() : test::molecule_file(name)));
+    const KinematicTree& tree = m.model().tree();
+    std::vector<std::size_t> moved(tree.link_count(), 0);  // per link: atoms on it and beyond it
+    for (const LinkId link : m.model().links()) ++moved[index(link)];
+    std::vector<std::size_t> component(tree.link_count());  // per link: its ancestor on the world
+    for (std::size_t l = 1; l < component.size(); ++l) {
+      const LinkId parent = tree.parent(id<LinkId>(l));
+      component[l] = parent == LinkId{0} ? l : component[index(parent)];
+    }
+    for (std::size_t l = component.size(); l-- > 1;)
+      if (component[l] != l) moved[index(tree.parent(id<LinkId>(l)))] += moved[l];
+    std::size_t joints = 0;
+    for (std::size_t l = 1; l < component.size(); ++l) {
+      if (component[l] == l) continue;
+      ++joints;
+      EXPECT_LE(2 * moved[l], moved[component[l]]) << l;
+    }
+    EXPECT_GT(joints, 30U);
+  }
+}
+
 TEST(Molecule, GivesItsCoordinatesBackAtTheReference) {
   const Molecule m = ubiquitin();
   Hierarchy hierarchy(m.model(), AdmitAll{}, UniformClearance{1.0});

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
 #include "hinge/core/error.hpp"
 #include "hinge/kinematics/joint.hpp"
 #include "mechanism/close_cycles.hpp"
+#include "mechanism/disjoint_sets.hpp"
 #include "mechanism/place_parts.hpp"
 
 namespace hinge::molecular {
@@ -53,26 +53,6 @@ class MoleculeBuilder {
   }
 
  private:
-  /// Disjoint-set forest over atoms.
-  class Fragments {
-   public:
-    explicit Fragments(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0U); }
-    std::uint32_t find(std::uint32_t a) {
-      while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
-      return a;
-    }
-    /// Merges the sets of a and b. Returns false if they are the same set already.
-    bool join(std::uint32_t a, std::uint32_t b) {
-      a = find(a);
-      b = find(b);
-      parent_[std::max(a, b)] = std::min(a, b);
-      return a != b;
-    }
-
-   private:
-    std::vector<std::uint32_t> parent_;
-  };
-
   struct Hinge {  // the central bond of a torsion, seen from one end
     std::uint32_t torsion;
     std::uint32_t from, to;  // atoms
@@ -103,7 +83,7 @@ class MoleculeBuilder {
   /// close a cycle, and disulphides of loops, since nothing may be attached to a loop through them. Sets whole_: the
   /// components of bonds_ without the cut bonds.
   void split_bonds() {
-    Fragments whole(s_.atoms.size());
+    DisjointSets whole(s_.atoms.size());
     for (const Bond& bond : s_.bonds)
       if (!is_cross_link(s_, bond)) {
         whole.join(bond.first, bond.second);
@@ -118,7 +98,7 @@ class MoleculeBuilder {
       whole_ = std::move(whole);
       return;
     }
-    whole_ = Fragments(s_.atoms.size());
+    whole_ = DisjointSets(s_.atoms.size());
     for (const Bond& bond : bonds_)
       if (std::none_of(cuts_.begin(), cuts_.end(), [&](std::uint32_t t) {
             const auto& a = molecule_.torsions_[t].atoms;
@@ -149,7 +129,7 @@ class MoleculeBuilder {
   }
 
   /// Returns the root fragment of each connected component. It holds the first N of a loop that starts in the
-  /// component, because that atom is fixed; otherwise the component's middle atom, which halves the longest lever arm.
+  /// component, because that atom is fixed; otherwise it is the fragment in the middle.
   std::vector<std::uint32_t> roots() {
     std::map<std::uint32_t, std::vector<std::uint32_t>> parts;
     for (std::uint32_t atom = 0; atom < s_.atoms.size(); ++atom) parts[whole_.find(atom)].push_back(atom);
@@ -160,9 +140,31 @@ class MoleculeBuilder {
         if (s_.atoms[i].name == "N") starts.emplace(whole_.find(i), i);
     for (const auto& [part, atoms] : parts) {
       const auto start = starts.find(part);
-      roots.push_back(rigid_.find(start != starts.end() ? start->second : atoms[atoms.size() / 2]));
+      roots.push_back(start != starts.end() ? rigid_.find(start->second) : middle(atoms));
     }
     return roots;
+  }
+
+  /// Returns the fragment of a component (its atoms) from which no branch of the tree holds more than half of the
+  /// atoms. So a turned side chain moves itself, never the rest of the protein.
+  std::uint32_t middle(const std::vector<std::uint32_t>& atoms) {
+    struct Branch {
+      std::uint32_t fragment;
+      std::size_t parent, size = 0;
+    };
+    std::map<std::uint32_t, std::size_t> sizes;
+    for (const std::uint32_t atom : atoms) ++sizes[rigid_.find(atom)];
+    std::vector<Branch> tree{{rigid_.find(atoms[atoms.size() / 2]), 0}};
+    std::set<std::uint32_t> seen{tree.front().fragment};
+    for (std::size_t k = 0; k < tree.size(); ++k)
+      for (const Hinge& hinge : hinges_[tree[k].fragment])
+        if (const std::uint32_t next = rigid_.find(hinge.to); !is_cut(hinge.torsion) && seen.insert(next).second)
+          tree.push_back({next, k});
+    for (std::size_t k = tree.size() - 1;; --k) {
+      tree[k].size += sizes[tree[k].fragment];
+      if (k == 0 || 2 * tree[k].size > atoms.size()) return tree[k].fragment;  // the outermost of these branches
+      tree[tree[k].parent].size += tree[k].size;
+    }
   }
 
   /// Builds the spanning tree over hinges from a root fragment. The search is breadth first; links are added depth
@@ -272,8 +274,8 @@ class MoleculeBuilder {
   ModelBuilder<Point> model_;
   std::vector<Bond> bonds_;
   std::vector<Bond> cross_links_;
-  Fragments whole_{0};
-  Fragments rigid_;
+  DisjointSets whole_{0};
+  DisjointSets rigid_;
   std::map<std::uint32_t, std::vector<Hinge>> hinges_;  // by root atom of the fragment
   std::vector<std::uint32_t> link_;                     // by root atom of the fragment
   PartPlacer placer_;
