@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
@@ -218,7 +219,8 @@ std::string ties(bool cif) {
     const bool second = n % 2 == 1;
     const int cell = n / 2;
     const double x = 0.007 + 10.013 * (cell % 3) + (second ? 1.632 : 0.0),
-                 y = 0.003 + 10.037 * (cell / 3 % 3) + (second ? 2.176 : 0.0), z = 0.001 + 10.011 * (cell / 9);
+                 y = 0.003 + 10.037 * (cell / 3 % 3) + (second ? 2.176 : 0.0),
+                 z = 0.001 + 10.011 * std::floor(cell / 9.0);
     std::array<char, 100> line{};
     std::snprintf(line.data(), line.size(),
                   cif ? "ATOM %d C CA . GLY A %d %.3f %.3f %.3f 1.00 0.00\n"

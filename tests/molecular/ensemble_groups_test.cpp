@@ -43,8 +43,8 @@ struct Ensemble {
     std::vector<Vec3> all;
     for (const Point& p : hierarchy.placed()) {
       const Vec3 x = p.position;
-      all.push_back(Vec3(c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]) + move +
-                    noise * Vec3(normal(random), normal(random), normal(random)));
+      all.emplace_back(Vec3(c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]) + move +
+                       noise * Vec3(normal(random), normal(random), normal(random)));
     }
     return all;
   }

@@ -514,7 +514,7 @@ TEST(BesideKingProbe, NucleotidesSugarsAndLigandsAreWhatProbeSees) {
       std::snprintf(line.data(), line.size(),
                     "HETATM%5zu %-4s %3s %c   1    %8.3f%8.3f%8.3f  1.00  0.00          %2s\n", ++written,
                     (wide ? atom.name : " " + atom.name).c_str(), name, chain,
-                    atom.position[0] - 100 + 40 * (k / 2 % 6), atom.position[1] - 50 + 40 * (k / 12),
+                    atom.position[0] - 100 + 40 * (k / 2 % 6), atom.position[1] - 50 + 40 * std::floor(k / 12.0),
                     atom.position[2] + 3.4 * (k % 2), atom.element.c_str());
       text += line.data();
     }

@@ -91,7 +91,7 @@ std::string all_texts() {
   s.secondary_structure.push_back({SecondaryStructure::Kind::helix, 0, 9});
   s.secondary_structure.push_back({SecondaryStructure::Kind::strand, 10, 19});
   for (const std::string& note : s.notes)
-    if (note.find("/") == std::string::npos) text << note << '\n';
+    if (note.find('/') == std::string::npos) text << note << '\n';
   for (const TrajectoryFormat format : {TrajectoryFormat::pdb, TrajectoryFormat::cif}) {
     TrajectoryWriter writer(text, format, s, s.atoms.size());
     for (int model = 999; model < 1001; ++model) writer.add(s.models[0], model);

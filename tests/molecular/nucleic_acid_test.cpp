@@ -285,7 +285,7 @@ TEST(NucleicAcid, WithProteinAndMetalsIsCountedByHand) {
   const auto m = molecule(file, true);
   // Two strands of 19 nucleotides without 5' phosphates; two proteins of 57 residues, with three prolines besides the
   // first residue.
-  const std::size_t nucleic = 2 * (18 + 18 + 19 + 18 + 18 + 19), chi = 127, phi = 53, psi = 57;
+  const std::size_t nucleic = std::size_t{2} * (18 + 18 + 19 + 18 + 18 + 19), chi = 127, phi = 53, psi = 57;
   EXPECT_EQ(select_torsions(*m, "all", false).size(), nucleic + 2 * (chi + phi + psi));
   // Each protein has two cadmium ions with four sulphurs each, two of them shared. Of these eight bonds two attach the
   // ions, and six close cycles.

@@ -270,7 +270,7 @@ class XtcPacker {
       const int length = static_cast<int>(run.size());
       if (length != last_run || change != 0) {
         put(1, 1);
-        put(static_cast<std::uint64_t>(3 * length + change + 1), 5);
+        put(static_cast<std::uint64_t>(3) * run.size() + static_cast<std::uint64_t>(change + 1), 5);
       } else {
         put(0, 1);
       }

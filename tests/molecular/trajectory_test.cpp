@@ -133,7 +133,7 @@ TEST(Dcd, TrustsTheSizeNotTheHeader) {
 
 TEST(Dcd, SaysWhereItIsCutShortOrDamaged) {
   const std::string whole = dcd_file(chains(3, 10, true));
-  const std::size_t frame = 3 * (8 + 40);
+  const std::size_t frame = std::size_t{3} * (8 + 40);
   // The complete frames before the cut can be read.
   const TemporaryFile file(whole.substr(0, whole.size() - 50), ".dcd");
   const Structure molecule = atoms(10);

@@ -28,7 +28,7 @@ TEST(Outline, BoundsTheSpeedOfEveryPoint) {
     const double unit = std::pow(10.0, random.uniform(-12.0, 0.0)), size = c % 3 == 0 ? 0.2 * unit : 0.0;
     const Vec3 shape(unit, unit * random.uniform(0.01, 1.0), unit * random.uniform(0.01, 1.0));
     std::vector<Vec3> points;
-    for (std::size_t k = 0; k < count; ++k) points.push_back(random.vector(1.0).cwiseProduct(shape));
+    for (std::size_t k = 0; k < count; ++k) points.emplace_back(random.vector(1.0).cwiseProduct(shape));
     const Vec3 centre = random.vector(0.1 * unit);
     double extent = 0.0;
     for (const Vec3& x : points) extent = std::max(extent, norm(Vec3(x - centre)) + size);
