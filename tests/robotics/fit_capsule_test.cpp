@@ -69,7 +69,7 @@ TEST(FitCapsule, FindsTheCapsuleThatPointsWereTakenFrom) {
   std::vector<Vec3> points;
   for (int k = 0; k < 4000; ++k) {
     const Vec3 on_sphere = 0.2 * test::random_point(stream).normalized();
-    points.push_back(turn * (on_sphere + Vec3(0, 0, k % 2 == 0 ? 0.8 : -0.8)) + Vec3(1, 2, 3));
+    points.emplace_back(turn * (on_sphere + Vec3(0, 0, k % 2 == 0 ? 0.8 : -0.8)) + Vec3(1, 2, 3));
   }
   const Fitted capsule = fitted(points);
   EXPECT_NEAR(capsule.radius, 0.2, 0.002);
@@ -102,7 +102,7 @@ TEST(FitCapsule, IsAsSmallAsTheBestOfManyDirections) {
 TEST(FitCapsule, GivesASphereWhereASegmentWouldNotHelp) {
   SampleStream stream(9, 0);
   std::vector<Vec3> points;
-  for (int k = 0; k < 2000; ++k) points.push_back(0.3 * test::random_point(stream).normalized());
+  for (int k = 0; k < 2000; ++k) points.emplace_back(0.3 * test::random_point(stream).normalized());
   const Fitted sphere = fitted(points);
   EXPECT_LE(sphere.volume(), std::numbers::pi * 4 / 3 * 0.027 * 1.1);
   const Fitted point = fitted(std::vector<Vec3>(3, Vec3(1, 2, 3)));

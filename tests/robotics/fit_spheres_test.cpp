@@ -41,7 +41,7 @@ double largest_radius(std::span<const PlacedShape> spheres) {
 
 TEST(FitSpheres, HoldEveryPointOfEveryTriangle) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    const std::vector<Vec3> points = test::random_points(seed, 3 * 10);
+    const std::vector<Vec3> points = test::random_points(seed, 30);
     std::vector<Triangle> triangles;
     for (std::size_t k = 0; k + 2 < points.size(); k += 3)
       triangles.push_back({points[k], points[k + 1], points[k + 2]});

@@ -123,7 +123,7 @@ inline robustness::Atoms tied_at(Random& r, int lowest, int highest) {
       std::ldexp(1.0, lowest + static_cast<int>(r.below(static_cast<std::size_t>(highest - lowest + 1))));
   const Vec3 p = r.one_in(2) ? Vec3(Vec3::Zero()) : Vec3(whole_point(r, 1 << 10) * unit);
   std::vector<Vec3> points{p, Vec3(p + w.v * unit)};
-  if (r.one_in(3)) points.push_back(whole_point(r, 1 << 10) * unit);
+  if (r.one_in(3)) points.emplace_back(whole_point(r, 1 << 10) * unit);
   return atoms_at(points, neighbour(r, w.length * unit));
 }
 
@@ -132,10 +132,12 @@ inline robustness::Atoms lattice_ties(Random& r) {
   const double spacing =
       static_cast<double>(1 + r.below(1 << 20)) * std::ldexp(1.0, static_cast<int>(r.below(40)) - 30);
   std::vector<Vec3> points;
-  for (std::size_t k = 0; k < side * side * side; ++k)
-    points.emplace_back(Vec3(static_cast<double>(k % side), static_cast<double>(k / side % side),
-                             static_cast<double>(k / side / side)) *
-                        spacing);
+  for (std::size_t k = 0; k < side * side * side; ++k) {
+    const std::size_t layer = k / side / side;
+    points.emplace_back(
+        Vec3(static_cast<double>(k % side), static_cast<double>(k / side % side), static_cast<double>(layer)) *
+        spacing);
+  }
   auto atoms = atoms_at(points, neighbour(r, spacing));
   if (r.one_in(3))
     for (auto& group : atoms.group) group = static_cast<std::int64_t>(r.below(2));
