@@ -149,6 +149,27 @@ Exit run(int argc, char** argv) {
     command = biocd::run_walk;
   });
 
+  CLI::App* relax = app.add_subcommand("relax", "mend the clashes of a conformation and move it as little as possible");
+  biocd::add_model_options(*relax, o);
+  CLI::Option* relaxed = relax->get_option("--free");
+  relaxed->default_str("chi");
+  biocd::add_output_options(*relax, o);
+  biocd::add_out_option(*relax, o);
+  biocd::add_view_option(*relax, o);
+  biocd::add_explain_option(*relax, o);
+  hinge::tool::add_exit_zero(*relax, o.exit_zero);
+  relax->option_defaults()->group(title::moves);
+  biocd::add_closures_option(*relax, o);
+  add_number(*relax, "--tries", o.most_tries, counts,
+             "largest number of random restarts, if descent does not mend all clashes (default: 1000)");
+  add_number(*relax, "--time", o.seconds, lengths_above_0, "begin no restart after this time")->type_name("SECONDS");
+  add_number(*relax, "--seed", o.seed, seeds, "seed of the restarts")->type_name("SEED");
+  relax->callback([&, relaxed] {
+    o.keep_closures = o.keep_closures.value_or(true);
+    if (relaxed->count() == 0) o.free = o.loop.empty() ? "chi" : "(" + o.loop + ") and chi";
+    command = biocd::run_relax;
+  });
+
   CLI::App* merge = app.add_subcommand("merge", "join the outputs of all shards of one run");
   merge->option_defaults()->group(title::input);
   merge->add_option("FILES", o.shards, "outputs of --shard 1/n ... n/n")->required();

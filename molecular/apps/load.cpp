@@ -132,4 +132,11 @@ void explain(const Options& options, const Job& job) {
   fmt::print("  verdict      {}\n", closer ? "closer than the threshold" : "not closer than the threshold");
 }
 
+void require_free_torsions(const Options& options, const Job& job) {
+  if (job.checker.dof_count() == 0)
+    throw hinge::ModelError(
+        "--free " + options.free + ": no torsion is free, expected at least one" +
+        (job.kept.held.empty() ? "" : " (closed cycles hold the torsions; --closures open frees them)"));
+}
+
 }  // namespace biocd

@@ -57,27 +57,28 @@ struct Options {
   bool omega = false;                                        ///< free omega too
   std::string loop;                                          ///< residues of loops; empty: none
   bool keep_hydrogen_bonds = false;                          ///< backbone hydrogen bonds are closures
-  std::vector<std::string> rigid_from;           ///< conformations whose rigid groups stay rigid; empty: none
-  double rigid_tolerance = 0.5;                  ///< angstrom
-  std::optional<bool> keep_closures;             ///< true: close all cycles; false: only loops; nothing: close none
-  bool draws = false;                            ///< sample: conformations are drawn at random
-  bool collision_free = false;                   ///< sample: only conformations that do not collide
-  std::optional<std::uint64_t> most_tries;       ///< sample: starts for each conformation; nothing: see sample.cpp
+  std::vector<std::string> rigid_from;  ///< conformations whose rigid groups stay rigid; empty: none
+  double rigid_tolerance = 0.5;         ///< angstrom
+  std::optional<bool> keep_closures;    ///< true: close all cycles; false: only loops; nothing: close none
+  bool draws = false;                   ///< sample: conformations are drawn at random
+  bool collision_free = false;          ///< sample: only conformations that do not collide
+  std::optional<std::uint64_t>
+      most_tries;  ///< sample: starts for each conformation; relax: restarts; nothing: the default
   std::optional<hinge::molecular::Prior> prior;  ///< sample: nothing: by sigma_degrees
-  std::optional<double> seconds;                 ///< sample: no new start after this time
+  std::optional<double> seconds;                 ///< sample, relax: no new start after this time
   std::string mode = "all";                      ///< check, sample: text of Mode::parse
   Output output = Output::table;                 ///< format of standard output
   std::optional<std::uint64_t> max_pairs;       ///< pairs printed per conformation, 0: all; nothing: see pairs_to_print
   std::optional<By> by;                         ///< check: a table of clashes over all conformations
-  std::optional<Viewer> view;                   ///< check, sample, walk, path: write a viewer script
+  std::optional<Viewer> view;                   ///< check, sample, walk, relax, path: write a viewer script
   bool exit_zero = false;                       ///< status 0 whatever the verdict
   std::string explain;                          ///< "i,j"; empty: explain nothing
   bool atoms = false;                           ///< info: list atoms, bonds and thresholds too
   std::uint64_t count = 1000;                   ///< sample, demo: number of conformations
-  std::uint64_t seed = 1;                       ///< sample, walk, demo
+  std::uint64_t seed = 1;                       ///< sample, walk, relax, demo
   std::optional<double> sigma_degrees;          ///< sample: standard deviation of a torsion; nothing: full range
   unsigned threads = 1;                         ///< check, sample: worker threads
-  std::string out;                              ///< check, sample, walk: file of conformations; demo: folder
+  std::string out;                              ///< check, sample, walk, relax: file of conformations; demo: folder
   bool torsions = false;                        ///< sample: rows contain the torsions
   std::string torsions_out;                     ///< sample: .npy file of the torsions
   bool only_free = false;                       ///< check, sample: `out` gets only conformations that do not collide
@@ -112,6 +113,9 @@ struct Job {
 /// Reads the files and builds the molecule and the checker. Throws LoadError for bad files, ModelError for bad options.
 Job load(const Options& options);
 
+/// Throws ModelError if nothing is free.
+void require_free_torsions(const Options& options, const Job& job);
+
 /// The files that demo may write into its folder.
 inline constexpr const char* demo_files[] = {"speed.svg", "tail.svg",  "worst.pdb",
                                              "worst.cif", "worst.cxc", "worst.pml"};
@@ -126,6 +130,7 @@ Exit run_info(const Options& options);
 Exit run_check(const Options& options);
 Exit run_sample(const Options& options);
 Exit run_walk(const Options& options);
+Exit run_relax(const Options& options);
 Exit run_merge(const Options& options);
 Exit run_path(const Options& options);
 Exit run_demo(const Options& options);

@@ -34,10 +34,7 @@ void check_options(const Options& options, const Job& job) {
   if (!options.place.empty())
     throw hinge::ModelError("--place: a walk changes only torsions, expected no placed parts");
   const std::size_t dof = job.checker.dof_count();
-  if (dof == 0)
-    throw hinge::ModelError(
-        "--free " + options.free + ": no torsion is free, expected at least one" +
-        (job.kept.held.empty() ? "" : " (closed cycles hold the torsions; --closures open frees them)"));
+  require_free_torsions(options, job);
   if (options.changes > dof)
     throw hinge::ModelError(
         fmt::format("--changes {}: expected at most {}, the number of free torsions", options.changes, dof));

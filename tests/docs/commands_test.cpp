@@ -98,7 +98,8 @@ TEST_P(DocumentedCommands, PrintWhatThePageShows) {
 
 INSTANTIATE_TEST_SUITE_P(Pages, DocumentedCommands,
                          testing::Values("README.md", "docs/tutorial/first_protein.md", "docs/tutorial/first_robot.md",
-                                         "docs/guide/clashes_in_chimerax.md", "docs/guide/planner_edge.md"));
+                                         "docs/guide/clashes_in_chimerax.md", "docs/guide/mend_clashes.md",
+                                         "docs/guide/planner_edge.md"));
 
 TEST(ConsoleBlocks, AreReadAndCompared) {
   const std::vector<std::string> page =

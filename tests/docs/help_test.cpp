@@ -24,7 +24,7 @@ struct Case {
   std::vector<std::string> commands;
 };
 
-const std::vector<Case> cases{{"biocd", {"info", "check", "sample", "walk", "merge", "path", "demo"}},
+const std::vector<Case> cases{{"biocd", {"info", "check", "sample", "walk", "relax", "merge", "path", "demo"}},
                               {"robocd", {"info", "check", "matrix", "path"}}};
 
 Said run(const std::string& tool, const std::string& arguments) { return run_tool((tools / tool).string(), arguments); }
@@ -43,7 +43,7 @@ std::vector<std::string> below(const std::string& help, const std::string& title
 
 /// Returns a folder with the data that the examples name.
 fs::path make_folder(const std::string& name) {
-  const fs::path folder = fs::temp_directory_path() / ("hinge_help_" + name + std::to_string(getpid()));
+  fs::path folder = fs::temp_directory_path() / ("hinge_help_" + name + std::to_string(getpid()));
   fs::remove_all(folder);
   fs::create_directories(folder);
   for (const char* data : {"molecular", "robotics"})

@@ -13,7 +13,7 @@ placed parts, slides in angstrom and rotations in rad.
 """
 
 from .._core import molecular as _core
-from ._checker import Checker, Walk
+from ._checker import Checker, Relaxation, Walk
 from ._ensemble import RigidGroups, find_rigid_groups
 from ._molecule import Molecule
 from ._trajectory import Trajectory
@@ -27,6 +27,7 @@ __all__ = [
     "Checker",
     "Molecule",
     "OtherAtoms",
+    "Relaxation",
     "RigidGroups",
     "Trajectory",
     "Walk",
@@ -36,6 +37,6 @@ __all__ = [
     "superpose",
 ]
 
-for _public in (Checker, Molecule, RigidGroups, Trajectory, Walk, find_rigid_groups):
+for _public in (Checker, Molecule, Relaxation, RigidGroups, Trajectory, Walk, find_rigid_groups):
     _public.__module__ = __name__
 del _public

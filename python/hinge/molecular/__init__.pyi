@@ -12,6 +12,7 @@ __all__ = [
     "Checker",
     "Molecule",
     "OtherAtoms",
+    "Relaxation",
     "RigidGroups",
     "Trajectory",
     "Walk",
@@ -109,6 +110,23 @@ class Walk:
     unclosed: int
     def __init__(
         self, configurations: NDArray[np.float64], end: NDArray[np.float64], steps: int, accepted: int, unclosed: int
+    ) -> None: ...
+
+class Relaxation:
+    q: NDArray[np.float64]
+    collisions_before: int | NDArray[np.int64]
+    collisions: int | NDArray[np.int64]
+    energy_before: float | NDArray[np.float64]
+    energy: float | NDArray[np.float64]
+    restarts: int | NDArray[np.int64]
+    def __init__(
+        self,
+        q: NDArray[np.float64],
+        collisions_before: int | NDArray[np.int64],
+        collisions: int | NDArray[np.int64],
+        energy_before: float | NDArray[np.float64],
+        energy: float | NDArray[np.float64],
+        restarts: int | NDArray[np.int64],
     ) -> None: ...
 
 class Trajectory:
@@ -261,6 +279,18 @@ class Checker:
         start: ArrayLike | None = None,
         progress: _Progress = None,
     ) -> Walk: ...
+    def steric(
+        self, q: ArrayLike, softness: float = 0.0, *, threads: int | None = None, progress: _Progress = None
+    ) -> tuple[float, NDArray[np.float64]] | tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+    def relax(
+        self,
+        q: ArrayLike | None = None,
+        *,
+        tries: int = 1000,
+        seed: int = 1,
+        threads: int | None = None,
+        progress: _Progress = None,
+    ) -> Relaxation: ...
     def fit(self, x: ArrayLike | Trajectory, *, progress: _Progress = None) -> NDArray[np.float64]: ...
     @property
     def molecule(self) -> Molecule: ...

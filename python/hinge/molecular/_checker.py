@@ -28,6 +28,23 @@ class Walk:
     unclosed: int
 
 
+@dataclasses.dataclass(frozen=True)
+class Relaxation:
+    """The result of Checker.relax(), for one configuration or for n of them (arrays of shape (n,)).
+
+    q: the relaxed configurations, shape as given. collisions_before, collisions: numbers of pairs that collide at the
+    start and at q. energy_before, energy: steric(..., 0) there, square angstrom. restarts: random restarts that were
+    made.
+    """
+
+    q: np.ndarray
+    collisions_before: "int | np.ndarray"
+    collisions: "int | np.ndarray"
+    energy_before: "float | np.ndarray"
+    energy: "float | np.ndarray"
+    restarts: "int | np.ndarray"
+
+
 def _integer(name, value, least):
     """An integer of 64 bits, at least `least`."""
     try:
@@ -240,6 +257,29 @@ class Checker(_core.CheckerBase):
         step_size = _number("step_size", step_size)
         rows, end, accepted, unclosed = self._walk(steps, step_size, changes, seed, every, start, progress)
         return Walk(rows, end, steps, accepted, unclosed)
+
+    def steric(self, q, softness=0.0, *, threads=None, progress=None):
+        """Return the steric energy and its gradient, a smooth measure of the clashes.
+
+        q: shape (dof,) or (n, dof). softness: angstrom. Returns (energy, gradient): the sum of (M + softness - d)^2
+        over the tested pairs with d < M + softness (square angstrom; a float, or shape (n,)), and its derivatives by
+        the values of q (shape of q; square angstrom per rad, or angstrom for moves of placed parts).
+        """
+        energy, gradient = self._steric(q, softness, threads, progress)
+        return (float(energy[0]), gradient[0]) if np.ndim(q) == 1 else (energy, gradient)
+
+    def relax(self, q=None, *, tries=1000, seed=1, threads=None, progress=None):
+        """Mend the clashes of configurations and move them as little as possible, as `biocd relax` does.
+
+        q: shape (dof,) or (n, dof); None: the reference. Cycles that the checker keeps are closed at q and stay
+        closed. tries: largest number of random restarts, if descent does not mend all clashes. seed: of the restarts.
+        Returns a Relaxation. It never has more colliding pairs than q; look at `collisions` to see what is left.
+        """
+        given = np.zeros(self.dof) if q is None else q
+        found = self._relax(given, _integer("tries", tries, 0), _integer("seed", seed, 0), threads, progress)
+        if np.ndim(given) == 1:
+            return Relaxation(found[0][0], *(value[0].item() for value in found[1:]))
+        return Relaxation(*found)
 
     def fit(self, x, *, progress=None):
         """Return the configurations with the torsions of given coordinates, shape (n, dof), rad.

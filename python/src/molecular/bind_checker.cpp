@@ -237,6 +237,7 @@ void bind_checker(py::module_& module) {
   add_coordinates(checker);
   add_sampling(checker);
   add_paths(checker);
+  add_relaxation(checker);
 }
 
 }  // namespace hinge::python

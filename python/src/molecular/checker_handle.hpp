@@ -63,5 +63,6 @@ void add_facts(CheckerClass& checker);        ///< rules and selection
 void add_coordinates(CheckerClass& checker);  ///< answers for given coordinates
 void add_sampling(CheckerClass& checker);     ///< samples and walks
 void add_paths(CheckerClass& checker);        ///< certified paths
+void add_relaxation(CheckerClass& checker);   ///< steric energies, relaxation
 
 }  // namespace hinge::python

@@ -160,6 +160,44 @@ def test_walk(molecules, tmp_path):
     assert np.array_equal(walk.end, walk.configurations[-1])
 
 
+def test_relax(molecules, tmp_path):
+    coordinates = tmp_path / "x.npy"
+    told = biocd("relax", "1ubq", "--out", coordinates, ok=(0,))
+    c = hm.Checker(molecules("1ubq"), "chi")
+    found = c.relax()
+    assert (found.collisions_before, found.collisions, found.restarts) == (1, 0, told["restarts"])
+    assert c.positions(found.q[None]).tobytes() == np.load(coordinates).tobytes()
+    moved = {change["dof"]: change["degrees"] for change in told["changes"]}
+    turned = [(label, turn) for label, turn in zip(c.dof_labels, np.degrees(found.q)) if abs(turn) > 0.05]
+    assert dict(turned) == pytest.approx(moved, abs=1e-3)
+
+    # Several at once, for any number of threads.
+    q = np.random.default_rng(3).normal(0.0, 0.4, (6, c.dof))
+    one, three = c.relax(q, seed=2, threads=1), c.relax(q, seed=2, threads=3)
+    assert one.q.tobytes() == three.q.tobytes() and one.q.shape == q.shape
+    assert np.array_equal(one.collisions_before, np.bincount(c.pairs(q)["conformation"], minlength=6))
+    assert np.array_equal(one.collisions, np.bincount(c.pairs(one.q)["conformation"], minlength=6))
+    assert np.all(one.collisions < one.collisions_before) and np.all(one.energy < one.energy_before)
+
+
+def test_steric(molecules):
+    c = hm.Checker(molecules("1ubq"), "A:60-76")
+    q = np.random.default_rng(4).normal(0.0, 0.5, (5, c.dof))
+    energy, gradient = c.steric(q, 0.1)
+    assert energy.shape == (5,) and gradient.shape == q.shape
+    for k in range(5):
+        pairs = c.pairs(q[k], within=0.1)
+        assert energy[k] == pytest.approx(np.sum((pairs["threshold"] + 0.1 - pairs["distance"]) ** 2), rel=1e-12)
+        one, slope = c.steric(q[k], 0.1)
+        assert one == energy[k] and slope.tobytes() == gradient[k].tobytes()
+        steps = 1e-6 * np.eye(c.dof)
+        differences = (c.steric(q[k] + steps, 0.1)[0] - c.steric(q[k] - steps, 0.1)[0]) / 2e-6
+        assert np.allclose(slope, differences, atol=1e-6 * np.abs(slope).max())
+    assert c.steric(np.zeros(c.dof))[0] >= 0.0
+    with pytest.raises(ValueError, match="softness"):
+        c.steric(q, -1.0)
+
+
 @pytest.mark.parametrize("name", ["1ubq", "1crn"])
 def test_path(molecules, name):
     c = hm.Checker(molecules(name), "A:30-40", closures="open", exempt_reference=True)

@@ -68,6 +68,15 @@ struct Verdict {
   std::vector<double> closure_residuals{};
 };
 
+/// A smooth measure of the clashes of a conformation, with its derivatives.
+struct Steric {
+  /// Sum of (M + softness - d)^2 over the tested pairs with d < M + softness, square angstrom.
+  double energy = 0.0;
+  /// Derivatives of the energy, one per selected DOF: square angstrom per rad, or angstrom for slides. A pair of atoms
+  /// at the same place adds nothing, because it has no direction.
+  std::vector<double> gradient;
+};
+
 /// Tests conformations of one molecule. One per thread: checks change its state. Copies share all constant data.
 class HINGE_API Checker {
  public:
@@ -114,6 +123,10 @@ class HINGE_API Checker {
   /// conformations that are near each other and mostly free. Throws ConfigurationError if the number of values is
   /// wrong, or as check(), naming the configuration.
   std::vector<std::uint8_t> check_batch(std::span<const double> conformations);
+  /// Returns the steric energy at q and its gradient. Pairs of constant distance do not count. Costs one query and one
+  /// sweep from the outermost rigid groups to the root. softness: angstrom. The bits of the result do not depend on the
+  /// engine or the instruction set. Throws ConfigurationError as check(), and if softness is negative or not finite.
+  Steric steric(std::span<const double> q, double softness);
   /// Tests given coordinates. positions: angstrom, one per atom. Every admitted pair is tested, independent of the
   /// selection. Distances of atoms whose coordinates have at most three decimals, as in files, are compared in exact
   /// decimals.

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Relaxation: side chains of known structures are turned by 60 to 120 degrees until they clash, and relaxed (biocd
+// relax). Says how many become free, how far atoms move and how long it takes; then the time of an energy with its
+// gradient beside that of a list of colliding pairs. One thread. Argument: number of conformations per row.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "hinge/core/philox.hpp"
+#include "hinge/core/vec3.hpp"
+#include "hinge/molecular/checker.hpp"
+#include "hinge/molecular/kept_closures.hpp"
+#include "hinge/molecular/molecule.hpp"
+#include "hinge/molecular/read_structure.hpp"
+#include "hinge/molecular/relax.hpp"
+#include "hinge/molecular/selection.hpp"
+
+namespace {
+
+using namespace hinge::molecular;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+std::vector<hinge::Vec3> positions_at(Checker& checker, const std::vector<double>& q) {
+  checker.check(q, Mode{});
+  return checker.positions();
+}
+
+/// Returns the root of the mean squared displacement of the atoms that moved, angstrom.
+double moved(const std::vector<hinge::Vec3>& from, const std::vector<hinge::Vec3>& to) {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const double square = hinge::squared_norm(hinge::Vec3(to[i] - from[i]));
+    sum += square;
+    if (square > 2.5e-7) count += 1.0;
+  }
+  return std::sqrt(sum / std::max(count, 1.0));
+}
+
+/// Returns nanoseconds per call of ask(q), the least of five rounds.
+template <class Ask>
+double nanoseconds(const std::vector<std::vector<double>>& configurations, const Ask& ask) {
+  double least = HUGE_VAL;
+  for (int round = 0; round < 5; ++round) {
+    const Clock::time_point start = Clock::now();
+    for (const std::vector<double>& q : configurations) ask(q);
+    least = std::min(least, seconds_since(start) * 1e9 / static_cast<double>(configurations.size()));
+  }
+  return least;
+}
+
+void run(const std::filesystem::path& file, const std::string& name, std::size_t turned, std::size_t count) {
+  const auto molecule = std::make_shared<const Molecule>(read_structure(file));
+  const KeptClosures kept = find_kept_closures(*molecule, select_torsions(*molecule, "chi", false), Closures::all);
+  Checker checker(molecule, molecule->select(kept.torsions), {});
+  const std::vector<double> reference(checker.dof_count(), 0.0);
+  const std::size_t goal = checker.check(reference, Mode{Mode::Kind::all}).pairs.size();
+  RelaxOptions how;
+  how.closures = kept.closures;
+  std::size_t made = 0, mended = 0, little = 0, restarted = 0;
+  double before = 0.0, total = 0.0, longest = 0.0;
+  std::vector<double> displacements;
+  std::vector<std::vector<double>> starts;
+  for (std::uint64_t k = 0; made < count; ++k) {
+    hinge::SampleStream stream(1, k);
+    std::vector<double> q = reference;
+    for (std::size_t t = 0; t < turned; ++t) {
+      const auto at = static_cast<std::size_t>(stream.uniform() * static_cast<double>(q.size()));
+      q[at] += (stream.uniform() < 0.5 ? -1.0 : 1.0) * (60.0 + 60.0 * stream.uniform()) * std::numbers::pi / 180.0;
+    }
+    const std::size_t collisions = checker.check(q, Mode{Mode::Kind::all}).pairs.size();
+    if (collisions <= goal) continue;
+    ++made;
+    before += static_cast<double>(collisions);
+    const Clock::time_point start = Clock::now();
+    const Relaxation relaxed = relax(checker, q, how);
+    const double seconds = seconds_since(start);
+    total += seconds;
+    longest = std::max(longest, seconds);
+    restarted += relaxed.restarts > 0 ? 1U : 0U;
+    starts.push_back(q);
+    if (relaxed.collisions > goal) continue;
+    ++mended;
+    displacements.push_back(moved(positions_at(checker, q), positions_at(checker, relaxed.q)));
+    if (displacements.back() < 0.5) ++little;
+  }
+  std::sort(displacements.begin(), displacements.end());
+  const double pairs = nanoseconds(starts, [&](const auto& q) { checker.check(q, Mode{Mode::Kind::all}); });
+  const double steric = nanoseconds(starts, [&](const auto& q) { checker.steric(q, 0.02); });
+  const auto share = [&](std::size_t part) { return 100.0 * static_cast<double>(part) / static_cast<double>(count); };
+  std::printf("%-6s %6zu %5zu %7zu %8.1f %9.1f %9.1f %8.2f %9.1f %9.1f %8.1f %9.1f %9.1f\n", name.c_str(),
+              molecule->structure().atoms.size(), checker.dof_count(), turned, before / static_cast<double>(count),
+              share(mended), share(restarted), displacements.empty() ? 0.0 : displacements[displacements.size() / 2],
+              share(little), 1e3 * total / static_cast<double>(count), 1e3 * longest, pairs * 1e-3, steric * 1e-3);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto count = static_cast<std::size_t>(argc > 1 ? std::atoi(argv[1]) : 200);
+  const std::filesystem::path root = HINGE_SOURCE_DIR, data = root / "tests/molecular/data";
+  std::printf("flags: %s; seed 1; %zu conformations per row; all side chains free\n", HINGE_BENCH_FLAGS, count);
+  std::printf("%-6s %6s %5s %7s %8s %9s %9s %8s %9s %9s %8s %9s %9s\n", "", "atoms", "DOF", "turned", "clashes",
+              "mended %", "restart %", "RMSD A", "<0.5 A %", "mean ms", "max ms", "pairs us", "steric us");
+  for (const std::size_t turned : {1U, 5U}) {
+    run(root / "molecular/data/1ubq.pdb", "1UBQ", turned, count);
+    run(data / "1crn.pdb.gz", "1CRN", turned, count);
+    run(data / "1l2y.pdb.gz", "1L2Y", turned, count);
+    run(data / "5pti.pdb.gz", "5PTI", turned, count);
+    run(data / "2src.pdb.gz", "2SRC", turned, count);
+    run(data / "4hhb.pdb.gz", "4HHB", turned, count);
+  }
+  return 0;
+}

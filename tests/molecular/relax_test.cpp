@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Checker::steric against sums over all pairs and finite differences; relax: turned side chains, loops, disulphides and
+// placed parts become free by brute force, and nothing becomes worse.
+#include "hinge/molecular/relax.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "hinge/core/philox.hpp"
+#include "hinge/core/vec3.hpp"
+#include "hinge/molecular/kept_closures.hpp"
+#include "hinge/molecular/loop.hpp"
+#include "hinge/molecular/part.hpp"
+#include "hinge/molecular/selection.hpp"
+#include "molecular/test_files.hpp"
+
+namespace hinge::molecular {
+namespace relax_test {
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+/// A molecule with free torsions, as biocd relax makes it.
+struct Question {
+  Question(const Structure& structure, const std::string& free, const std::string& engine = "simd",
+           const std::string& loop = "", const std::string& placed = "") {
+    MoleculeOptions made;
+    if (!loop.empty()) made.loops = find_loops(structure, loop);
+    if (!placed.empty()) made.placed.push_back(find_part(structure, placed));
+    molecule = std::make_shared<const Molecule>(structure, made);
+    const auto torsions =
+        loop.empty() ? select_torsions(*molecule, free, false) : select_loop_torsions(*molecule, free, false);
+    const KeptClosures kept = find_kept_closures(*molecule, torsions, Closures::all);
+    how.closures = kept.closures;
+    options.engine = engine;
+    checker.emplace(molecule, molecule->select_placed(kept.torsions), options);
+  }
+  Verdict by_brute_force(const std::vector<double>& q) const {
+    CheckOptions other = options;
+    other.engine = "brute";
+    return Checker(molecule, checker->selection(), other).check(q, Mode{Mode::Kind::all});
+  }
+  std::vector<double> reference() const { return std::vector<double>(checker->dof_count(), 0.0); }
+  /// Returns the root of the mean squared displacement of the atoms that differ between two configurations, angstrom.
+  double moved(const std::vector<double>& from, const std::vector<double>& to) {
+    checker->check(from, Mode{});
+    const std::vector<Vec3> x = checker->positions();
+    checker->check(to, Mode{});
+    const std::vector<Vec3> y = checker->positions();
+    double sum = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double square = squared_norm(Vec3(x[i] - y[i]));
+      sum += square;
+      if (square > 1e-6) count += 1.0;
+    }
+    return std::sqrt(sum / std::max(1.0, count));
+  }
+
+  std::shared_ptr<const Molecule> molecule;
+  CheckOptions options;
+  RelaxOptions how;
+  std::optional<Checker> checker;
+};
+
+std::vector<double> random_turns(const Checker& checker, double sigma, std::uint64_t seed) {
+  std::vector<double> q(checker.dof_count());
+  SampleStream stream(seed, 0);
+  for (double& value : q) value = sigma * stream.normal();
+  return q;
+}
+
+Structure structure_of(const std::string& name) {
+  return read_structure(name == "1ubq" ? test::ubiquitin() : test::molecule_file(name));
+}
+
+TEST(Steric, IsTheSumOverAllPairsWithItsDerivatives) {
+  struct Case {
+    std::string file, free, loop, placed;
+  };
+  for (const Case& c : {Case{"1ubq", "all", "", ""}, Case{"1ubq", "chi", "", ""}, Case{"1ubq", "chi", "A:7-11", ""},
+                        Case{"1hpx.pdb", "none", "", "B"}, Case{"1l2y.pdb", "all", "", ""}}) {
+    SCOPED_TRACE(c.file + " " + c.free + " " + c.loop + c.placed);
+    Question question(structure_of(c.file), c.free, "simd", c.loop, c.placed);
+    Checker& checker = *question.checker;
+    for (const double softness : {0.0, 0.3}) {
+      const std::vector<double> q = random_turns(checker, 0.3, 11);
+      const Steric steric = checker.steric(q, softness);
+      ASSERT_EQ(steric.gradient.size(), checker.dof_count());
+      double sum = 0.0;
+      for (const Contact& pair : checker.check(q, Mode{Mode::Kind::within, softness}).pairs)
+        sum += std::pow(pair.hit.threshold + softness - pair.hit.distance, 2);
+      EXPECT_NEAR(steric.energy, sum, 1e-12 * sum);
+      EXPECT_GT(steric.energy, 0.0);
+      double scale = 0.0;
+      for (const double value : steric.gradient) scale = std::max(scale, std::abs(value));
+      for (std::size_t k = 0; k < q.size(); ++k) {
+        constexpr double step = 1e-6;
+        std::vector<double> a = q, b = q;
+        a[k] += step;
+        b[k] -= step;
+        const double slope = (checker.steric(a, softness).energy - checker.steric(b, softness).energy) / (2 * step);
+        EXPECT_NEAR(steric.gradient[k], slope, 1e-7 * scale) << k;
+      }
+    }
+  }
+}
+
+TEST(Steric, HasTheSameBitsForEveryEngine) {
+  Question simd(structure_of("1ubq"), "all"), lazy(structure_of("1ubq"), "all", "lazy"),
+      brute(structure_of("1ubq"), "all", "brute");
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const std::vector<double> q = random_turns(*simd.checker, 0.2, seed);
+    const Steric expected = simd.checker->steric(q, 0.1);
+    for (Question* other : {&lazy, &brute}) {
+      const Steric found = other->checker->steric(q, 0.1);
+      EXPECT_EQ(found.energy, expected.energy);
+      EXPECT_EQ(found.gradient, expected.gradient);
+    }
+  }
+}
+
+TEST(Steric, DoesNotDependOnThePlaceOfTheMolecule) {
+  Structure far = structure_of("1ubq");
+  for (Vec3& x : far.models.front()) x += Vec3(1000.0, -2000.0, 500.0);
+  Question here(structure_of("1ubq"), "all"), there(far, "all");
+  const std::vector<double> q = random_turns(*here.checker, 0.2, 5);
+  const Steric a = here.checker->steric(q, 0.1), b = there.checker->steric(q, 0.1);
+  EXPECT_NEAR(a.energy, b.energy, 1e-9 * a.energy);
+  double scale = 0.0;
+  for (const double value : a.gradient) scale = std::max(scale, std::abs(value));
+  for (std::size_t k = 0; k < q.size(); ++k) EXPECT_NEAR(a.gradient[k], b.gradient[k], 1e-9 * scale);
+}
+
+TEST(Steric, RefusesBadArguments) {
+  Question question(structure_of("1ubq"), "A:70-76");
+  std::vector<double> q = question.reference();
+  for (const double softness : {-1e-300, std::numeric_limits<double>::infinity(), std::nan("")})
+    EXPECT_THROW(question.checker->steric(q, softness), ConfigurationError);
+  q.back() = std::nan("");
+  EXPECT_THROW(question.checker->steric(q, 0.0), ConfigurationError);
+  q.pop_back();
+  EXPECT_THROW(question.checker->steric(q, 0.0), ConfigurationError);
+}
+
+// Turns random side chains by 60 to 120 degrees and relaxes what collides.
+TEST(Relax, MendsTurnedSideChains) {
+  const int times = std::getenv("HINGE_TEST_ALL") != nullptr ? 20 : 1;
+  for (const std::string file : {"1ubq", "5pti.pdb", "1crn.pdb", "1l2y.pdb", "2src.pdb", "4hhb.pdb"}) {
+    SCOPED_TRACE(file);
+    Question question(structure_of(file), "chi");
+    const std::size_t goal = question.by_brute_force(question.reference()).pairs.size();
+    int tried = 0, mended = 0;
+    for (std::uint64_t seed = 1; tried < 5 * times; ++seed) {
+      SampleStream stream(seed, 0);
+      std::vector<double> q = question.reference();
+      for (std::size_t turned = 0; turned < 1 + seed % 4; ++turned) {
+        const auto k = static_cast<std::size_t>(stream.uniform() * static_cast<double>(q.size()));
+        q[k] += (stream.uniform() < 0.5 ? -1.0 : 1.0) * (60.0 + 60.0 * stream.uniform()) * degree;
+      }
+      const std::size_t before = question.by_brute_force(q).pairs.size();
+      if (before <= goal) continue;
+      ++tried;
+      const Relaxation relaxed = relax(*question.checker, q, question.how);
+      EXPECT_EQ(relaxed.collisions_before, before);
+      EXPECT_EQ(relaxed.collisions, question.by_brute_force(relaxed.q).pairs.size());
+      if (relaxed.collisions <= goal) ++mended;
+      EXPECT_LE(relaxed.collisions, before);
+    }
+    EXPECT_GE(mended, 0.9 * tried);
+  }
+}
+
+TEST(Relax, MovesLittleWhereLittleIsNeeded) {
+  Question question(structure_of("1ubq"), "chi");
+  const Relaxation relaxed = relax(*question.checker, question.reference());
+  EXPECT_EQ(relaxed.collisions_before, 1U);
+  EXPECT_EQ(relaxed.collisions, 0U);
+  EXPECT_EQ(relaxed.restarts, 0U);
+  EXPECT_EQ(std::ranges::count_if(relaxed.q, [](double value) { return value != 0.0; }), 1);
+  EXPECT_LT(question.moved(question.reference(), relaxed.q), 0.5);
+  // A file with three decimals is free, too.
+  question.checker->check(relaxed.q, Mode{});
+  std::vector<Vec3> rounded = question.checker->positions();
+  for (Vec3& x : rounded)
+    for (double& value : x) value = std::round(value * 1000.0) / 1000.0;
+  EXPECT_FALSE(question.checker->check_coordinates(rounded, Mode{}).collides);
+}
+
+TEST(Relax, KeepsCyclesClosed) {
+  struct Case {
+    std::string file, free, loop;
+    double sigma;
+  };
+  for (const Case& c : {Case{"1ubq", "chi", "A:7-11", 0.0}, Case{"5pti.pdb", "A:12-40", "", 0.06}}) {
+    SCOPED_TRACE(c.file);
+    Question question(structure_of(c.file), c.free, "simd", c.loop);
+    ASSERT_FALSE(question.how.closures.empty());
+    ClosureSolver solver(question.molecule->model().tree(), question.checker->selection(), question.how.closures);
+    std::vector<double> q = random_turns(*question.checker, c.sigma, 3);
+    if (c.sigma == 0.0)  // turn a side chain beside the loop instead
+      for (std::size_t k = 0; k < q.size(); ++k)
+        if (question.molecule->torsions()[question.molecule->torsion_of(question.checker->selection().dofs()[k])]
+                .name == "chi1")
+          q[k] = 90.0 * degree;
+    ASSERT_TRUE(solver.close(q));
+    const Relaxation relaxed = relax(*question.checker, q, question.how);
+    EXPECT_GT(relaxed.collisions_before, 0U);
+    EXPECT_LT(relaxed.collisions, relaxed.collisions_before);
+    const Verdict verdict = question.by_brute_force(relaxed.q);
+    EXPECT_EQ(verdict.pairs.size(), relaxed.collisions);
+    for (const std::size_t closure : question.how.closures) EXPECT_LT(verdict.closure_residuals[closure], 1e-8);
+  }
+}
+
+TEST(Relax, MovesAPlacedLigandOutOfItsPocketWall) {
+  ReadOptions read;
+  read.hetero = true;
+  Question question(read_structure(test::molecule_file("1hpx.pdb"), read), "KNI", "simd", "", "KNI");
+  std::vector<double> q = question.reference();
+  const PlacedPart& part = question.molecule->placed_parts().front();
+  for (std::size_t k = 0; k < q.size(); ++k)
+    if (question.checker->selection().dofs()[k] == part.dofs[1]) q[k] = 1.0;  // angstrom
+  const Relaxation relaxed = relax(*question.checker, q, question.how);
+  EXPECT_GT(relaxed.collisions_before, 1U);
+  EXPECT_EQ(relaxed.collisions, 0U);
+  EXPECT_TRUE(question.by_brute_force(relaxed.q).pairs.empty());
+  EXPECT_LT(question.moved(q, relaxed.q), 1.5);
+}
+
+TEST(Relax, LeavesTheStartWhereNothingCanBeDone) {
+  Question free(structure_of("1ubq"), "A:1-10 and chi");
+  const Relaxation nothing = relax(*free.checker, free.reference());
+  EXPECT_EQ(nothing.q, free.reference());
+  EXPECT_EQ(nothing.collisions_before, 0U);
+  EXPECT_EQ(nothing.restarts, 0U);
+
+  // With radii twice as large, every conformation collides in many pairs.
+  const Structure structure = structure_of("1ubq");
+  const auto molecule = std::make_shared<const Molecule>(structure);
+  CheckOptions large;
+  large.thresholds.rules = "biocd";
+  large.thresholds.rho = 2.0;
+  const Checker hopeless(molecule, molecule->select(select_torsions(*molecule, "A:20-30 and chi", false)), large);
+  RelaxOptions few;
+  few.most_restarts = 5;
+  const std::vector<double> start(hopeless.dof_count(), 0.0);
+  const Relaxation tried = relax(hopeless, start, few);
+  EXPECT_EQ(tried.restarts, 5U);
+  EXPECT_GT(tried.collisions, 0U);
+  EXPECT_LE(tried.collisions, tried.collisions_before);
+  EXPECT_TRUE(tried.collisions < tried.collisions_before || tried.energy < tried.energy_before || tried.q == start);
+  EXPECT_EQ(relax(hopeless, start, few).q, tried.q);  // depends on the arguments alone
+
+  int calls = 0;
+  const Relaxation stopped = relax(hopeless, start, {}, [&] { return ++calls == 3; });
+  EXPECT_TRUE(stopped.stopped);
+  EXPECT_EQ(calls, 3);
+  EXPECT_LE(stopped.collisions, stopped.collisions_before);
+  EXPECT_THROW(relax(hopeless, start, {}, []() -> bool { throw std::runtime_error("stop"); }), std::runtime_error);
+}
+
+TEST(Relax, RefusesBadArguments) {
+  Question question(structure_of("1ubq"), "A:70-76");
+  std::vector<double> q = question.reference();
+  q[0] = std::nan("");
+  EXPECT_THROW(relax(*question.checker, q), ConfigurationError);
+  q.pop_back();
+  EXPECT_THROW(relax(*question.checker, q), ConfigurationError);
+  EXPECT_THROW(relax(*question.checker, question.reference(), {.closures = {7}}), ModelError);
+  Question nothing(structure_of("1ubq"), "none");
+  EXPECT_THROW(relax(*nothing.checker, {}), ModelError);
+}
+
+}  // namespace relax_test
+}  // namespace hinge::molecular
