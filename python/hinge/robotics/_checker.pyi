@@ -101,6 +101,15 @@ class Checker:
         threads: int | None = None,
         progress: _Progress = None,
     ) -> _Rows: ...
+    def clearances(
+        self,
+        q: ArrayLike,
+        *,
+        influence: float,
+        against: _Against = "all",
+        threads: int | None = None,
+        progress: _Progress = None,
+    ) -> tuple[_Rows, _Floats]: ...
     def closest(
         self, q: ArrayLike, *, against: _Against = "all", threads: int | None = None, progress: _Progress = None
     ) -> _Rows: ...

@@ -31,6 +31,34 @@ def test_distances_are_exact_and_points_lie_on_the_surfaces():
     assert near.colliding_links([1.9], against="self") == []
 
 
+def test_clearances_have_normals_depths_and_derivatives():
+    world = hr.Environment()
+    world.add(hr.Box((1, 9, 9)), (3, 0, 0), "wall")
+    world.add(hr.Sphere(0.5), (0, 2, 0), "marble")
+    c = hr.Checker(slider(), environment=world, clearance=0.25)
+    rows, jacobian = c.clearances([1.0], influence=5.0, against="environment")
+    assert jacobian.shape == (len(rows), c.dof)
+    assert set(c.named(rows)) == {(x, y) for x in ("cube", "ball") for y in ("wall", "marble")}
+    walls = [k for k, names in enumerate(c.named(rows)) if names == ("cube", "wall")]
+    row = rows[walls[0]]
+    assert (row["distance"], row["gap"], row["is_signed"]) == (1.0, 0.75, False)
+    assert row["normal"].tolist() == [1.0, 0.0, 0.0] and jacobian[walls[0]].tolist() == [-1.0]
+
+    # Several configurations, central differences, any number of threads.
+    q = np.linspace(-1.5, 1.3, 40)[:, None]
+    rows, jacobian = c.clearances(q, influence=9.0)
+    again, slopes = c.clearances(q, influence=9.0, threads=3)
+    assert rows.tobytes() == again.tobytes() and jacobian.tobytes() == slopes.tobytes()
+    ahead, behind = c.clearances(q + 1e-6, influence=9.0)[0], c.clearances(q - 1e-6, influence=9.0)[0]
+    assert len(ahead) == len(behind) == len(rows) > 100
+    right, left = (ahead["distance"] - rows["distance"]) * 1e6, (rows["distance"] - behind["distance"]) * 1e6
+    smooth = (np.abs(right - left) < 1e-3) & (np.linalg.norm(rows["normal"], axis=1) > 0)
+    assert smooth.sum() > 100
+    assert np.allclose(jacobian[smooth, 0], (right + left)[smooth] / 2, atol=1e-4)
+    with pytest.raises(ValueError, match="influence"):
+        c.clearances(q, influence=-1)
+
+
 def test_random_spheres_against_brute_force():
     random = np.random.default_rng(SEED)
     centers, radii = random.uniform(-2, 2, (60, 3)), random.uniform(0.01, 0.2, 60)

@@ -22,6 +22,7 @@
 #include "hinge/query/link_pair_hits.hpp"
 #include "hinge/query/mode.hpp"
 #include "hinge/robotics/any_hierarchy.hpp"
+#include "hinge/robotics/clearance.hpp"
 #include "hinge/robotics/contact.hpp"
 #include "hinge/robotics/containment.hpp"
 #include "hinge/robotics/link_margins.hpp"
@@ -131,6 +132,16 @@ class HINGE_API RobotChecker {
   /// Returns the pair with the smallest d - M, computed like distances(), or nothing if no pair is tested.
   std::optional<ClosestLinks> closest();
 
+  /// Returns the pairs of distances(influence) as clearances with normals, and with depths where there are any. Throws
+  /// as distances().
+  std::vector<LinkClearance> clearances(double influence);
+  /// Returns the derivatives of the distances by the independent joints at the current state: row k is
+  /// normal . (J2(point2) - J1(point1)) of rows[k], with mimic joints added to the joint that they follow. Where
+  /// several pairs of points are equally close, the distance has a kink and this is the derivative of one side. Rows
+  /// without a direction are 0. rows: from clearances() at this state. Throws ModelError if the robot does not have a
+  /// link.
+  ClearanceJacobian jacobian(std::span<const LinkClearance> rows);
+
   /// Calls update() and the queries of `mode`.
   Verdict check(std::span<const double> independent, const Mode& mode);
   /// Returns one verdict per configuration: 1 if it collides, otherwise 0, as collides() after update().
@@ -155,6 +166,10 @@ class HINGE_API RobotChecker {
   std::vector<BodyContact> within(Environment& environment, double margin);
   /// Returns the pairs of within(environment, margin) with their smallest d - M and closest points (world frame).
   std::vector<ClosestBody> distances(Environment& environment, double margin);
+  /// Returns the pairs of distances(environment, influence) as clearances; see clearances(influence).
+  std::vector<BodyClearance> clearances(Environment& environment, double influence);
+  /// Returns the derivatives of these distances by the independent joints; see the function for links above.
+  ClearanceJacobian jacobian(std::span<const BodyClearance> rows);
   /// Returns the pair with the smallest d - M, or nothing if no pair is tested.
   std::optional<ClosestBody> closest(Environment& environment);
 
