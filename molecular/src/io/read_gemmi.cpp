@@ -231,6 +231,7 @@ gemmi::Structure parse(const std::string& bytes, const std::string& path, bool c
     raw.recorded = recorded_of(document);
     keep_what_is_read(document);
     number_atoms(document, ids);
+    // NOLINTNEXTLINE(performance-move-const-arg): gemmi 0.6 and later take the document
     return gemmi::make_structure(std::move(document));
   }
   gemmi::PdbReadOptions options;
