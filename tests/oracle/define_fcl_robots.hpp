@@ -24,7 +24,7 @@ using Tree = fcl::BVHModel<fcl::OBBRSS<double>>;
 using Transforms = std::vector<fcl::Transform3d, Eigen::aligned_allocator<fcl::Transform3d>>;
 using Manager = fcl::DynamicAABBTreeCollisionManager<double>;
 
-fcl::Transform3d transform(const Placement& p) {
+inline fcl::Transform3d transform(const Placement& p) {
   fcl::Transform3d x = fcl::Transform3d::Identity();
   for (std::size_t r = 0; r < 3; ++r) {
     const auto row = static_cast<int>(r);
@@ -34,7 +34,7 @@ fcl::Transform3d transform(const Placement& p) {
   return x;
 }
 
-std::shared_ptr<Tree> filled(std::span<const Mesh> meshes) {
+inline std::shared_ptr<Tree> filled(std::span<const Mesh> meshes) {
   std::size_t triangles = 0;
   for (const Mesh& mesh : meshes) triangles += mesh.size();
   auto tree = std::make_shared<Tree>();
@@ -43,7 +43,7 @@ std::shared_ptr<Tree> filled(std::span<const Mesh> meshes) {
     for (const auto& t : mesh) tree->addTriangle({t[0], t[1], t[2]}, {t[3], t[4], t[5]}, {t[6], t[7], t[8]});
   return tree;
 }
-std::shared_ptr<Tree> built(std::span<const Mesh> meshes) {
+inline std::shared_ptr<Tree> built(std::span<const Mesh> meshes) {
   auto tree = filled(meshes);
   tree->endModel();
   return tree;
@@ -55,12 +55,12 @@ bool touch(const A& a, const B& b) {
   fcl::CollisionResult<double> result;
   return fcl::collide(a, b, request, result) > 0;
 }
-bool touch(const Tree* a, const fcl::Transform3d& at_a, const Tree* b, const fcl::Transform3d& at_b) {
+inline bool touch(const Tree* a, const fcl::Transform3d& at_a, const Tree* b, const fcl::Transform3d& at_b) {
   const fcl::CollisionRequest<double> request;
   fcl::CollisionResult<double> result;
   return fcl::collide(a, at_a, b, at_b, request, result) > 0;
 }
-double gap(const Tree* a, const fcl::Transform3d& at_a, const Tree* b, const fcl::Transform3d& at_b) {
+inline double gap(const Tree* a, const fcl::Transform3d& at_a, const Tree* b, const fcl::Transform3d& at_b) {
   const fcl::DistanceRequest<double> request;
   fcl::DistanceResult<double> result;
   return fcl::distance(a, at_a, b, at_b, request, result);

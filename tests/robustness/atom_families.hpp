@@ -120,7 +120,7 @@ inline robustness::Atoms far_from_origin(Random& r) {
 inline robustness::Atoms tied_at(Random& r, int lowest, int highest) {
   const WholeLength w = whole_length(r);
   const double unit =
-      std::ldexp(1.0, lowest + static_cast<int>(r.below(static_cast<std::size_t>(highest - lowest + 1))));
+      std::ldexp(1.0, lowest + static_cast<int>(r.below(static_cast<std::size_t>(highest - lowest) + 1)));
   const Vec3 p = r.one_in(2) ? Vec3(Vec3::Zero()) : Vec3(whole_point(r, 1 << 10) * unit);
   std::vector<Vec3> points{p, Vec3(p + w.v * unit)};
   if (r.one_in(3)) points.emplace_back(whole_point(r, 1 << 10) * unit);
