@@ -92,7 +92,8 @@ void run(const bench::SubjectKind& kind, std::size_t count) {
   const double ours = time_of(count, [&](std::size_t k) {
     checker.update(configurations[k]);
     rows[k] = checker.clearances(influence);
-    sum += checker.jacobian(std::span<const LinkClearance>(rows[k])).sum();
+    const ClearanceJacobian jacobian = checker.jacobian(std::span<const LinkClearance>(rows[k]));
+    for (const double value : std::span(jacobian.data(), static_cast<std::size_t>(jacobian.size()))) sum += value;
   });
   const std::vector<std::vector<Aabb>> boxes = link_boxes(subject);
   std::vector<Distances> debian, native;

@@ -19,7 +19,6 @@
 #include "hinge/core/error.hpp"
 #include "hinge_tools/complete_file.hpp"
 #include "hinge_tools/counted.hpp"
-#include "hinge_tools/csv_field.hpp"
 #include "hinge_tools/json_text.hpp"
 #include "hinge_tools/progress_bar.hpp"
 #include "report.hpp"
@@ -83,17 +82,6 @@ void print_table_end(const Summary& summary, const Robot& robot, bool sampled, d
   fmt::print("  {:<28} {:<28} configurations\n", "link", "link or body");
   for (const auto& [pair, count] : summary.top(shown_pairs))
     fmt::print("  {:<28} {:<28} {:14}\n", pair.first, pair.second, count);
-}
-
-void write_header(std::ostream& out, const Robot& robot) {
-  for (std::size_t j = 0; j < robot.independent_joints().size(); ++j)
-    out << (j == 0 ? "" : ",") << hinge::tool::csv_field(robot.independent_name(j));
-  out << '\n';
-}
-
-void write_row(std::ostream& out, const std::vector<double>& q) {
-  for (std::size_t j = 0; j < q.size(); ++j) out << (j == 0 ? "" : ",") << fmt::format("{}", q[j]);
-  out << '\n';
 }
 
 }  // namespace

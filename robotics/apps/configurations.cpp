@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <memory>
+#include <ostream>
 #include <string>
 #include <utility>
 
 #include "hinge/core/error.hpp"
 #include "hinge/robotics/random_configuration.hpp"
+#include "hinge_tools/csv_field.hpp"
 #include "read_configurations.hpp"
 
 namespace robocd {
@@ -91,6 +93,17 @@ std::vector<std::string> notes_on_limits(const Configurations& configurations, c
   if (outside == 0) return {};
   return {fmt::format("{} of {} configurations are outside the joint limits: {}", outside, configurations.count,
                       outside > 1 ? "first, " + first : first)};
+}
+
+void write_header(std::ostream& out, const hinge::robotics::Robot& robot) {
+  for (std::size_t j = 0; j < robot.independent_joints().size(); ++j)
+    out << (j == 0 ? "" : ",") << hinge::tool::csv_field(robot.independent_name(j));
+  out << '\n';
+}
+
+void write_row(std::ostream& out, const std::vector<double>& q) {
+  for (std::size_t j = 0; j < q.size(); ++j) out << (j == 0 ? "" : ",") << fmt::format("{}", q[j]);
+  out << '\n';
 }
 
 }  // namespace robocd

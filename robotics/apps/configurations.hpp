@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -33,5 +34,9 @@ std::vector<double> join_states(const char* option, const std::vector<std::strin
 /// Returns a sentence with the number of configurations outside the joint limits and the first of them, or nothing if
 /// all are inside. Such configurations are checked nevertheless.
 std::vector<std::string> notes_on_limits(const Configurations& configurations, const hinge::robotics::Robot& robot);
+
+/// Writes the first line and a row of a file for --csv-in. q: one value per independent joint.
+void write_header(std::ostream& out, const hinge::robotics::Robot& robot);
+void write_row(std::ostream& out, const std::vector<double>& q);
 
 }  // namespace robocd

@@ -31,6 +31,11 @@ HelpTexts help_texts() {
   texts.commands["path"] = {{"Units", "Pairs", "Exit status"},
                             {"robocd path" + arm + srdf + " --from zero --to state:arm/reach",
                              "robocd path" + arm + " --from zero --to 0,0.5,0,0,0,0 --env robotics/data/shelf.obj"}};
+  texts.commands["relax"] = {{"Units", "Pairs", "Exit status"},
+                             {"robocd relax" + arm + srdf + " --from 0,2.8,2.6,0,0,0",
+                              "robocd relax" + arm + srdf +
+                                  " --from state:arm/reach --env robotics/data/shelf.obj "
+                                  "--clearance 0.05 --out free.csv"}};
   texts.commands["matrix"] = {{"Units", "Pairs"},
                               {"robocd matrix" + arm + " --samples 1000",
                                "robocd matrix" + arm + " --samples 1000 --disable-unseen --out matrix.srdf"}};

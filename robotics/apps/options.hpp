@@ -56,10 +56,14 @@ struct Options {
   std::string waypoints;          // CSV file of configurations, instead of from and to
   std::optional<double> sampled;  // rad or m, test states at this distance; empty: certify
   double min_step = hinge::smallest_path_step;
+  // relax: from, seed, out, and
+  std::uint64_t tries = 20000;    // largest number of configurations to test
+  std::optional<double> seconds;  // no test after this time
   // matrix
   hinge::robotics::MatrixOptions matrix;  // its clearance is replaced by `clearance` above
   bool disable_unseen = false;
-  // check: CSV file of the configurations, empty: none; matrix: SRDF file, empty: standard output; demo: SVG file
+  // check, relax: CSV file of the configurations, empty: none; matrix: SRDF file, empty: standard output; demo: SVG
+  // file
   std::string out;
 };
 
@@ -99,6 +103,7 @@ Exit run_info(const Options& options);
 Exit run_check(const Options& options);
 Exit run_matrix(const Options& options);
 Exit run_path(const Options& options);
+Exit run_relax(const Options& options);
 Exit run_demo(const Options& options);
 
 }  // namespace robocd

@@ -214,6 +214,31 @@ void add_path_options(CLI::App& command, Options& o) {
   hinge::tool::add_exit_zero(command, o.exit_zero);
 }
 
+void add_relax_options(CLI::App& command, Options& o) {
+  command.option_defaults()->group(title::configurations);
+  command
+      .add_option("--from", o.from,
+                  "configuration to start from: zero, state:GROUP/NAME (several names separated by commas), @FILE.csv, "
+                  "@FILE.csv:ROW (rows from 0), or values joined by commas, one per independent joint")
+      ->required()
+      ->type_name("END");
+  command.option_defaults()->group(title::sampling);
+  add_number(command, "--tries", o.tries, counts, "largest number of configurations to test");
+  add_number(command, "--time", o.seconds, Reals{0.0, hinge::tool::largest_length, true},
+             "test nothing after this time")
+      ->type_name("SECONDS");
+  add_number(command, "--seed", o.seed, seeds, "seed of the search")->type_name("SEED");
+  add_environment_option(command, o);
+  command.option_defaults()->group(title::question);
+  add_clearance_option(command, o);
+  add_contained_option(command, o);
+  add_json_option(command, o);
+  hinge::tool::add_max_pairs(command, o.max_pairs);
+  command.add_option("--out", o.out, "write the configuration to this CSV file, in the format of check --csv-in")
+      ->type_name("FILE");
+  hinge::tool::add_exit_zero(command, o.exit_zero);
+}
+
 Exit run(int argc, char** argv) {
   Options o;
   std::function<Exit(const Options&)> command;
@@ -247,6 +272,12 @@ Exit run(int argc, char** argv) {
   add_pair_options(*path, o);
   add_path_options(*path, o);
   path->callback([&] { command = robocd::run_path; });
+
+  CLI::App* relax = app.add_subcommand("relax", "move a configuration out of collision, as little as possible");
+  add_robot_options(*relax, o);
+  add_pair_options(*relax, o);
+  add_relax_options(*relax, o);
+  relax->callback([&] { command = robocd::run_relax; });
 
   CLI::App* demo =
       app.add_subcommand("demo", "demonstrate the library on one robot: time, verify, prove a motion, draw");

@@ -25,7 +25,7 @@ struct Case {
 };
 
 const std::vector<Case> cases{{"biocd", {"info", "check", "sample", "walk", "relax", "merge", "path", "demo"}},
-                              {"robocd", {"info", "check", "matrix", "path"}}};
+                              {"robocd", {"info", "check", "matrix", "path", "relax"}}};
 
 Said run(const std::string& tool, const std::string& arguments) { return run_tool((tools / tool).string(), arguments); }
 

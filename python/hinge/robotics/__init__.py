@@ -17,7 +17,7 @@ A configuration holds one value per independent joint, in the order of robot.joi
 """
 
 from .._core import robotics as _core
-from ._checker import Checker, PathAnswer
+from ._checker import Checker, PathAnswer, Relaxation
 from ._description import Joint, Link, Mimic
 from ._environment import Environment
 from ._matrix import CollisionMatrix
@@ -40,6 +40,7 @@ __all__ = [
     "Mimic",
     "PathAnswer",
     "PointCloud",
+    "Relaxation",
     "Robot",
     "Shape",
     "Sphere",

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 import numpy as np
 
-from ._checker import Checker as Checker, PathAnswer as PathAnswer
+from ._checker import Checker as Checker, PathAnswer as PathAnswer, Relaxation as Relaxation
 from ._description import Joint as Joint, Link as Link, Mimic as Mimic
 from ._environment import Environment as Environment
 from ._matrix import CollisionMatrix as CollisionMatrix
@@ -30,6 +30,7 @@ __all__ = [
     "Mimic",
     "PathAnswer",
     "PointCloud",
+    "Relaxation",
     "Robot",
     "Shape",
     "Sphere",

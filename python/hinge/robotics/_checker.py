@@ -40,6 +40,21 @@ class PathAnswer:
         return self.verdict == "free"
 
 
+@dataclasses.dataclass(frozen=True)
+class Relaxation:
+    """The result of Checker.relax(), for one configuration or for n of them (arrays of shape (n,)).
+
+    q: shape as given, rad and m: a free configuration, or the given one if none was found. is_free: whether q collides
+    with nothing. distance: root of the sum of the squared changes of the joints, rad and m alike. tries: configurations
+    that were tested.
+    """
+
+    q: np.ndarray
+    is_free: "bool | np.ndarray"
+    distance: "float | np.ndarray"
+    tries: "int | np.ndarray"
+
+
 class Checker(_core.CheckerBase):
     """Tests configurations of one robot against itself and the bodies around it. Any number of threads may use it.
 
@@ -167,6 +182,17 @@ class Checker(_core.CheckerBase):
         found = np.full(len(q), np.inf)
         found[rows["configuration"]] = rows["distance"]
         return found
+
+    def relax(self, q, *, tries=20000, seed=1, threads=None, progress=None):
+        """Move configurations out of collision, as little as a random search can, as `robocd relax` does.
+
+        q: shape (dof,) or (n, dof). tries: largest number of configurations to test for each. Joints stay within their
+        limits. Returns a Relaxation; look at `is_free`. Links and bodies both count.
+        """
+        found = self._relax(q, _check.count("tries", tries, 1), _check.seed(seed), threads, progress)
+        if np.ndim(q) == 1:
+            return Relaxation(found[0][0], *(value[0].item() for value in found[1:]))
+        return Relaxation(*found)
 
     def certify(self, a, b, *, smallest_step=2.0**-20, resolution=None, threads=None, progress=None):
         """Prove whether straight paths from a to b are free of collisions, with links and with bodies.

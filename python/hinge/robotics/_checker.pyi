@@ -31,6 +31,13 @@ class PathAnswer:
     @property
     def is_free(self) -> bool: ...
 
+@dataclasses.dataclass(frozen=True)
+class Relaxation:
+    q: _Floats
+    is_free: bool | _Booleans
+    distance: float | _Floats
+    tries: int | NDArray[np.int64]
+
 class Checker:
     def __init__(
         self,
@@ -129,6 +136,15 @@ class Checker:
     def contained(self, q: ArrayLike, *, threads: int | None = None, progress: _Progress = None) -> _Rows: ...
     def link_poses(self, q: ArrayLike, *, threads: int | None = None, progress: _Progress = None) -> _Floats: ...
     def calibrate(self, q: ArrayLike) -> None: ...
+    def relax(
+        self,
+        q: ArrayLike,
+        *,
+        tries: int = 20000,
+        seed: int = 1,
+        threads: int | None = None,
+        progress: _Progress = None,
+    ) -> Relaxation: ...
     def certify(
         self,
         a: ArrayLike,

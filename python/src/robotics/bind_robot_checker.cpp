@@ -205,6 +205,7 @@ void bind_robot_checker(py::module_& module) {
       .def_property_readonly("tested_pairs", &tested_names, "Pairs of link names that are tested, sorted by link.");
   add_robot_pairs(checker);
   add_clearances(checker);
+  add_robot_relaxation(checker);
   add_robot_paths(checker);
   add_two_robots(checker);
 }

@@ -142,6 +142,7 @@ using RobotCheckerClass = pybind11::class_<RobotCheckerHandle>;
 void add_robot_pairs(RobotCheckerClass& checker);  ///< pairs, distances, containment
 void add_clearances(RobotCheckerClass& checker);   ///< distances with derivatives
 void add_robot_paths(RobotCheckerClass& checker);
+void add_robot_relaxation(RobotCheckerClass& checker);
 void add_two_robots(RobotCheckerClass& checker);
 
 }  // namespace hinge::python

@@ -59,6 +59,26 @@ def test_clearances_have_normals_depths_and_derivatives():
         c.clearances(q, influence=-1)
 
 
+def test_relax():
+    world = hr.Environment()
+    world.add(hr.Box((1, 9, 9)), (3, 0, 0), "wall")
+    c = hr.Checker(slider(), environment=world)
+    found = c.relax([2.3])
+    assert found.is_free and not c.collides(found.q) and 1.999 < found.q[0] < 2.0
+    assert found.distance == pytest.approx(2.3 - found.q[0])
+    assert c.relax([1.0]).q.tolist() == [1.0] and c.relax([1.0]).tries == 1
+    q = np.linspace(1.5, 4.5, 13)[:, None]
+    one, three = c.relax(q, seed=5, threads=1), c.relax(q, seed=5, threads=3)
+    assert one.q.tobytes() == three.q.tobytes() and one.is_free.all()
+    assert not c.collides(one.q).any()
+    assert np.allclose(one.distance, np.abs(one.q - q)[:, 0])
+    world.add(hr.Box((99, 9, 9)), name="room")
+    stuck = c.relax([1.0], tries=50)
+    assert not stuck.is_free and stuck.q.tolist() == [1.0] and stuck.tries == 50
+    with pytest.raises(ValueError, match="tries"):
+        c.relax([1.0], tries=0)
+
+
 def test_random_spheres_against_brute_force():
     random = np.random.default_rng(SEED)
     centers, radii = random.uniform(-2, 2, (60, 3)), random.uniform(0.01, 0.2, 60)

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "approximation/between.hpp"
 #include "checking/closeness.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/kinematics/kinematic_tree.hpp"

@@ -51,43 +51,50 @@ class ClosestOfPairs {
 
 static_assert(Collector<ClosestOfPairs>);
 
-/// Collects hits of one pair of links with d - M below a bound: any one of them, or the first in the order of
-/// ClosestOfPairs.
-class HitsOfPair {
+/// Collects the hit of one pair of links with the smallest d - M, the first one in the order of ClosestOfPairs. Ranked:
+/// the search goes to the nearest boxes first. Not ranked: it looks at every hit that collides. If no triangle has a
+/// radius, no pair is closer than one that touches, and the search ends there.
+template <bool ranked>
+class ClosestOfPair {
  public:
-  static constexpr bool ranks = false;
-  HitsOfPair(std::span<const LinkId> links, std::span<const LinkId> other_links, const LinkPair& pair, double below,
-             bool any)
-      : links_(links), other_links_(other_links), pair_(pair), below_(below), any_(any) {}
+  static constexpr bool ranks = ranked;
+  static constexpr bool keeps_smallest = ranked;
+  /// known: a hit of the pair.
+  ClosestOfPair(std::span<const LinkId> links, std::span<const LinkId> other_links, const Hit& known, bool has_radii)
+      : links_(links),
+        other_links_(other_links),
+        pair_{links[index(known.first)], other_links[index(known.second)]},
+        best_(known),
+        has_radii_(has_radii) {}
   void add(const Hit& hit) {
     if (!wants(links_[index(hit.first)], other_links_[index(hit.second)])) return;
     const auto key = [](const Hit& h) { return std::tuple(h.gap(), h.first, h.second); };
-    if (!best_ || key(hit) < key(*best_)) best_ = hit;
+    if (key(hit) < key(best_)) best_ = hit;
   }
   bool wants(LinkId a, LinkId b) const noexcept {
     return (a == pair_.first && b == pair_.second) ||
            (links_.data() == other_links_.data() && b == pair_.first && a == pair_.second);
   }
-  double cutoff() const noexcept { return below_; }
-  bool done() const noexcept { return any_ && best_; }
-  const std::optional<Hit>& best() const noexcept { return best_; }
+  double cutoff() const noexcept { return ranked ? best_.gap() : 0.0; }
+  bool done() const noexcept { return !has_radii_ && best_.distance == 0.0; }
+  const Hit& best() const noexcept { return best_; }
 
  private:
   std::span<const LinkId> links_, other_links_;
   LinkPair pair_;
-  double below_;
-  bool any_;
-  std::optional<Hit> best_;
+  Hit best_;
+  bool has_radii_;
 };
 
-static_assert(RefusesLinks<HitsOfPair>);
+static_assert(RefusesLinks<ClosestOfPair<true>> && KeepsSmallest<ClosestOfPair<true>>);
 
 /// Returns for every pair of links within the margin (m) the hit with the smallest gap. query(collector) runs the
-/// engine. Fine meshes have millions of pairs of triangles within a margin. The simd engine skips links that the
-/// collector does not want, so it is queried pair by pair, and the bound on the gap is bisected.
+/// engine. Fine meshes have millions of pairs of triangles within a margin, so the simd engine first lists the pairs of
+/// links and then searches the closest triangles of each. has_radii: a triangle may have a radius.
 template <class Query>
 std::map<LinkPair, Hit> closest_of_pairs(const std::string& engine, std::span<const LinkId> links,
-                                         std::span<const LinkId> other_links, double margin, const Query& query) {
+                                         std::span<const LinkId> other_links, double margin, bool has_radii,
+                                         const Query& query) {
   if (engine != "simd") {
     ClosestOfPairs all(links, other_links, margin);
     query(all);
@@ -98,25 +105,15 @@ std::map<LinkPair, Hit> closest_of_pairs(const std::string& engine, std::span<co
   query(met);
   std::map<LinkPair, Hit> best;
   for (const Hit& first : met.hits()) {
-    const LinkPair pair{links[index(first.first)], other_links[index(first.second)]};
-    const auto ask = [&](double below, bool any) {
-      HitsOfPair hits(links, other_links, pair, below, any);
-      query(hits);
-      return hits.best();
-    };
-    // Invariant: the smallest gap is at least `low` and at most `high`, or negative.
-    constexpr double narrow = 0x1p-6;
-    constexpr int most_halvings = 60;
-    double low = 0.0, high = std::max(first.gap(), 0.0);
-    for (int k = 0; k < most_halvings && high - low > narrow * high; ++k) {
-      const double middle = low + (high - low) / 2;
-      if (const auto nearer = ask(middle, true))
-        high = std::max(nearer->gap(), 0.0);
-      else
-        low = middle;
+    ClosestOfPair<true> nearest(links, other_links, first, has_radii);
+    if (!nearest.done() && (!has_radii || first.gap() > 0.0)) query(nearest);
+    Hit found = nearest.best();
+    if (has_radii && !(found.gap() > 0.0)) {  // a ranked search does not find the deepest contact for certain
+      ClosestOfPair<false> contacts(links, other_links, found, has_radii);
+      query(contacts);
+      found = contacts.best();
     }
-    // Enlarge the bound slightly, so that rounding excludes no pair of triangles with an equal gap.
-    best.emplace(pair, ask(high > 0.0 ? high * (1.0 + 0x1p-30) : 0.0, false).value_or(first));
+    best.emplace(LinkPair(links[index(first.first)], other_links[index(first.second)]), found);
   }
   return best;
 }
@@ -131,7 +128,7 @@ std::vector<ClosestLinks> RobotChecker::surfaces_nearby(LinkId link, double marg
         const double wider = margin * (1.0 + 0x1p-20) + 0x1p-20;
         std::vector<ClosestLinks> all;
         const auto ask = [&](auto& collector) { hierarchy.self_query(collector); };
-        for (const auto& [pair, hit] : closest_of_pairs(engine_, links, links, wider, ask))
+        for (const auto& [pair, hit] : closest_of_pairs(engine_, links, links, wider, margins_.has_radii(), ask))
           if (pair.first == link)
             all.push_back(answer(pair.first, pair.second, hit,
                                  measure(hierarchy, hierarchy, hit, margins_.sum(hit.first, hit.second))));
@@ -148,7 +145,7 @@ std::vector<ClosestLinks> RobotChecker::distances(double margin) {
         const auto ask = [&](auto& collector) { hierarchy.self_query(collector); };
         std::map<LinkPair, ClosestLinks> found;
         std::set<LinkId> far;  // first links of the pairs far from the origin
-        for (const auto& [pair, hit] : closest_of_pairs(engine_, links, links, margin, ask)) {
+        for (const auto& [pair, hit] : closest_of_pairs(engine_, links, links, margin, margins_.has_radii(), ask)) {
           found[pair] = answer(pair.first, pair.second, hit,
                                measure(hierarchy, hierarchy, hit, margins_.sum(hit.first, hit.second)));
           if (is_far(found[pair])) far.insert(pair.first);
@@ -185,7 +182,8 @@ std::vector<ClosestBody> RobotChecker::distances(Environment& environment, doubl
     ask(pair, environment, [&](auto& mine, auto& theirs, const auto& filter, const QueryOptions& options) {
       const std::span<const LinkId> links = mine.model().model().links(), others = theirs.model().model().links();
       const auto query = [&](auto& collector) { mine.query(theirs, collector, filter, options); };
-      for (const auto& [links_of_hit, hit] : closest_of_pairs(engine_, links, others, margin, query)) {
+      const bool has_radii = mine.matrix().has_radii() || theirs.matrix().has_radii();
+      for (const auto& [links_of_hit, hit] : closest_of_pairs(engine_, links, others, margin, has_radii, query)) {
         const double more = detail::clearance_of(options.clearance, mine.model().group_of(hit.first));
         const Closeness n =
             measure(mine, theirs, hit, mine.matrix().sum(hit.first, theirs.matrix(), hit.second) + more);

@@ -24,6 +24,7 @@
 #include "hinge/molecular/path_checker.hpp"
 #include "hinge/molecular/radii.hpp"
 #include "hinge/molecular/read_structure.hpp"
+#include "hinge/molecular/relax.hpp"
 #include "hinge/molecular/sampler.hpp"
 #include "hinge/molecular/selection.hpp"
 #include "hinge/molecular/severity.hpp"

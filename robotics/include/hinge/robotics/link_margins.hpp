@@ -65,6 +65,8 @@ class HINGE_API LinkMargins {
   double clearance(LinkId a, LinkId b) const noexcept {
     return data_->table.empty() ? data_->clearance : data_->table[index(a) * data_->link_count + index(b)];
   }
+  /// Returns true if a triangle may have a radius.
+  bool has_radii() const noexcept { return !data_->radii.empty(); }
   /// Returns the radius (m) by which a triangle is inflated: that of its sphere or capsule, otherwise 0.
   double radius(PrimitiveId i) const noexcept { return data_->radii.empty() ? 0.0 : data_->radii[index(i)]; }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "hinge/robotics/any_hierarchy.hpp"
+#include "hinge/robotics/clearance.hpp"
 #include "hinge/robotics/collision_matrix.hpp"
 #include "hinge/robotics/contact.hpp"
 #include "hinge/robotics/containment.hpp"
@@ -15,6 +16,7 @@
 #include "hinge/robotics/read_points.hpp"
 #include "hinge/robotics/read_srdf.hpp"
 #include "hinge/robotics/read_urdf.hpp"
+#include "hinge/robotics/relax.hpp"
 #include "hinge/robotics/robot.hpp"
 #include "hinge/robotics/robot_checker.hpp"
 #include "hinge/robotics/robot_description.hpp"

@@ -34,9 +34,15 @@ class ClosestSearch {
            const PairTest& pair_test, C& collector, QueryCounts& counts, const List& list) {
     const double scale = a.trees.parts().scale;
     double bound = collector.cutoff();
-    if constexpr (KeepsSmallest<C>) bound = std::min(bound, witnesses.bound(a.state, b.state, pair_test));
+    // Witnesses may belong to links that the collector refuses.
+    if constexpr (KeepsSmallest<C> && !RefusesLinks<C>)
+      bound = std::min(bound, witnesses.bound(a.state, b.state, pair_test));
     pairs_.clear();
     list(bound, pairs_);
+    if constexpr (RefusesLinks<C>)
+      std::erase_if(pairs_, [&](const PartPair& pair) {
+        return !collector.wants(a.part(pair.first).link, b.part(pair.second).link);
+      });
     std::sort(pairs_.begin(), pairs_.end(), [](const PartPair& x, const PartPair& y) {
       return std::tie(x.gap, x.first, x.second) < std::tie(y.gap, y.first, y.second);
     });
