@@ -33,9 +33,7 @@ HelpTexts help_texts() {
                              "robocd path" + arm + " --from zero --to 0,0.5,0,0,0,0 --env robotics/data/shelf.obj"}};
   texts.commands["relax"] = {{"Units", "Pairs", "Exit status"},
                              {"robocd relax" + arm + srdf + " --from 0,2.8,2.6,0,0,0",
-                              "robocd relax" + arm + srdf +
-                                  " --from state:arm/reach --env robotics/data/shelf.obj "
-                                  "--clearance 0.05 --out free.csv"}};
+                              "robocd relax" + arm + " --from 0,0.6,1.2,0,0.4,0 --env robotics/data/shelf.obj"}};
   texts.commands["matrix"] = {{"Units", "Pairs"},
                               {"robocd matrix" + arm + " --samples 1000",
                                "robocd matrix" + arm + " --samples 1000 --disable-unseen --out matrix.srdf"}};

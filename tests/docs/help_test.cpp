@@ -117,7 +117,7 @@ std::string offered(const std::string& tool, const std::string& words, const fs:
 TEST(Completion, OffersCommandsOptionsValuesAndFiles) {
   const fs::path folder = make_folder("completion");
   const auto biocd = [&](const std::string& words) { return offered("biocd", "biocd " + words, folder); };
-  EXPECT_EQ(biocd("''"), "info check sample walk merge path demo\n");
+  EXPECT_EQ(biocd("''"), "info check sample walk relax merge path demo\n");
   EXPECT_EQ(biocd("sa"), "sample\n");
   EXPECT_EQ(biocd("check --hb"), "--hbond --hbond-allowance\n");
   EXPECT_EQ(biocd("check --hbond o"), "on off\n");

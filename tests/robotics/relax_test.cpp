@@ -72,7 +72,7 @@ TEST(RelaxRobot, FindsConfigurationsThatAreFreeByBruteForce) {
     Environment bodies(0.0, "simd"), slow(0.0, "brute");
     for (Environment* environment : {&bodies, &slow})
       environment->add(SphereShape{0.2}, {Mat3::Identity(), Vec3(0.9, 0.3, 0.4)}, "ball");
-    for (std::uint64_t k = 0; k < 20; ++k) {
+    for (std::uint64_t k = 0; k < 60; ++k) {
       std::vector<double> q(robot->independent_joints().size());
       random_configuration(*robot, seed, k, q);
       brute.update(q);

@@ -147,8 +147,9 @@ void RobotRelaxer::go_back() {
     go_back_by_joints();
     go_back_straight();
     for (int k = 0; k < random_steps && has_time(); ++k) {
-      std::vector<double> q(result_.q);
-      const double size = distance(q) * stream_.uniform() / std::sqrt(movers_.size());
+      // Around the result, and around the start: a nearer free place may lie on another side.
+      std::vector<double> q(k % 2 == 0 ? result_.q : start_);
+      const double size = distance(result_.q) * stream_.uniform() / std::sqrt(movers_.size());
       for (const std::size_t j : movers_) q[j] = within_limits(j, q[j] + size * stream_.normal());
       if (distance(q) < distance(result_.q)) take(std::move(q));
     }

@@ -32,7 +32,7 @@ struct Relaxation {
 /// Searches for a free configuration near the start. Meshes have no depth of penetration that could lead out, so the
 /// search is random: it draws joints that move the colliding links, in balls around the start that grow until a free
 /// configuration is found. Then it goes back to the start as far as it can: joint by joint, along the straight line,
-/// and by random steps that are nearer to the start.
+/// and by random steps to places nearer to the start.
 ///
 /// Joints stay within their limits, or where the start is outside, between the limit and the start. The result depends
 /// on the arguments alone. It is free by the exact verdict, but not the nearest free configuration for certain. start:
