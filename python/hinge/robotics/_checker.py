@@ -186,8 +186,8 @@ class Checker(_core.CheckerBase):
     def relax(self, q, *, tries=20000, seed=1, threads=None, progress=None):
         """Move configurations out of collision, as little as a random search can, as `robocd relax` does.
 
-        q: shape (dof,) or (n, dof). tries: largest number of configurations to test for each. Joints stay within their
-        limits. Returns a Relaxation; look at `is_free`. Links and bodies both count.
+        q: shape (dof,) or (n, dof). tries: largest number of configurations to test for each. seed: of the search.
+        Joints stay within their limits. Returns a Relaxation; look at `is_free`. Links and bodies both count.
         """
         found = self._relax(q, _check.count("tries", tries, 1), _check.seed(seed), threads, progress)
         if np.ndim(q) == 1:
