@@ -162,7 +162,7 @@ Exit run(int argc, char** argv) {
   biocd::add_closures_option(*relax, o);
   add_number(*relax, "--tries", o.most_tries, counts,
              "largest number of random restarts, if descent does not mend all clashes (default: 1000)");
-  add_number(*relax, "--time", o.seconds, lengths_above_0, "begin no restart after this time")->type_name("SECONDS");
+  add_number(*relax, "--time", o.seconds, lengths_above_0, "end the search after this time")->type_name("SECONDS");
   add_number(*relax, "--seed", o.seed, seeds, "seed of the restarts")->type_name("SEED");
   relax->callback([&, relaxed] {
     o.keep_closures = o.keep_closures.value_or(true);

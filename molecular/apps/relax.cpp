@@ -121,6 +121,9 @@ Exit run_relax(const Options& options) {
   ConformationFile file(options, s, s.atoms.size(), false);
   if (options.output == Output::table) fmt::print("{}", heading(options, job));
 
+  if (const std::size_t left = job.checker.reference_collisions().size(); options.check.exempt_reference && left > 0)
+    fmt::print(stderr, "note: {} in the file; --exempt-reference leaves those that are not between parts as they are\n",
+               counted(left, "pair collides", "pairs collide"));
   RelaxOptions how{.closures = job.kept.closures, .seed = options.seed};
   if (options.most_tries) how.most_restarts = *options.most_tries;
   const auto start = std::chrono::steady_clock::now();

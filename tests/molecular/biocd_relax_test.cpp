@@ -69,6 +69,8 @@ TEST(BiocdRelax, SaysWhatIsLeft) {
 TEST(BiocdRelax, KeepsLoopsClosed) {
   const auto said = run_biocd("relax" + file() + "--loop A:70-74 --json --exempt-reference");
   ASSERT_EQ(said.status, 0);
+  const auto noted = run_biocd("relax" + file() + "--exempt-reference 2>&1");
+  EXPECT_TRUE(has(noted.out, "note: 1 pair collides in the file; --exempt-reference leaves")) << noted.out;
   EXPECT_EQ(Json::parse(said.out).at("model").at("free"), "(A:70-74) and chi");
 }
 
