@@ -77,7 +77,10 @@ class Relaxer {
     bool is_part = false;
     std::size_t number = 0;
 
-    friend auto operator<=>(const Mover&, const Mover&) = default;
+    friend bool operator==(const Mover&, const Mover&) = default;
+    friend bool operator<(const Mover& a, const Mover& b) noexcept {
+      return std::tie(a.is_part, a.number) < std::tie(b.is_part, b.number);
+    }
   };
 
   Mover mover_of(std::size_t value) const {
