@@ -17,6 +17,7 @@
 #include "hinge/robotics/tested_pairs.hpp"
 #include "hinge_tools/check_output.hpp"
 #include "options.hpp"
+#include "path_end.hpp"
 
 namespace robocd {
 
@@ -24,6 +25,8 @@ using namespace hinge::robotics;
 
 void check_outputs(const Options& options) {
   std::vector<std::filesystem::path> inputs{options.urdf, options.srdf, options.csv_in, options.waypoints};
+  for (const std::string& end : {options.from, options.to})
+    if (end.starts_with('@')) inputs.push_back(file_of_end(end).first);
   inputs.insert(inputs.end(), options.skip_pairs.begin(), options.skip_pairs.end());
   for (const std::string& body : options.environment) inputs.push_back(parse_body(body).file);
   hinge::tool::check_output("--out", options.out, inputs);

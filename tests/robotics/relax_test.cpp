@@ -157,6 +157,9 @@ TEST(RobocdRelax, WritesAFreeConfiguration) {
             0);
   EXPECT_EQ(run_robocd("check " + data + "arm.urdf --srdf " + data + "arm.srdf" + shelf + "--state arm/reach").status,
             1);
+  // The file that the start comes from is an input, so it is not replaced.
+  EXPECT_EQ(run_robocd(arm + "--from @" + file + " --out " + file + " 2>/dev/null").status, 2);
+  EXPECT_EQ(run_robocd(arm + "--from @" + file + ":0 --out " + file + " 2>/dev/null").status, 2);
   const auto table = run_robocd(arm + "--from state:arm/reach" + shelf + "2>&1");
   EXPECT_NE(table.out.find("after: free"), std::string::npos) << table.out;
   const auto hopeless = run_robocd(arm + "--from zero --env box:'9 9 9' --tries 50 2>&1");
