@@ -52,8 +52,8 @@ class ClosestOfPairs {
 static_assert(Collector<ClosestOfPairs>);
 
 /// Collects the hit of one pair of links with the smallest d - M, the first one in the order of ClosestOfPairs. Ranked:
-/// the search goes to the nearest boxes first. Not ranked: it looks at every hit that collides. If no triangle has a
-/// radius, no pair is closer than one that touches, and the search ends there.
+/// the search goes to the nearest boxes first, and ends at a contact if no triangle has a radius, because no pair is
+/// closer. Not ranked: it looks at every hit that collides.
 template <bool ranked>
 class ClosestOfPair {
  public:
@@ -76,7 +76,7 @@ class ClosestOfPair {
            (links_.data() == other_links_.data() && b == pair_.first && a == pair_.second);
   }
   double cutoff() const noexcept { return ranked ? best_.gap() : 0.0; }
-  bool done() const noexcept { return !has_radii_ && best_.distance == 0.0; }
+  bool done() const noexcept { return ranked && !has_radii_ && best_.distance == 0.0; }
   const Hit& best() const noexcept { return best_; }
 
  private:
@@ -108,7 +108,8 @@ std::map<LinkPair, Hit> closest_of_pairs(const std::string& engine, std::span<co
     ClosestOfPair<true> nearest(links, other_links, first, has_radii);
     if (!nearest.done() && (!has_radii || first.gap() > 0.0)) query(nearest);
     Hit found = nearest.best();
-    if (has_radii && !(found.gap() > 0.0)) {  // a ranked search does not find the deepest contact for certain
+    // Of several contacts, take the deepest, the first of equal ones, as every engine does.
+    if (found.distance == 0.0 || (has_radii && !(found.gap() > 0.0))) {
       ClosestOfPair<false> contacts(links, other_links, found, has_radii);
       query(contacts);
       found = contacts.best();
