@@ -9,6 +9,7 @@
 #include "hinge_tools/exit_zero_option.hpp"
 #include "hinge_tools/help_texts.hpp"
 #include "hinge_tools/max_pairs_option.hpp"
+#include "hinge_tools/mode_option.hpp"
 #include "hinge_tools/repeatable_option.hpp"
 #include "results.hpp"
 
@@ -198,18 +199,10 @@ void add_view_option(CLI::App& command, Options& o) {
 
 void add_check_options(CLI::App& command, Options& o) {
   command.option_defaults()->group(title::question);
-  command
-      .add_option_function<std::string>(
-          "--mode",
-          [&o](const std::string& text) {
-            if (hinge::Mode::parse(text, "angstrom").margin > hinge::tool::largest_length)
-              throw hinge::ModelError("--mode '" + text + "': expected D in angstrom, at most 1e+09");
-            o.mode = text;
-          },
-          "any: yes or no; all: list colliding pairs; within:D: list pairs closer than their threshold + D angstrom; "
-          "closest: the pair nearest to its threshold")
-      ->default_str(o.mode)
-      ->type_name("any|all|within:D|closest");
+  hinge::tool::add_mode(
+      command, o.mode, "angstrom",
+      "any: yes or no; all: list colliding pairs; within:D: list pairs closer than their threshold + D angstrom; "
+      "closest: the pair nearest to its threshold");
   add_output_options(command, o, true);
   add_out_option(command, o);
   add_choice(

@@ -6,11 +6,11 @@
 #include <string>
 
 #include "hinge/core/error.hpp"
-#include "hinge/query/mode.hpp"
 #include "hinge_tools/choice_option.hpp"
 #include "hinge_tools/exit_zero_option.hpp"
 #include "hinge_tools/help_texts.hpp"
 #include "hinge_tools/max_pairs_option.hpp"
+#include "hinge_tools/mode_option.hpp"
 #include "hinge_tools/number_option.hpp"
 #include "hinge_tools/repeatable_option.hpp"
 
@@ -141,18 +141,10 @@ void add_environment_option(CLI::App& command, Options& o) {
 void add_check_options(CLI::App& command, Options& o) {
   add_configuration_options(command, o);
   command.option_defaults()->group(title::question);
-  command
-      .add_option_function<std::string>(
-          "--mode",
-          [&o](const std::string& text) {
-            if (hinge::Mode::parse(text, "metres").margin > hinge::tool::largest_length)
-              throw hinge::ModelError("--mode '" + text + "': expected D in metres, at most 1e+09");
-            o.mode = text;
-          },
-          "any: yes or no; all: list colliding pairs; within:D: list pairs closer than the clearance + D metres; "
-          "closest: the pair with the smallest distance")
-      ->default_str(o.mode)
-      ->type_name("any|all|within:D|closest");
+  hinge::tool::add_mode(
+      command, o.mode, "metres",
+      "any: yes or no; all: list colliding pairs; within:D: list pairs closer than the clearance + D metres; "
+      "closest: the pair with the smallest distance");
   add_clearance_option(command, o);
   add_contained_option(command, o);
   add_environment_option(command, o);
