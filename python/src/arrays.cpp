@@ -58,6 +58,13 @@ double as_number(py::handle value, const char* name) {
                        ", expected a number");
 }
 
+double as_length(py::handle value, const char* name, const char* unit) {
+  const double length = as_number(value, name);
+  if (length >= 0.0 && length <= 1e9) return length;
+  throw py::value_error(std::string(name) + ": " + py::repr(py::float_(length)).cast<std::string>() +
+                        ", expected a length from 0 to 1e9 " + unit);
+}
+
 void require_finite(const Doubles& array, const char* name) {
   const double* data = array.data();
   const auto size = static_cast<std::size_t>(array.size());

@@ -36,6 +36,10 @@ Doubles as_doubles(pybind11::handle value, const char* name, std::span<const Sha
 /// Returns the value as a number, which may be infinite or NaN. Throws TypeError, with the argument, if it is none.
 double as_number(pybind11::handle value, const char* name);
 
+/// Returns the value as a length from 0 to 1e9. unit: for messages. Throws TypeError as as_number(), ValueError for
+/// another number.
+double as_length(pybind11::handle value, const char* name, const char* unit);
+
 /// Throws ValueError, with the argument and the index of the first number that is not finite.
 void require_finite(const Doubles& array, const char* name);
 

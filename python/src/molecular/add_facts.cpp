@@ -97,7 +97,7 @@ void add_facts(CheckerClass& checker) {
           },
           "The rigid group of each atom, shape (n_atoms,); 0 is fixed in the world.")
       .def_property_readonly(
-          "n_rigid_groups", [](const CheckerHandle& self) { return self.checker().rigid_group_count(); },
+          "n_rigid_groups", [](const CheckerHandle& self) { return self.checker().rigid_groups().size(); },
           "Number of rigid groups, including the world's.")
       .def_property_readonly(
           "reference_collisions",

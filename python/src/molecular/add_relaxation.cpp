@@ -20,10 +20,7 @@ namespace {
 /// Energies, shape (n,), and gradients, shape (n, dof), for q of shape (dof,) or (n, dof).
 py::tuple steric(CheckerHandle& self, const py::object& values, const py::object& given_softness,
                  const py::object& threads, const py::object& progress) {
-  const double softness = as_number(given_softness, "softness");
-  if (!(softness >= 0.0 && softness <= 1e9))
-    throw py::value_error("softness: " + py::repr(py::float_(softness)).cast<std::string>() +
-                          ", expected a length from 0 to 1e9 angstrom");
+  const double softness = as_length(given_softness, "softness", "angstrom");
   const Configurations q = as_configurations(values, "q", self.dof());
   std::vector<double> energies(q.count), gradients(q.count * q.dof);
   run_slices(self.pool, q.count, as_threads(threads, self.threads), progress,

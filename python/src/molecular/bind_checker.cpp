@@ -27,10 +27,7 @@ std::vector<PairRow> joined(const std::vector<std::vector<PairRow>>& rows) {
 }
 
 Mode as_mode(const py::object& within) {
-  const double margin = as_number(within, "within");
-  if (!(margin >= 0.0 && margin <= 1e9))
-    throw py::value_error("within: " + py::repr(py::float_(margin)).cast<std::string>() +
-                          ", expected a length from 0 to 1e9 angstrom");
+  const double margin = as_length(within, "within", "angstrom");
   return margin == 0.0 ? Mode{Mode::Kind::all} : Mode{Mode::Kind::within, margin};
 }
 

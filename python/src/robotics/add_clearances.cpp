@@ -44,13 +44,11 @@ struct Found {
   }
 };
 
-py::tuple clearances(RobotCheckerHandle& self, const py::object& values, double influence, const std::string& against,
-                     const py::object& threads, const py::object& progress) {
+py::tuple clearances(RobotCheckerHandle& self, const py::object& values, const py::object& given,
+                     const std::string& against, const py::object& threads, const py::object& progress) {
   const Configurations q = as_configurations(values, "q", self.dof());
   const Against what = as_against(against);
-  if (!(influence >= 0.0 && influence <= 1e9))
-    throw py::value_error("influence: " + py::repr(py::float_(influence)).cast<std::string>() +
-                          ", expected a length from 0 to 1e9 m");
+  const double influence = as_length(given, "influence", "m");
   std::vector<Found> found(q.count);
   run_robot(self, q.count, threads, progress, [&](RobotWorker& worker, Environment* bodies, std::size_t k) {
     worker.update(q, k);
@@ -64,8 +62,7 @@ py::tuple clearances(RobotCheckerHandle& self, const py::object& values, double 
     if (what.bodies && bodies != nullptr) {
       const std::vector<BodyClearance> rows = checker.clearances(*bodies, influence);
       for (const BodyClearance& c : rows)
-        found[k].rows.push_back(
-            clearance_row(k, c.held ? self.body_row(*c.held) : link_row(c.link), self.body_row(c.body), c));
+        found[k].rows.push_back(clearance_row(k, self.own_row(c), self.body_row(c.body), c));
       found[k].add(checker.jacobian(std::span(rows)));
     }
   });

@@ -22,13 +22,6 @@ struct ContainedRow {
   bool whole;
 };
 
-double as_margin(double within) {
-  if (!(within >= 0.0 && within <= 1e9))
-    throw py::value_error("within: " + py::repr(py::float_(within)).cast<std::string>() +
-                          ", expected a length from 0 to 1e9 m");
-  return within;
-}
-
 LinkPairRow pair_row_of(std::size_t configuration, std::int32_t first, std::int32_t second, const Hit& hit) {
   return {static_cast<std::int64_t>(configuration),
           first,
@@ -39,26 +32,20 @@ LinkPairRow pair_row_of(std::size_t configuration, std::int32_t first, std::int3
           hit.threshold};
 }
 
-/// Row of the robot's side of a contact: the held body, or the link.
-template <class Contact>
-std::int32_t own_row(const RobotCheckerHandle& self, const Contact& contact) {
-  return contact.held ? self.body_row(*contact.held) : link_row(contact.link);
-}
-
 LinkDistanceRow body_distance_row(const RobotCheckerHandle& self, std::size_t k, const ClosestBody& found) {
   const ClosestLinks numbers{found.link,     found.link, found.triangle1, found.triangle2,
                              found.distance, found.gap,  found.point1,    found.point2};
   LinkDistanceRow row = distance_row(k, numbers);
-  row.first = own_row(self, found);
+  row.first = self.own_row(found);
   row.second = self.body_row(found.body);
   return row;
 }
 
-py::object pairs(RobotCheckerHandle& self, const py::object& values, double within, const std::string& against,
-                 const py::object& threads, const py::object& progress) {
+py::object pairs(RobotCheckerHandle& self, const py::object& values, const py::object& within,
+                 const std::string& against, const py::object& threads, const py::object& progress) {
   const Configurations q = as_configurations(values, "q", self.dof());
   const Against what = as_against(against);
-  const double margin = as_margin(within);
+  const double margin = as_length(within, "within", "m");
   std::vector<std::vector<LinkPairRow>> rows(q.count);
   run_robot(self, q.count, threads, progress, [&](RobotWorker& worker, Environment* bodies, std::size_t k) {
     worker.update(q, k);
@@ -67,16 +54,16 @@ py::object pairs(RobotCheckerHandle& self, const py::object& values, double with
         rows[k].push_back(pair_row_of(k, link_row(c.link1), link_row(c.link2), c.hit));
     if (what.bodies && bodies != nullptr)
       for (const BodyContact& c : worker.checker.within(*bodies, margin))
-        rows[k].push_back(pair_row_of(k, own_row(self, c), self.body_row(c.body), c.hit));
+        rows[k].push_back(pair_row_of(k, self.own_row(c), self.body_row(c.body), c.hit));
   });
   return joined_rows(rows);
 }
 
-py::object distances(RobotCheckerHandle& self, const py::object& values, double within, const std::string& against,
-                     const py::object& threads, const py::object& progress) {
+py::object distances(RobotCheckerHandle& self, const py::object& values, const py::object& within,
+                     const std::string& against, const py::object& threads, const py::object& progress) {
   const Configurations q = as_configurations(values, "q", self.dof());
   const Against what = as_against(against);
-  const double margin = as_margin(within);
+  const double margin = as_length(within, "within", "m");
   std::vector<std::vector<LinkDistanceRow>> rows(q.count);
   run_robot(self, q.count, threads, progress, [&](RobotWorker& worker, Environment* bodies, std::size_t k) {
     worker.update(q, k);
@@ -133,7 +120,7 @@ py::object contained(RobotCheckerHandle& self, const py::object& values, const p
       rows[k].push_back({row, link_row(c.outer), link_row(c.inner), c.whole});
     if (bodies == nullptr) return;
     for (const BodyContainment& c : worker.checker.contained(*bodies)) {
-      const std::int32_t own = own_row(self, c), body = self.body_row(c.body);
+      const std::int32_t own = self.own_row(c), body = self.body_row(c.body);
       rows[k].push_back({row, c.body_is_outer ? body : own, c.body_is_outer ? own : body, c.whole});
     }
   });

@@ -57,14 +57,13 @@ py::object collides_with(RobotCheckerHandle& self, RobotCheckerHandle& other, co
 }
 
 py::object pairs_with(RobotCheckerHandle& self, RobotCheckerHandle& other, const py::object& q,
-                      const py::object& q_other, double within, const py::object& threads, const py::object& progress) {
-  if (!(within >= 0.0 && within <= 1e9))
-    throw py::value_error("within: " + py::repr(py::float_(within)).cast<std::string>() +
-                          ", expected a length from 0 to 1e9 m");
+                      const py::object& q_other, const py::object& within, const py::object& threads,
+                      const py::object& progress) {
+  const double margin = as_length(within, "within", "m");
   TwoRobots two(self, other, q, q_other);
   std::vector<std::vector<LinkPairRow>> rows(two.count);
   two.run(as_threads(threads, self.threads), progress, [&](RobotChecker& a, RobotChecker& b, std::size_t k) {
-    for (const LinkContact& c : a.within(b, within))
+    for (const LinkContact& c : a.within(b, margin))
       rows[k].push_back({static_cast<std::int64_t>(k), link_row(c.link1), link_row(c.link2),
                          static_cast<std::uint32_t>(index(c.hit.first)),
                          static_cast<std::uint32_t>(index(c.hit.second)), c.hit.distance, c.hit.threshold});

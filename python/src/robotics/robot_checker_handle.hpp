@@ -80,6 +80,11 @@ struct RobotCheckerHandle {
   std::int32_t body_row(robotics::BodyId body) const noexcept {
     return static_cast<std::int32_t>(robot->link_count() - 1 + static_cast<std::size_t>(body));
   }
+  /// Row of the robot's side of a contact with a body: the body that it holds, or its link.
+  template <class Contact>
+  std::int32_t own_row(const Contact& contact) const noexcept {
+    return contact.held ? body_row(*contact.held) : link_row(contact.link);
+  }
 
   /// Checkers of paths through the present environment, made when first needed. The interpreter's lock is held. Call it
   /// while a Use exists.
