@@ -57,15 +57,14 @@ struct Options {
   bool omega = false;                                        ///< free omega too
   std::string loop;                                          ///< residues of loops; empty: none
   bool keep_hydrogen_bonds = false;                          ///< backbone hydrogen bonds are closures
-  std::vector<std::string> rigid_from;  ///< conformations whose rigid groups stay rigid; empty: none
-  double rigid_tolerance = 0.5;         ///< angstrom
-  std::optional<bool> keep_closures;    ///< true: close all cycles; false: only loops; nothing: close none
-  bool draws = false;                   ///< sample: conformations are drawn at random
-  bool collision_free = false;          ///< sample: only conformations that do not collide
-  std::optional<std::uint64_t>
-      most_tries;  ///< sample: starts for each conformation; relax: restarts; nothing: the default
+  std::vector<std::string> rigid_from;           ///< conformations whose rigid groups stay rigid; empty: none
+  double rigid_tolerance = 0.5;                  ///< angstrom
+  std::optional<bool> keep_closures;             ///< true: close all cycles; false: only loops; nothing: close none
+  bool draws = false;                            ///< sample: conformations are drawn at random
+  bool collision_free = false;                   ///< sample: only conformations that do not collide
+  std::optional<std::uint64_t> most_tries;       ///< sample: starts for each conformation; relax: restarts
   std::optional<hinge::molecular::Prior> prior;  ///< sample: nothing: by sigma_degrees
-  std::optional<double> seconds;                 ///< sample, relax: no new start after this time
+  std::optional<double> seconds;                 ///< sample: no start after this time; relax: the end
   std::string mode = "all";                      ///< check, sample: text of Mode::parse
   Output output = Output::table;                 ///< format of standard output
   std::optional<std::uint64_t> max_pairs;       ///< pairs printed per conformation, 0: all; nothing: see pairs_to_print

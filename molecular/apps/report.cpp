@@ -103,7 +103,7 @@ Json model_json(const Options& options, const Job& job) {
               {"free_words", free_words_json(job)},
               {"omega", options.omega},
               {"dof", checker.dof_count()},
-              {"rigid_groups", checker.rigid_group_count()},
+              {"rigid_groups", checker.rigid_groups().size()},
               {"closures", job.molecule->model().tree().closures().size()},
               {"loops", options.loop},
               {"rigid_from", options.rigid_from},
@@ -238,7 +238,7 @@ std::string heading(const Options& options, const Job& job) {
                                  counted(s.bonds.size(), "bond"));
   text += fmt::format("selection {}{}{}: {} DOF, {}, {}\nrule: {}{}\n", options.free,
                       options.omega ? " with omega" : "", options.loop.empty() ? "" : " and loop " + options.loop,
-                      checker.dof_count(), counted(checker.rigid_group_count(), "rigid group"),
+                      checker.dof_count(), counted(checker.rigid_groups().size(), "rigid group"),
                       counted(job.molecule->model().tree().closures().size(), "closure"), rule_line(checker), exempt);
   text += left_out_line(s) + free_words_line(job) + scene_lines(options, job);
   text +=

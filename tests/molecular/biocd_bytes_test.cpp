@@ -63,6 +63,15 @@ std::vector<std::string> walks(const std::string& models) {
   return all;
 }
 
+/// Returns command lines of relaxations by descent alone, with restarts and of a loop, which also print the result.
+std::vector<std::string> relaxations(const std::string& models, const std::string& result) {
+  std::vector<std::string> all;
+  for (const std::string& what : {file() + " --loop A:70-74", models + " --model 2 --free all --tries 3",
+                                  models + " --model 5 --free A:20-50 --tries 2 --seed 6"})
+    all.push_back("relax " + what + " --json --out " + result + " && cat " + result);
+  return all;
+}
+
 /// Expects the same bytes and exit status from every variation of a question.
 void expect_same(const std::string& question, const std::vector<std::string>& variations,
                  const std::string& environment) {
@@ -97,6 +106,8 @@ TEST(BiocdBytes, AreTheSameOnEveryInstructionSet) {
     for (const std::string& question : questions(sampled.path())) expect_same(question, {""}, environment);
     const test::TemporaryFile models("");
     for (const std::string& question : walks(models.path().string())) expect_same(question, {""}, environment);
+    for (const std::string& question : relaxations(sampled.path(), models.path().string()))
+      expect_same(question, {""}, environment);
   }
   if (compared.empty()) GTEST_SKIP() << "biocd comes for the baseline only, or the CPU has no more";
 }
@@ -105,6 +116,14 @@ TEST(BiocdBytes, AreTheSameForEveryEngineAndThreadCount) {
   const Sampled sampled;
   for (const std::string& question : questions(sampled.path()))
     expect_same(question, {" --threads 2", " --threads 8", " --engine lazy", " --engine brute --threads 2"}, "");
+  const test::TemporaryFile result("");
+  for (const std::string& question : relaxations(sampled.path(), result.path().string()))
+    for (const char* engine : {" --engine lazy", " --engine brute"}) {
+      // The JSON names no engine, so it is the same, too.
+      std::string other = question;
+      other.insert(other.find(" --json"), engine);
+      EXPECT_TRUE(run_biocd(other + " 2>/dev/null").out == run_biocd(question + " 2>/dev/null").out) << other;
+    }
 }
 
 }  // namespace biocd_bytes_test

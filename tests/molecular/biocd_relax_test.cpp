@@ -2,10 +2,13 @@
 // Tests biocd relax: the written file is free, the numbers agree, what is left is said, bad input is refused.
 #include <gtest/gtest.h>
 
-#include <filesystem>
+#include <array>
+#include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "hinge/core/vec3.hpp"
 #include "molecular/run_biocd.hpp"
 #include "molecular/test_files.hpp"
 
@@ -66,12 +69,44 @@ TEST(BiocdRelax, SaysWhatIsLeft) {
   EXPECT_TRUE(has(timed.out, "--time has passed")) << timed.out;
 }
 
+/// Returns the backbone bonds of a file, from its columns: name of the residue -> distances N-CA, CA-C and C-N of the
+/// next residue, angstrom.
+std::map<int, std::array<double, 3>> backbone_bonds(const std::string& path) {
+  std::map<int, std::map<std::string, Vec3>> atoms;
+  std::ifstream in(path);
+  for (std::string line; std::getline(in, line);)
+    if (line.starts_with("ATOM"))
+      atoms[std::stoi(line.substr(22, 4))][line.substr(13, 3)] = {
+          std::stod(line.substr(30, 8)), std::stod(line.substr(38, 8)), std::stod(line.substr(46, 8))};
+  std::map<int, std::array<double, 3>> bonds;
+  for (auto& [number, residue] : atoms)
+    if (atoms.contains(number + 1))
+      bonds[number] = {norm(Vec3(residue["CA "] - residue["N  "])), norm(Vec3(residue["C  "] - residue["CA "])),
+                       norm(Vec3(atoms[number + 1]["N  "] - residue["C  "]))};
+  return bonds;
+}
+
 TEST(BiocdRelax, KeepsLoopsClosed) {
-  const auto said = run_biocd("relax" + file() + "--loop A:70-74 --json --exempt-reference");
-  ASSERT_EQ(said.status, 0);
+  const test::TemporaryFile relaxed("");
+  const std::string out = relaxed.path().string();
+  const auto said = run_biocd("relax" + file() + "--loop A:70-74 --free \"A:70-74 and chi\" --json --out " + out);
+  ASSERT_EQ(said.status, 0) << said.out;
+  const Json json = Json::parse(said.out);
+  EXPECT_EQ(json.at("before").at("collisions"), 1);
+  EXPECT_GT(json.at("atoms_moved"), 5);
+  EXPECT_EQ(run_biocd("check " + out).status, 0);
+  const auto before = backbone_bonds(test::ubiquitin().string()), after = backbone_bonds(out);
+  ASSERT_EQ(after.size(), 75U);
+  for (const auto& [number, bonds] : before)
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(after.at(number)[k], bonds[k], 0.002) << number;
+  EXPECT_EQ(Json::parse(run_biocd("relax" + file() + "--loop A:70-74 --json").out).at("model").at("free"),
+            "(A:70-74) and chi");
+}
+
+TEST(BiocdRelax, SaysWhatExemptReferenceLeaves) {
   const auto noted = run_biocd("relax" + file() + "--exempt-reference 2>&1");
+  EXPECT_EQ(noted.status, 0);
   EXPECT_TRUE(has(noted.out, "note: 1 pair collides in the file; --exempt-reference leaves")) << noted.out;
-  EXPECT_EQ(Json::parse(said.out).at("model").at("free"), "(A:70-74) and chi");
 }
 
 TEST(BiocdRelax, RefusesWhatCannotBeRelaxed) {

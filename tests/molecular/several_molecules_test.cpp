@@ -294,7 +294,7 @@ TEST(PlacedPart, LeavesPairsInsideARigidOneAlone) {
   EXPECT_EQ(index(group("A")), 0U);
   EXPECT_NE(group("B"), group("L:LIG"));
   EXPECT_EQ(group("L:ZN"), group("L:LIG"));
-  EXPECT_EQ(checker.rigid_group_count(), 13U) << "six joints each, five of them between frames without atoms";
+  EXPECT_EQ(checker.rigid_groups().size(), 13U) << "six joints each, five of them between frames without atoms";
   for (std::uint32_t i = 0; i < s.atoms.size(); ++i)
     for (std::uint32_t j = 0; j < i; ++j) EXPECT_EQ(checker.constant(i, j), checker.group_of(i) == checker.group_of(j));
 }

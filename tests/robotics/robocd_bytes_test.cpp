@@ -48,6 +48,8 @@ TEST(RobocdBytes, AreTheSameOnEveryInstructionSet) {
       const std::string command = "check" + arm.urdf() + " --random 200 --csv --mode " + mode;
       EXPECT_TRUE(run_robocd(command, environment).out == run_robocd(command, "HINGE_ISA=baseline").out) << command;
     }
+    const std::string relax = "relax" + arm.urdf() + " --from zero --env box:'0.5 0.5 0.5' --json";
+    EXPECT_TRUE(run_robocd(relax, environment).out == run_robocd(relax, "HINGE_ISA=baseline").out);
   }
   EXPECT_EQ(run_robocd("--version 2>&1", "HINGE_ISA=x").status, 2);
   if (compared.empty()) GTEST_SKIP() << "robocd comes for the baseline only, or the CPU has no more";

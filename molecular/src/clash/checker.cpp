@@ -203,8 +203,9 @@ std::size_t Checker::dof_count() const {
   return std::visit([](const auto& hierarchy) { return hierarchy.dof_count(); }, *hierarchy_);
 }
 
-std::size_t Checker::rigid_group_count() const {
-  return std::visit([](const auto& hierarchy) { return hierarchy.model().groups()->size(); }, *hierarchy_);
+const RigidGroups& Checker::rigid_groups() const {
+  return std::visit([](const auto& hierarchy) -> const RigidGroups& { return *hierarchy.model().groups(); },
+                    *hierarchy_);
 }
 
 GroupId Checker::group_of(std::uint32_t atom) const {

@@ -25,12 +25,12 @@ ClashDescent::ClashDescent(Checker& checker, std::span<const double> start, std:
                            const std::function<bool()>& stop)
     : checker_(checker), stop_(stop), start_(start.begin(), start.end()) {
   if (!closures.empty()) equations_.emplace(checker.molecule().model().tree(), checker.selection(), closures);
-  find_reach();
+  find_moved_atoms();
 }
 
 /// Sums over the atoms that each value moves, from the outermost groups to the root.
-void ClashDescent::find_reach() {
-  const RigidGroups groups(checker_.molecule().model().tree(), checker_.selection());
+void ClashDescent::find_moved_atoms() {
+  const RigidGroups& groups = checker_.rigid_groups();
   const Structure& s = checker_.molecule().structure();
   checker_.check(start_, Mode{});
   struct Sums {
@@ -56,7 +56,7 @@ void ClashDescent::find_reach() {
     const RigidGroup& group = groups[id<GroupId>(g)];
     poses[g] = poses[index(group.parent)] * group.joint.origin * motion(group.joint, start_[group.dof]);
   }
-  reach_.assign(start_.size(), {});
+  moved_.assign(start_.size(), {});
   for (std::size_t g = groups.size(); g-- > 1;) {
     const RigidGroup& group = groups[id<GroupId>(g)];
     const Sums& own = sums[g];
@@ -65,13 +65,13 @@ void ClashDescent::find_reach() {
     double inertia = own.count;
     if (group.joint.kind == JointKind::revolute) {
       const double along = dot(axis, p);
-      inertia = own.squares - 2.0 * dot(p, own.first) + own.count * squared_norm(p) - dot(axis, own.second * axis) +
-                2.0 * along * dot(axis, own.first) - own.count * along * along;
+      inertia = own.squares - 2.0 * dot(p, own.first) + own.count * squared_norm(p) -
+                dot(axis, product(own.second, axis)) + 2.0 * along * dot(axis, own.first) - own.count * along * along;
     }
     // An axis through all atoms that it moves changes nothing; any scale will do.
-    if (inertia > 1e-3) reach_[group.dof].lever = std::sqrt(inertia);
-    if (own.count > 0.0) reach_[group.dof].atoms = std::sqrt(own.count);
-    reach_[group.dof].stays_home = own.least_residue >= own.largest_residue;
+    if (inertia > 1e-3) moved_[group.dof].lever = std::sqrt(inertia);
+    if (own.count > 0.0) moved_[group.dof].root_count = std::sqrt(own.count);
+    moved_[group.dof].in_one_residue = own.least_residue >= own.largest_residue;
     Sums& parent = sums[index(group.parent)];
     parent.count += own.count;
     parent.squares += own.squares;
@@ -84,7 +84,7 @@ void ClashDescent::find_reach() {
 
 std::vector<double> ClashDescent::at(std::span<const double> u) const {
   std::vector<double> q(start_);
-  for (std::size_t k = 0; k < q.size(); ++k) q[k] += u[k] / reach_[k].lever;
+  for (std::size_t k = 0; k < q.size(); ++k) q[k] += u[k] / moved_[k].lever;
   return q;
 }
 
@@ -107,7 +107,7 @@ double ClashDescent::objective(unsigned n, const double* u, double* gradient) {
   }
   for (unsigned k = 0; k < n; ++k) {
     value += mu_ * u[k] * u[k];
-    if (gradient != nullptr) gradient[k] = steric.gradient[k] / reach_[k].lever + 2.0 * mu_ * u[k];
+    if (gradient != nullptr) gradient[k] = steric.gradient[k] / moved_[k].lever + 2.0 * mu_ * u[k];
   }
   return value;
 }
@@ -128,7 +128,7 @@ double ClashDescent::call(unsigned n, const double* u, double* gradient, void* s
 void ClashDescent::minimise(std::vector<double>& q, double mu) {
   const auto n = static_cast<unsigned>(q.size());
   std::vector<double> u(n);
-  for (std::size_t k = 0; k < n; ++k) u[k] = (q[k] - start_[k]) * reach_[k].lever;
+  for (std::size_t k = 0; k < n; ++k) u[k] = (q[k] - start_[k]) * moved_[k].lever;
   mu_ = mu;
   const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> optimiser(nlopt_create(NLOPT_LD_LBFGS, n),
                                                                          &nlopt_destroy);

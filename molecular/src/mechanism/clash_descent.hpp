@@ -17,11 +17,11 @@
 
 namespace hinge::molecular {
 
-/// What one value of a configuration moves, at the start.
-struct Reach {
+/// The atoms that one value of a configuration moves, at the start.
+struct MovedAtoms {
   double lever = 1.0;       ///< root of the moment of inertia (angstrom per rad), or of the number of atoms for slides
-  double atoms = 1.0;       ///< root of the number of atoms
-  bool stays_home = false;  ///< it moves atoms of one residue only
+  double root_count = 1.0;  ///< root of the number of atoms
+  bool in_one_residue = false;  ///< they all belong to one residue
 };
 
 /// Minimises Checker::steric(q, softness) + mu * sum of (lever * (q - start))^2 + squared closure residuals, with
@@ -39,7 +39,7 @@ class ClashDescent {
   /// True if stop() returned true.
   bool stopped() const noexcept { return stopped_; }
   /// One per value.
-  const std::vector<Reach>& reach() const noexcept { return reach_; }
+  const std::vector<MovedAtoms>& moved_atoms() const noexcept { return moved_; }
 
  private:
   /// The callback of NLopt. Exceptions must not pass through C functions.
@@ -47,12 +47,12 @@ class ClashDescent {
   /// Returns the objective at displacements u (angstrom, root of a sum over atoms) and its gradient by u.
   double objective(unsigned n, const double* u, double* gradient);
   std::vector<double> at(std::span<const double> u) const;
-  void find_reach();
+  void find_moved_atoms();
 
   Checker& checker_;
   const std::function<bool()>& stop_;
   std::vector<double> start_;
-  std::vector<Reach> reach_;
+  std::vector<MovedAtoms> moved_;
   std::optional<ClosureEquations> equations_;
   double mu_ = 0.0;
   nlopt_opt optimiser_ = nullptr;  // of the present call of minimise()

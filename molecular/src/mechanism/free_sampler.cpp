@@ -80,7 +80,7 @@ FreeSampler::FreeSampler(const Checker& checker, const FreeSampling& options, co
 void FreeSampler::make_units(std::span<const std::size_t> closures) {
   const Molecule& molecule = checker_.molecule();
   const DofSelection& selection = checker_.selection();
-  const RigidGroups groups(molecule.model().tree(), selection);
+  const RigidGroups& groups = checker_.rigid_groups();
   std::vector<bool> in_cycle(selection.size(), false);
   if (!closures.empty()) in_cycle = ClosureSolver(molecule.model().tree(), selection, closures).dofs_in_cycles();
   std::map<std::size_t, std::pair<std::size_t, std::size_t>> places;  // position -> placed part, component

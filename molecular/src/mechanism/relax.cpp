@@ -95,9 +95,15 @@ class Relaxer {
   }
 
   Score score(std::span<const double> q) {
-    const std::vector<Contact> pairs = near_pairs(q);
-    const auto collisions = std::ranges::count_if(pairs, [](const Contact& pair) { return pair.collides; });
-    return {static_cast<std::size_t>(collisions), pairs.size(), checker_.steric(q, 0.0).energy};
+    Score score;
+    for (const Contact& pair : near_pairs(q)) {
+      ++score.near;
+      if (!pair.collides) continue;
+      ++score.collisions;
+      const double overlap = pair.hit.threshold - pair.hit.distance;
+      score.energy += overlap * overlap;  // the terms of Checker::steric at softness 0, in the same order
+    }
+    return score;
   }
   std::vector<Contact> near_pairs(std::span<const double> q) {
     return checker_.check(q, Mode{Mode::Kind::within, file_rounding}).pairs;
@@ -141,7 +147,7 @@ std::vector<double> Relaxer::descend(std::vector<double> q, std::span<const doub
 
 /// Returns the residues and parts whose values move an atom of a colliding pair, the last joint before it.
 std::vector<Relaxer::Mover> Relaxer::in_the_way() {
-  const RigidGroups groups(checker_.molecule().model().tree(), checker_.selection());
+  const RigidGroups& groups = checker_.rigid_groups();
   std::set<Mover> movers;
   for (const Contact& contact : near_pairs(best_))
     for (const PrimitiveId atom : {contact.hit.first, contact.hit.second}) {
@@ -164,7 +170,7 @@ std::vector<double> Relaxer::draw(const Mover& mover, SampleStream& stream) {
       const std::size_t k = values[place];
       if (mover.is_part && place < 3)
         q[k] += restart_slide * stream.normal();
-      else if (!mover.is_part && descent_.reach()[k].stays_home)
+      else if (!mover.is_part && descent_.moved_atoms()[k].in_one_residue)
         q[k] = start_[k] + std::numbers::pi * (2.0 * stream.uniform() - 1.0);
       else
         q[k] += restart_turn * stream.normal();
@@ -199,7 +205,8 @@ void Relaxer::return_to_start() {
   };
   std::vector<double> q = best_;
   for (std::size_t k = 0; k < q.size(); ++k)
-    if (std::abs(q[k] - start_[k]) * descent_.reach()[k].lever < unseen_move * descent_.reach()[k].atoms)
+    if (std::abs(q[k] - start_[k]) * descent_.moved_atoms()[k].lever <
+        unseen_move * descent_.moved_atoms()[k].root_count)
       q[k] = start_[k];
   try_instead(std::move(q));
   std::set<Mover> moved;

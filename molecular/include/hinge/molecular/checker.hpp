@@ -18,6 +18,7 @@
 #include "hinge/engine/lazy.hpp"
 #include "hinge/engine/simd.hpp"
 #include "hinge/hierarchy.hpp"
+#include "hinge/kinematics/rigid_groups.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/molecule.hpp"
 #include "hinge/molecular/pair_scope.hpp"
@@ -102,8 +103,8 @@ class HINGE_API Checker {
   const DofSelection& selection() const;
   /// Number of values of a configuration.
   std::size_t dof_count() const;
-  /// Number of rigid groups under the selection, including the world's.
-  std::size_t rigid_group_count() const;
+  /// The rigid groups under the selection, including the world's; valid as selection().
+  const RigidGroups& rigid_groups() const;
   /// The rigid group of an atom.
   GroupId group_of(std::uint32_t atom) const;
   /// True if the selection cannot change the distance of atoms i and j.
