@@ -17,7 +17,8 @@ using hinge::tool::Svg;
 
 namespace {
 
-constexpr double width = 520, height = 380, left = 86, right = 110, top = 44, bottom = 56;
+constexpr double width = 520, height = 380;
+constexpr struct { double left = 86, right = 110, top = 44, bottom = 56; } margin;
 constexpr std::array<const char*, 6> colours{"#1b6ca8", "#c8553d", "#3a7d44", "#7d5ba6", "#b8860b", "#444444"};
 
 void draw(Svg& svg, const Plot& plot, double shift) {
@@ -28,22 +29,23 @@ void draw(Svg& svg, const Plot& plot, double shift) {
       high = std::max(high, value);
     }
   const double from = std::floor(std::log10(low)), to = std::max(std::ceil(std::log10(high)), from + 1);
-  const double inner_width = width - left - right, inner_height = height - top - bottom;
+  const double inner_width = width - margin.left - margin.right, inner_height = height - margin.top - margin.bottom;
   const auto x = [&](std::size_t k) {
     const double steps = std::max<double>(1.0, static_cast<double>(plot.labels.size()) - 1);
-    return shift + left + inner_width * static_cast<double>(k) / steps;
+    return shift + margin.left + inner_width * static_cast<double>(k) / steps;
   };
-  const auto y = [&](double value) { return top + inner_height * (to - std::log10(value)) / (to - from); };
+  const auto y = [&](double value) { return margin.top + inner_height * (to - std::log10(value)) / (to - from); };
 
-  svg.text({shift + left, 24}, plot.title, "start", "font-weight=\"bold\"");
+  svg.text({shift + margin.left, 24}, plot.title, "start", "font-weight=\"bold\"");
   for (double decade = from; decade <= to; ++decade) {
     const double at = y(std::pow(10.0, decade));
-    svg.line({shift + left, at}, {shift + left + inner_width, at}, "#ddd");
-    svg.text({shift + left - 8, at + 4}, fmt::format("{:.0f}", std::pow(10.0, decade)), "end");
+    svg.line({shift + margin.left, at}, {shift + margin.left + inner_width, at}, "#ddd");
+    svg.text({shift + margin.left - 8, at + 4}, fmt::format("{:.0f}", std::pow(10.0, decade)), "end");
   }
-  for (std::size_t k = 0; k < plot.labels.size(); ++k) svg.text({x(k), height - bottom + 20}, plot.labels[k], "middle");
-  svg.text({shift + left + inner_width / 2, height - 14}, plot.horizontal, "middle");
-  const double middle = top + inner_height / 2;
+  for (std::size_t k = 0; k < plot.labels.size(); ++k)
+    svg.text({x(k), height - margin.bottom + 20}, plot.labels[k], "middle");
+  svg.text({shift + margin.left + inner_width / 2, height - 14}, plot.horizontal, "middle");
+  const double middle = margin.top + inner_height / 2;
   svg.text({shift + 14, middle}, plot.vertical, "middle",
            fmt::format("transform=\"rotate(-90 {:.1f} {:.1f})\"", shift + 14, middle));
 
@@ -60,7 +62,8 @@ void draw(Svg& svg, const Plot& plot, double shift) {
       svg.circle(points.back(), 3, colour);
     }
     svg.polyline(points, colour, 2);
-    svg.text({shift + width - right + 10, at + 4}, plot.curves[c].name, "start", fmt::format("fill=\"{}\"", colour));
+    svg.text({shift + width - margin.right + 10, at + 4}, plot.curves[c].name, "start",
+             fmt::format("fill=\"{}\"", colour));
   }
 }
 
