@@ -141,7 +141,7 @@ inline std::vector<std::string> not_under_umbrella(const SourceTree& tree) {
 
 /// Returns one sentence per line of examples, outside programs and pages that includes a private header.
 inline std::vector<std::string> private_includes(const SourceTree& shown) {
-  static const std::regex pattern(R"re(#\s*include\s*[<"](hinge/detail/|hinge_tools/))re");
+  static const std::regex pattern(R"re(#\s*include\s*[<"](hinge/detail/|hinge_tools/|hinge_planning/))re");
   std::vector<std::string> violations;
   for (const auto& [path, lines] : shown)
     for (const std::string& line : lines)

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// find_motion: finds a free motion between two configurations with OMPL's RRT-Connect, and shortens it.
+#pragma once
+
+#include <ompl/base/MotionValidator.h>
+#include <ompl/base/Planner.h>
+#include <ompl/base/ProblemDefinition.h>
+#include <ompl/base/SpaceInformation.h>
+#include <ompl/base/StateSampler.h>
+#include <ompl/base/StateValidityChecker.h>
+#include <ompl/base/goals/GoalState.h>
+#include <ompl/geometric/PathGeometric.h>
+#include <ompl/geometric/PathSimplifier.h>
+#include <ompl/geometric/planners/rrt/RRTConnect.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "hinge/core/philox.hpp"
+#include "hinge_planning/joint_space.hpp"
+#include "hinge_planning/motion_problem.hpp"
+
+namespace hinge::planning {
+
+/// Options of find_motion().
+struct MotionSearch {
+  double range = 1.0;               ///< longest motion that is added to a tree, in the unit of MotionProblem::distance
+  std::uint64_t most_motions = 1;   ///< largest number of motions to test before a first solution
+  std::uint64_t seed = 1;           ///< of the random configurations
+  std::function<bool()> stop = {};  ///< called before every draw; if it returns true, the search ends
+};
+
+/// The result of find_motion().
+struct FoundMotion {
+  /// Configurations from the start on; the motion between neighbours is free. The last one is the end if it was
+  /// reached, otherwise the nearest to it that was reached.
+  std::vector<std::vector<double>> waypoints;
+  bool reached = false;       ///< the last waypoint is the end
+  double remaining = 0.0;     ///< distance from the last waypoint to the end; 0 if reached
+  std::uint64_t motions = 0;  ///< motions that were tested, those of shortening included
+};
+
+namespace detail {
+
+class StateIsFree : public ompl::base::StateValidityChecker {
+ public:
+  StateIsFree(const ompl::base::SpaceInformationPtr& information, MotionProblem& problem)
+      : ompl::base::StateValidityChecker(information), problem_(problem) {}
+  bool isValid(const ompl::base::State* state) const override { return problem_.is_free(JointSpace::values(state)); }
+
+ private:
+  MotionProblem& problem_;
+};
+
+/// A motion is valid if all of it is proved free.
+class MotionIsFree : public ompl::base::MotionValidator {
+ public:
+  MotionIsFree(const ompl::base::SpaceInformationPtr& information, MotionProblem& problem)
+      : ompl::base::MotionValidator(information), problem_(problem) {}
+  bool checkMotion(const ompl::base::State* from, const ompl::base::State* to) const override {
+    const bool free = problem_.is_motion_free(JointSpace::values(from), JointSpace::values(to));
+    ++(free ? valid_ : invalid_);
+    return free;
+  }
+  /// Of a motion that is not free only the start is known to be free.
+  bool checkMotion(const ompl::base::State* from, const ompl::base::State* to,
+                   std::pair<ompl::base::State*, double>& last) const override {
+    if (checkMotion(from, to)) return true;
+    if (last.first != nullptr) si_->copyState(last.first, from);
+    last.second = 0.0;
+    return false;
+  }
+
+ private:
+  MotionProblem& problem_;
+};
+
+/// OMPL's simplifier with a seed of its own.
+class Shortener : public ompl::geometric::PathSimplifier {
+ public:
+  Shortener(const ompl::base::SpaceInformationPtr& information, std::uint64_t seed)
+      : ompl::geometric::PathSimplifier(information) {
+    rng_.setLocalSeed(static_cast<std::uint_fast32_t>(seed % 0xFFFFFFFEU + 1));  // OMPL refuses 0
+  }
+};
+
+/// Suppresses OMPL's messages, and restores the handler of the program at the end.
+class QuietOmpl {
+ public:
+  QuietOmpl() : handler_(ompl::msg::getOutputHandler()) { ompl::msg::noOutputHandler(); }
+  ~QuietOmpl() { ompl::msg::useOutputHandler(handler_); }
+  QuietOmpl(const QuietOmpl&) = delete;
+  QuietOmpl& operator=(const QuietOmpl&) = delete;
+
+ private:
+  ompl::msg::OutputHandler* handler_;
+};
+
+}  // namespace detail
+
+/// Plans from `from` to `to`, both free, by RRT-Connect (Kuffner & LaValle, ICRA 2000), then shortens by shortcuts
+/// until two rounds in a row gain less than 1 percent. The straight motion is tried first. The result depends on the
+/// arguments alone, if stop never returns true.
+inline FoundMotion find_motion(MotionProblem& problem, std::span<const double> from, std::span<const double> to,
+                               const MotionSearch& search) {
+  namespace ob = ompl::base;
+  const detail::QuietOmpl quiet;
+  const auto space = std::make_shared<JointSpace>(problem, search.seed);
+  const auto information = std::make_shared<ob::SpaceInformation>(space);
+  information->setStateValidityChecker(std::make_shared<detail::StateIsFree>(information, problem));
+  const auto motions = std::make_shared<detail::MotionIsFree>(information, problem);
+  information->setMotionValidator(motions);
+  information->setup();
+  const auto tested = [&] { return std::uint64_t{motions->getValidMotionCount()} + motions->getInvalidMotionCount(); };
+
+  const auto state = [&](std::span<const double> q) {
+    ob::ScopedState<> made(information);
+    std::copy(q.begin(), q.end(), JointSpace::values(made.get()).begin());
+    return made;
+  };
+  const auto start = state(from), end = state(to);
+  ompl::geometric::PathGeometric path(information);
+  FoundMotion found;
+  if (information->checkMotion(start.get(), end.get())) {
+    path.append(start.get());
+    path.append(end.get());
+    found.reached = true;
+  } else {
+    const auto definition = std::make_shared<ob::ProblemDefinition>(information);
+    definition->setStartAndGoalStates(start, end, std::numeric_limits<double>::epsilon());
+    ompl::geometric::RRTConnect planner(information);
+    planner.setRange(search.range);
+    planner.setProblemDefinition(definition);
+    planner.setup();
+    planner.solve(ob::PlannerTerminationCondition(
+        [&] { return tested() >= search.most_motions || (search.stop && search.stop()); }));
+    found.reached = definition->hasExactSolution();
+    if (const auto* solution = dynamic_cast<ompl::geometric::PathGeometric*>(definition->getSolutionPath().get()))
+      path = *solution;
+    else
+      path.append(start.get());
+  }
+
+  detail::Shortener shortener(information, search.seed);
+  constexpr unsigned shortcuts_per_round = 50;
+  constexpr int most_idle_rounds = 2;
+  constexpr double least_gain = 0.01;
+  for (int idle = 0; idle < most_idle_rounds && path.getStateCount() > 2 && !(search.stop && search.stop());) {
+    const double before = path.length();
+    shortener.reduceVertices(path);
+    shortener.shortcutPath(path, shortcuts_per_round, shortcuts_per_round);
+    idle = path.length() < (1.0 - least_gain) * before ? 0 : idle + 1;
+  }
+
+  for (std::size_t k = 0; k < path.getStateCount(); ++k) {
+    const std::span<const double> q = JointSpace::values(path.getState(static_cast<unsigned>(k)));
+    if (k == 0)
+      found.waypoints.emplace_back(q.begin(), q.end());
+    else
+      for (std::vector<double>& step : problem.steps(std::vector<double>(found.waypoints.back()), q))
+        found.waypoints.push_back(std::move(step));
+  }
+  if (!found.reached) found.remaining = problem.distance(found.waypoints.back(), to);
+  found.motions = tested();
+  return found;
+}
+
+}  // namespace hinge::planning
