@@ -19,6 +19,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <utility>
 #include <vector>
@@ -51,18 +52,18 @@ namespace detail {
 
 class StateIsFree : public ompl::base::StateValidityChecker {
  public:
-  StateIsFree(const ompl::base::SpaceInformationPtr& information, MotionProblem& problem)
+  StateIsFree(const ompl::base::SpaceInformationPtr& information, const MotionProblem& problem)
       : ompl::base::StateValidityChecker(information), problem_(problem) {}
   bool isValid(const ompl::base::State* state) const override { return problem_.is_free(JointSpace::values(state)); }
 
  private:
-  MotionProblem& problem_;
+  const MotionProblem& problem_;
 };
 
 /// A motion is valid if all of it is proved free.
 class MotionIsFree : public ompl::base::MotionValidator {
  public:
-  MotionIsFree(const ompl::base::SpaceInformationPtr& information, MotionProblem& problem)
+  MotionIsFree(const ompl::base::SpaceInformationPtr& information, const MotionProblem& problem)
       : ompl::base::MotionValidator(information), problem_(problem) {}
   bool checkMotion(const ompl::base::State* from, const ompl::base::State* to) const override {
     const bool free = problem_.is_motion_free(JointSpace::values(from), JointSpace::values(to));
@@ -79,7 +80,7 @@ class MotionIsFree : public ompl::base::MotionValidator {
   }
 
  private:
-  MotionProblem& problem_;
+  const MotionProblem& problem_;
 };
 
 /// OMPL's simplifier with a seed of its own.
@@ -91,16 +92,48 @@ class Shortener : public ompl::geometric::PathSimplifier {
   }
 };
 
-/// Suppresses OMPL's messages, and restores the handler of the program at the end.
+/// RRT-Connect that tells how far its first tree has come.
+class Connect : public ompl::geometric::RRTConnect {
+ public:
+  using ompl::geometric::RRTConnect::RRTConnect;
+
+  /// Appends the path from the start to the state of its tree that is nearest to `end`.
+  void append_nearest(const ompl::base::State* end, ompl::geometric::PathGeometric& path) const {
+    std::vector<Motion*> all;
+    tStart_->list(all);
+    const Motion* nearest = nullptr;
+    double least = 0.0;
+    for (const Motion* motion : all)
+      if (const double distance = si_->distance(motion->state, end); nearest == nullptr || distance < least) {
+        nearest = motion;
+        least = distance;
+      }
+    std::vector<const ompl::base::State*> states;
+    for (; nearest != nullptr; nearest = nearest->parent) states.push_back(nearest->state);
+    for (; !states.empty(); states.pop_back()) path.append(states.back());
+  }
+};
+
+/// Suppresses OMPL's messages while an object exists, then restores the handler of the program.
 class QuietOmpl {
  public:
-  QuietOmpl() : handler_(ompl::msg::getOutputHandler()) { ompl::msg::noOutputHandler(); }
-  ~QuietOmpl() { ompl::msg::useOutputHandler(handler_); }
+  QuietOmpl() {
+    const std::scoped_lock lock(mutex_);
+    if (count_++ > 0) return;
+    handler_ = ompl::msg::getOutputHandler();
+    ompl::msg::noOutputHandler();
+  }
+  ~QuietOmpl() {
+    const std::scoped_lock lock(mutex_);
+    if (--count_ == 0) ompl::msg::useOutputHandler(handler_);
+  }
   QuietOmpl(const QuietOmpl&) = delete;
   QuietOmpl& operator=(const QuietOmpl&) = delete;
 
  private:
-  ompl::msg::OutputHandler* handler_;
+  inline static std::mutex mutex_;
+  inline static int count_ = 0;
+  inline static ompl::msg::OutputHandler* handler_ = nullptr;
 };
 
 }  // namespace detail
@@ -108,7 +141,7 @@ class QuietOmpl {
 /// Plans from `from` to `to`, both free, by RRT-Connect (Kuffner & LaValle, ICRA 2000), then shortens by shortcuts
 /// until two rounds in a row gain less than 1 percent. The straight motion is tried first. The result depends on the
 /// arguments alone, if stop never returns true.
-inline FoundMotion find_motion(MotionProblem& problem, std::span<const double> from, std::span<const double> to,
+inline FoundMotion find_motion(const MotionProblem& problem, std::span<const double> from, std::span<const double> to,
                                const MotionSearch& search) {
   namespace ob = ompl::base;
   const detail::QuietOmpl quiet;
@@ -135,17 +168,17 @@ inline FoundMotion find_motion(MotionProblem& problem, std::span<const double> f
   } else {
     const auto definition = std::make_shared<ob::ProblemDefinition>(information);
     definition->setStartAndGoalStates(start, end, std::numeric_limits<double>::epsilon());
-    ompl::geometric::RRTConnect planner(information);
+    detail::Connect planner(information);
     planner.setRange(search.range);
     planner.setProblemDefinition(definition);
     planner.setup();
     planner.solve(ob::PlannerTerminationCondition(
         [&] { return tested() >= search.most_motions || (search.stop && search.stop()); }));
     found.reached = definition->hasExactSolution();
-    if (const auto* solution = dynamic_cast<ompl::geometric::PathGeometric*>(definition->getSolutionPath().get()))
-      path = *solution;
+    if (found.reached)
+      path = static_cast<const ompl::geometric::PathGeometric&>(*definition->getSolutionPath());
     else
-      path.append(start.get());
+      planner.append_nearest(end.get(), path);
   }
 
   detail::Shortener shortener(information, search.seed);
@@ -153,10 +186,17 @@ inline FoundMotion find_motion(MotionProblem& problem, std::span<const double> f
   constexpr int most_idle_rounds = 2;
   constexpr double least_gain = 0.01;
   for (int idle = 0; idle < most_idle_rounds && path.getStateCount() > 2 && !(search.stop && search.stop());) {
-    const double before = path.length();
-    shortener.reduceVertices(path);
-    shortener.shortcutPath(path, shortcuts_per_round, shortcuts_per_round);
-    idle = path.length() < (1.0 - least_gain) * before ? 0 : idle + 1;
+    ompl::geometric::PathGeometric shorter(path);
+    shortener.reduceVertices(shorter);
+    shortener.shortcutPath(shorter, shortcuts_per_round, shortcuts_per_round);
+    const bool gains = shorter.length() < (1.0 - least_gain) * path.length();
+    // A shortcut cuts tested motions; their parts round to other states.
+    bool is_free = true;
+    for (std::size_t k = 1; k < shorter.getStateCount() && is_free; ++k)
+      is_free = information->checkMotion(shorter.getState(static_cast<unsigned>(k - 1)),
+                                         shorter.getState(static_cast<unsigned>(k)));
+    idle = gains && is_free ? 0 : idle + 1;
+    if (is_free) path = shorter;
   }
 
   for (std::size_t k = 0; k < path.getStateCount(); ++k) {

@@ -21,7 +21,7 @@ namespace hinge::planning {
 class JointSpace : public ompl::base::StateSpace {
  public:
   /// seed: of the configurations that samplers draw.
-  JointSpace(MotionProblem& problem, std::uint64_t seed) : problem_(problem), seed_(seed) {}
+  JointSpace(const MotionProblem& problem, std::uint64_t seed) : problem_(problem), seed_(seed) {}
 
   /// The values of a state.
   static std::span<double> values(ompl::base::State* state) { return static_cast<Values*>(state)->span(); }
@@ -30,8 +30,8 @@ class JointSpace : public ompl::base::StateSpace {
     return static_cast<const Values*>(state)->span();
   }
 
-  unsigned int getDimension() const override { return static_cast<unsigned>(problem_.dof_count()); }
-  double getMaximumExtent() const override { return problem_.largest_distance(); }
+  unsigned int getDimension() const override { return static_cast<unsigned>(problem_.dof_count); }
+  double getMaximumExtent() const override { return problem_.largest_distance; }
   double getMeasure() const override { return 1.0; }
   void enforceBounds(ompl::base::State*) const override {}  // draws are within the bounds
   bool satisfiesBounds(const ompl::base::State*) const override { return true; }
@@ -54,7 +54,7 @@ class JointSpace : public ompl::base::StateSpace {
   ompl::base::StateSamplerPtr allocDefaultStateSampler() const override {
     return std::make_shared<Sampler>(this, problem_, SampleStream(seed_, samplers_++));
   }
-  ompl::base::State* allocState() const override { return new Values(problem_.dof_count()); }
+  ompl::base::State* allocState() const override { return new Values(problem_.dof_count); }
   void freeState(ompl::base::State* state) const override { delete static_cast<Values*>(state); }
 
  private:
@@ -70,7 +70,7 @@ class JointSpace : public ompl::base::StateSpace {
 
   class Sampler : public ompl::base::StateSampler {
    public:
-    Sampler(const ompl::base::StateSpace* space, MotionProblem& problem, const SampleStream& stream)
+    Sampler(const ompl::base::StateSpace* space, const MotionProblem& problem, const SampleStream& stream)
         : ompl::base::StateSampler(space), problem_(problem), stream_(stream) {}
     void sampleUniform(ompl::base::State* state) override { problem_.draw(stream_, values(state)); }
     // RRT-Connect draws with sampleUniform only.
@@ -80,11 +80,11 @@ class JointSpace : public ompl::base::StateSpace {
     void sampleGaussian(ompl::base::State* state, const ompl::base::State*, double) override { sampleUniform(state); }
 
    private:
-    MotionProblem& problem_;
+    const MotionProblem& problem_;
     SampleStream stream_;
   };
 
-  MotionProblem& problem_;
+  const MotionProblem& problem_;
   std::uint64_t seed_;
   mutable std::uint64_t samplers_ = 0;
 };

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -11,32 +11,33 @@
 
 namespace hinge::planning {
 
-/// Configurations have one value per degree of freedom, rad or the model's length unit. Not thread-safe.
-class MotionProblem {
- public:
-  virtual ~MotionProblem() = default;
+/// Writes the configuration at `share` (0 to 1) of the straight motion from `from` to `to`.
+inline void go_straight(std::span<const double> from, std::span<const double> to, double share, std::span<double> q) {
+  for (std::size_t k = 0; k < q.size(); ++k) q[k] = from[k] + share * (to[k] - from[k]);
+}
 
-  /// Number of values of a configuration.
-  virtual std::size_t dof_count() const = 0;
+/// Configurations have one value per degree of freedom, rad or the model's length unit. The functions are called by one
+/// thread.
+struct MotionProblem {
+  std::size_t dof_count = 0;      ///< number of values of a configuration
+  double largest_distance = 0.0;  ///< an upper bound of the distance of two configurations that draw() may return
   /// A metric of configurations.
-  virtual double distance(std::span<const double> a, std::span<const double> b) const = 0;
-  /// An upper bound of the distance of two configurations that draw() may return.
-  virtual double largest_distance() const = 0;
+  std::function<double(std::span<const double> a, std::span<const double> b)> distance;
   /// Draws a configuration towards which a tree grows. It need not be free.
-  virtual void draw(SampleStream& stream, std::span<double> q) = 0;
-  /// Writes the configuration at `share` (0 to 1) of the motion from `from` to `to`.
-  virtual void go(std::span<const double> from, std::span<const double> to, double share, std::span<double> q) {
-    for (std::size_t k = 0; k < q.size(); ++k) q[k] = from[k] + share * (to[k] - from[k]);
-  }
-  /// Returns the configurations after `from` that the motion to `to` visits, with `to` as the last; the motion is
-  /// straight from each to the next.
-  virtual std::vector<std::vector<double>> steps(std::span<const double> /*from*/, std::span<const double> to) {
-    return {std::vector<double>(to.begin(), to.end())};
-  }
+  std::function<void(SampleStream& stream, std::span<double> q)> draw;
   /// True if the configuration is allowed and does not collide.
-  virtual bool is_free(std::span<const double> q) = 0;
+  std::function<bool(std::span<const double> q)> is_free;
   /// True if every configuration of the motion is proved free.
-  virtual bool is_motion_free(std::span<const double> from, std::span<const double> to) = 0;
+  std::function<bool(std::span<const double> from, std::span<const double> to)> is_motion_free;
+  /// Writes the configuration at `share` (0 to 1) of the motion from `from` to `to`.
+  std::function<void(std::span<const double> from, std::span<const double> to, double share, std::span<double> q)> go =
+      go_straight;
+  /// Returns the configurations after `from` that the motion to `to` visits, with its end as the last; the motion is
+  /// straight from each to the next.
+  std::function<std::vector<std::vector<double>>(std::span<const double> from, std::span<const double> to)> steps =
+      [](std::span<const double>, std::span<const double> to) {
+        return std::vector<std::vector<double>>{std::vector<double>(to.begin(), to.end())};
+      };
 };
 
 }  // namespace hinge::planning

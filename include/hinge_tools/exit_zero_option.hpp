@@ -25,7 +25,7 @@ inline Topic exit_status_topic() {
   return {"Exit status",
           {"  0  free, or nothing to decide", "  1  a collision was found (0 with --exit-zero)", "  2  wrong usage",
            "  3  bad input", "  4  undecided: path proved neither (0 with --exit-zero)",
-           "  5  fewer conformations than asked for (0 with --exit-zero)"}};
+           "  5  not found: conformations are missing, or a motion (0 with --exit-zero)"}};
 }
 
 }  // namespace hinge::tool

@@ -184,6 +184,29 @@ Exit run(int argc, char** argv) {
   biocd::add_path_options(*path, o);
   path->callback([&] { command = biocd::run_path; });
 
+  CLI::App* plan = app.add_subcommand("plan", "find a motion between two conformations on which no pair collides");
+  biocd::add_model_options(*plan, o);
+  plan->option_defaults()->group(title::ends);
+  biocd::add_ends(*plan, o, false);
+  biocd::add_output_options(*plan, o);
+  biocd::add_out_option(*plan, o);
+  add_number(*plan, "--step", o.frame_step, lengths_above_0,
+             "largest turn of a torsion between two written conformations (placed parts: a tenth of it in angstrom)")
+      ->type_name("DEGREES");
+  biocd::add_view_option(*plan, o);
+  biocd::add_explain_option(*plan, o);
+  hinge::tool::add_exit_zero(*plan, o.exit_zero);
+  plan->option_defaults()->group(title::moves);
+  biocd::add_closures_option(*plan, o);
+  add_number(*plan, "--tries", o.most_tries, counts, "largest number of motions to test (default: 100000)");
+  add_number(*plan, "--time", o.seconds, lengths_above_0, "end the search after this time")->type_name("SECONDS");
+  add_number(*plan, "--seed", o.seed, seeds, "seed of the random conformations")->type_name("SEED");
+  plan->callback([&] {
+    o.keep_closures = o.keep_closures.value_or(true);
+    if (o.from.empty()) o.from = "reference";
+    command = biocd::run_plan;
+  });
+
   CLI::App* demo = app.add_subcommand("demo", "demonstrate the library on one protein: sample, time, verify, draw");
   demo->option_defaults()->group(title::input);
   demo->add_option("FILE", o.file, "PDB or mmCIF file, plain or .gz")->required();

@@ -9,6 +9,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge_tools/check_output.hpp"
 #include "options.hpp"
+#include "path_end.hpp"
 #include "view.hpp"
 
 namespace biocd {
@@ -20,6 +21,8 @@ std::vector<std::filesystem::path> input_files(const Options& options) {
   for (const auto* list : {&options.with, &options.trajectories, &options.rigid_from, &options.shards})
     files.insert(files.end(), list->begin(), list->end());
   files.insert(files.end(), options.read.components.begin(), options.read.components.end());
+  for (const std::string& end : {options.from, options.to})
+    if (const std::string file = file_of_end(end); !file.empty()) files.emplace_back(file);
   return files;
 }
 

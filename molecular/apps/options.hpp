@@ -57,27 +57,27 @@ struct Options {
   bool omega = false;                                        ///< free omega too
   std::string loop;                                          ///< residues of loops; empty: none
   bool keep_hydrogen_bonds = false;                          ///< backbone hydrogen bonds are closures
-  std::vector<std::string> rigid_from;           ///< conformations whose rigid groups stay rigid; empty: none
-  double rigid_tolerance = 0.5;                  ///< angstrom
-  std::optional<bool> keep_closures;             ///< true: close all cycles; false: only loops; nothing: close none
-  bool draws = false;                            ///< sample: conformations are drawn at random
-  bool collision_free = false;                   ///< sample: only conformations that do not collide
-  std::optional<std::uint64_t> most_tries;       ///< sample: starts for each conformation; relax: restarts
+  std::vector<std::string> rigid_from;      ///< conformations whose rigid groups stay rigid; empty: none
+  double rigid_tolerance = 0.5;             ///< angstrom
+  std::optional<bool> keep_closures;        ///< true: close all cycles; false: only loops; nothing: close none
+  bool draws = false;                       ///< sample: conformations are drawn at random
+  bool collision_free = false;              ///< sample: only conformations that do not collide
+  std::optional<std::uint64_t> most_tries;  ///< sample: starts for each conformation; relax: restarts; plan: motions
   std::optional<hinge::molecular::Prior> prior;  ///< sample: nothing: by sigma_degrees
-  std::optional<double> seconds;                 ///< sample: no start after this time; relax: the end
+  std::optional<double> seconds;                 ///< sample: no start after this time; relax, plan: the end
   std::string mode = "all";                      ///< check, sample: text of Mode::parse
   Output output = Output::table;                 ///< format of standard output
   std::optional<std::uint64_t> max_pairs;       ///< pairs printed per conformation, 0: all; nothing: see pairs_to_print
   std::optional<By> by;                         ///< check: a table of clashes over all conformations
-  std::optional<Viewer> view;                   ///< check, sample, walk, relax, path: write a viewer script
+  std::optional<Viewer> view;                   ///< write a viewer script (all but info, merge, demo)
   bool exit_zero = false;                       ///< status 0 whatever the verdict
   std::string explain;                          ///< "i,j"; empty: explain nothing
   bool atoms = false;                           ///< info: list atoms, bonds and thresholds too
   std::uint64_t count = 1000;                   ///< sample, demo: number of conformations
-  std::uint64_t seed = 1;                       ///< sample, walk, relax, demo
+  std::uint64_t seed = 1;                       ///< sample, walk, relax, plan, demo
   std::optional<double> sigma_degrees;          ///< sample: standard deviation of a torsion; nothing: full range
   unsigned threads = 1;                         ///< check, sample: worker threads
-  std::string out;                              ///< check, sample, walk, relax: file of conformations; demo: folder
+  std::string out;                              ///< file of conformations; demo: folder
   bool torsions = false;                        ///< sample: rows contain the torsions
   std::string torsions_out;                     ///< sample: .npy file of the torsions
   bool only_free = false;                       ///< check, sample: `out` gets only conformations that do not collide
@@ -87,7 +87,8 @@ struct Options {
   double step_degrees = 3.0;                    ///< walk: standard deviation of a torsion's change
   std::uint64_t changes = 1;                    ///< walk: torsions per move
   std::uint64_t every = 100;                    ///< walk: steps from one written conformation to the next
-  std::string from, to;                         ///< path: ends, see path_end.hpp
+  std::string from, to;                         ///< path, plan: ends, see path_end.hpp
+  double frame_step = 5.0;                      ///< plan: largest turn between two written conformations, degrees
   std::optional<double> sampled_degrees;        ///< path: largest distance between sampled states; nothing: certify
   double min_step = hinge::smallest_path_step;  ///< path: intervals up to this share of the path are not split
 };
@@ -132,6 +133,7 @@ Exit run_walk(const Options& options);
 Exit run_relax(const Options& options);
 Exit run_merge(const Options& options);
 Exit run_path(const Options& options);
+Exit run_plan(const Options& options);
 Exit run_demo(const Options& options);
 
 /// Prints which rule keeps or drops the pair of options.explain.

@@ -39,19 +39,6 @@ struct Asked {
   double closure_residual = 0.0;  // worst closure residual at either end, angstrom
 };
 
-std::string shown(const PathEnd& end) {
-  constexpr std::size_t most = 30;  // characters shown of a list
-  return end.text.size() > most ? end.text.substr(0, most) + "..." : end.text;
-}
-
-Json end_json(const Job& job, const PathEnd& end) {
-  Json json{
-      {"given", end.text}, {"turns", in_degrees(job, end.turns)}, {"model_rmsd", Json()}, {"model_farthest", Json()}};
-  if (end.from_model) json["model_rmsd"] = rounded(end.from_model->rmsd);
-  if (end.from_model) json["model_farthest"] = rounded(end.from_model->farthest);
-  return json;
-}
-
 Json path_json(const Options& options, const Job& job, const Asked& asked) {
   const PathAnswer& answer = asked.answer;
   Json json{{"tool", "biocd"}, {"command", "path"}, {"model", model_json(options, job)}};
@@ -147,17 +134,9 @@ Exit run_path(const Options& options) {
     explain(options, job);
     return Exit::free;
   }
-  Asked asked{read_path_end("--from", options.from, job), read_path_end("--to", options.to, job), {}, {}};
-  // Angles measured from a model are known up to whole turns, so take the shorter way. A list states the turns exactly.
-  const auto shorten = [&](const PathEnd& near, PathEnd& end) {
-    for (std::size_t k = 0; k < end.turns.size(); ++k)
-      if (turns(job, job.checker.selection().dofs()[k]))
-        take_shorter_way(std::span(near.turns).subspan(k, 1), std::span(end.turns).subspan(k, 1));
-  };
-  if (asked.to.from_model)
-    shorten(asked.from, asked.to);
-  else if (asked.from.from_model)
-    shorten(asked.to, asked.from);
+  Asked asked{
+      read_path_end("--from", options.from, options, job), read_path_end("--to", options.to, options, job), {}, {}};
+  take_shorter_way(job, asked.from, asked.to);
   for (const PathEnd* end : {&asked.from, &asked.to})
     if (const std::string note = note_of(*end, job); !note.empty()) std::fprintf(stderr, "note: %s\n", note.c_str());
 

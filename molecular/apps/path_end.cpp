@@ -1,21 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads an end of a path: a list of degrees, or torsions measured from a model.
+// Reads an end of a path: a list of degrees, or coordinates that the torsions are fitted to.
 #include "path_end.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <numeric>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "hinge/core/error.hpp"
+#include "hinge/molecular/fit_torsions.hpp"
+#include "hinge/molecular/read_structure.hpp"
+#include "hinge/molecular/trajectory.hpp"
+#include "hinge_tools/counted.hpp"
 #include "hinge_tools/input_file.hpp"
 #include "hinge_tools/number_option.hpp"
 #include "report.hpp"
-#include "scene.hpp"
 
 namespace biocd {
 
@@ -66,23 +73,61 @@ std::size_t find_model(const std::string& option, std::string_view number, const
                   s.model_numbers.size() > 1 ? fmt::format(" ... {}", s.model_numbers.back()) : ""));
 }
 
-/// Returns the configuration (rad, angstrom) that fits the model: first its torsions, then the placements, because a
-/// part is superposed after its own torsions are set.
-std::vector<double> fit(const Job& job, const std::vector<hinge::Vec3>& model) {
-  const Molecule& molecule = *job.molecule;
-  const auto dofs = job.checker.selection().dofs();
-  std::vector<double> q(dofs.size(), 0.0);
-  for (std::size_t k = 0; k < q.size(); ++k)
-    if (const std::size_t torsion = molecule.torsion_of(dofs[k]); torsion != Molecule::no_torsion)
-      q[k] = turn_of(molecule, torsion, model);
-  if (molecule.placed_parts().empty()) return q;
-  Checker rebuilt = job.checker;
-  rebuilt.check(q, Mode{Mode::Kind::any});
-  const auto placements = fit_placements(molecule, rebuilt.positions(), model);
-  for (std::size_t part = 0; part < placements.size(); ++part)
-    for (std::size_t c = 0; c < 6; ++c)
-      q[position_of(job, molecule.placed_parts()[part].dofs[c])] = placements[part][c];
-  return q;
+/// Returns all atoms with these positions.
+TargetCoordinates whole(std::vector<hinge::Vec3> positions) {
+  TargetCoordinates target{std::vector<std::uint32_t>(positions.size()), std::move(positions)};
+  std::iota(target.atoms.begin(), target.atoms.end(), 0U);
+  return target;
+}
+
+/// A file of coordinates, and a number after it.
+struct NamedFile {
+  std::string path, number;
+};
+
+bool has_structure(const std::string& path) {
+  return std::ranges::any_of(std::array{".pdb", ".ent", ".cif", ".mmcif"}, [&](const char* extension) {
+    return path.ends_with(extension) || path.ends_with(std::string(extension) + ".gz");
+  });
+}
+bool has_trajectory(const std::string& path) {
+  return std::ranges::any_of(std::array{".dcd", ".xtc", ".npy"}, [&](const char* extension) {
+    return path.ends_with(extension) || path.ends_with(std::string(extension) + ".gz");
+  });
+}
+
+/// Returns the file that the text names by an extension of a structure or trajectory; nothing for other texts.
+std::optional<NamedFile> named_file(const std::string& text) {
+  NamedFile named{text, ""};
+  if (const std::size_t colon = text.rfind(':');
+      colon != std::string::npos && text.find_first_not_of("0123456789", colon + 1) == std::string::npos)
+    named = {text.substr(0, colon), text.substr(colon + 1)};
+  if (!has_structure(named.path) && !has_trajectory(named.path)) return std::nullopt;
+  return named;
+}
+
+TargetCoordinates read_target(const std::string& option, const NamedFile& named, const Options& options,
+                              const Job& job) {
+  const Structure& s = job.molecule->structure();
+  if (has_structure(named.path)) {
+    ReadOptions read = options.read;
+    read.model.reset();
+    read.first_model = true;
+    int number = 0;
+    const auto [end, error] = std::from_chars(named.number.data(), named.number.data() + named.number.size(), number);
+    if (!named.number.empty() && error != std::errc{})
+      throw hinge::ModelError(fmt::format("{} model '{}': expected the number of a model", option, named.number));
+    if (!named.number.empty()) read.model = number;
+    return match_atoms(s, read_structure(named.path, read), named.path);
+  }
+  const Trajectory file(named.path, s, options.read, true);
+  std::size_t frame = 0;
+  const auto [end, error] = std::from_chars(named.number.data(), named.number.data() + named.number.size(), frame);
+  if (error != std::errc{} ? file.size() != 1 : frame >= file.size())
+    throw hinge::ModelError(fmt::format("{} {}{}{}: the file has {}, expected one of them as in {}:0", option,
+                                        named.path, named.number.empty() ? "" : ":", named.number,
+                                        hinge::tool::counted(file.size(), "frame"), named.path));
+  return whole(file.kept(file.frame(frame)));
 }
 
 /// Converts the values of revolute DOF from degrees to rad.
@@ -94,22 +139,19 @@ std::vector<double> turned(const Job& job, std::vector<double> values) {
 
 }  // namespace
 
-PathEnd read_path_end(const char* option, const std::string& text, const Job& job) {
-  PathEnd end{text, {}, {}};
+PathEnd read_path_end(const char* option, const std::string& text, const Options& options, const Job& job,
+                      std::span<const std::size_t> closures) {
+  PathEnd end{text, {}};
   const std::size_t count = job.checker.dof_count();
+  const std::optional<NamedFile> named = named_file(text);
   if (text == "reference") {
     end.turns.assign(count, 0.0);
-  } else if (text.starts_with("model:")) {
+  } else if (text.starts_with("model:") || named) {
     const Structure& s = job.molecule->structure();
-    const std::vector<hinge::Vec3>& model = s.models[find_model(option, std::string_view(text).substr(6), s)];
-    try {
-      end.turns = fit(job, model);
-    } catch (const hinge::LoadError& error) {
-      throw hinge::LoadError(fmt::format("{} {}: {}", option, text, error.what()));
-    }
-    Checker rebuilt = job.checker;
-    rebuilt.check(end.turns, Mode{Mode::Kind::any});
-    end.from_model = superpose(rebuilt.positions(), model);
+    end.target = named ? read_target(option, *named, options, job)
+                       : whole(s.models[find_model(option, std::string_view(text).substr(6), s)]);
+    end.fitted = fit_coordinates(job.checker, end.target, closures);
+    end.turns = end.fitted->q;
   } else if (text.starts_with('@')) {
     const std::string path = text.substr(1);
     end.turns = turned(job, read_degrees(hinge::tool::read_whole(path), count,
@@ -122,13 +164,48 @@ PathEnd read_path_end(const char* option, const std::string& text, const Job& jo
   return end;
 }
 
+void take_shorter_way(const Job& job, PathEnd& from, PathEnd& to) {
+  PathEnd& end = to.fitted ? to : from;
+  const PathEnd& near = to.fitted ? from : to;
+  if (!end.fitted) return;
+  for (std::size_t k = 0; k < end.turns.size(); ++k)
+    if (turns(job, job.checker.selection().dofs()[k]))
+      hinge::molecular::take_shorter_way(std::span(near.turns).subspan(k, 1), std::span(end.turns).subspan(k, 1));
+}
+
+std::string shown(const PathEnd& end) {
+  constexpr std::size_t most = 30;  // characters shown of a list
+  return end.text.size() > most ? end.text.substr(0, most) + "..." : end.text;
+}
+
+Json end_json(const Job& job, const PathEnd& end) {
+  Json json{{"given", end.text},
+            {"turns", in_degrees(job, end.turns)},
+            {"model_rmsd", Json()},
+            {"model_farthest", Json()},
+            {"model_atoms", Json()}};
+  if (end.fitted) {
+    json["model_rmsd"] = rounded(end.fitted->rmsd);
+    json["model_farthest"] = rounded(end.fitted->farthest);
+    json["model_atoms"] = end.target.atoms.size();
+  }
+  return json;
+}
+
+std::string file_of_end(const std::string& text) {
+  if (text.starts_with('@')) return text.substr(1);
+  const std::optional<NamedFile> named = named_file(text);
+  return named ? named->path : "";
+}
+
 std::string note_of(const PathEnd& end, const Job& job) {
-  if (!end.from_model) return "";
-  const Superposition& found = *end.from_model;
+  if (!end.fitted) return "";
+  const Structure& s = job.molecule->structure();
   return fmt::format(
-      "{} is rebuilt from its selected torsions, with bond lengths, bond angles and other torsions of the reference: "
-      "{:.3f} angstrom RMSD from the model, at most {:.3f} ({})",
-      end.text, found.rmsd, found.farthest, label(job.molecule->structure(), found.atom));
+      "{} is fitted by the selected torsions; bond lengths, bond angles and other torsions are those of the reference: "
+      "{:.3f} angstrom RMSD over {} of {}, at most {:.3f} ({})",
+      end.text, end.fitted->rmsd, end.target.atoms.size(), hinge::tool::counted(s.atoms.size(), "atom"),
+      end.fitted->farthest, label(s, end.fitted->atom));
 }
 
 }  // namespace biocd

@@ -229,14 +229,23 @@ void add_closures_option(CLI::App& command, Options& o) {
       "cycles through disulphides and other bonds: keep closed (default) or let open; loops stay closed");
 }
 
+void add_ends(CLI::App& command, Options& o, bool from_is_required) {
+  constexpr const char* end =
+      ": reference; coordinates that the torsions are fitted to, which are model:N of FILE, a PDB or mmCIF file (:N "
+      "for "
+      "its model N) or TRAJECTORY:FRAME; or changes from the reference, one per DOF in degrees, as a list joined by "
+      "commas or in @FILE";
+  CLI::Option* from = command.add_option("--from", o.from, std::string("start") + end)->type_name("END");
+  if (from_is_required)
+    from->required();
+  else
+    from->default_str("reference");
+  command.add_option("--to", o.to, "end, in the same words")->required()->type_name("END");
+}
+
 void add_path_options(CLI::App& command, Options& o) {
   command.option_defaults()->group(title::ends);
-  constexpr const char* end =
-      ": reference, model:N (the torsions of that model), @FILE, or changes from the reference, one per DOF in "
-      "degrees, "
-      "joined by commas";
-  command.add_option("--from", o.from, std::string("start") + end)->required()->type_name("END");
-  command.add_option("--to", o.to, "end, in the same words")->required()->type_name("END");
+  add_ends(command, o, true);
   CLI::Option* sampled = add_number(command, "--sampled", o.sampled_degrees, lengths_above_0,
                                     "test states at most this far apart (default: certify every state)")
                              ->type_name("DEGREES");

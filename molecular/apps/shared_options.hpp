@@ -28,6 +28,8 @@ void add_check_options(CLI::App& command, Options& o);
 /// Adds --closures.
 void add_closures_option(CLI::App& command, Options& o);
 /// Adds the options of path: output format, both ends and the method.
+void add_ends(CLI::App& command, Options& o, bool from_is_required);
+/// Adds all options of path but those of the model.
 void add_path_options(CLI::App& command, Options& o);
 
 }  // namespace biocd

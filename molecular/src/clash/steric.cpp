@@ -8,10 +8,10 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/number_text.hpp"
-#include "hinge/core/pose.hpp"
 #include "hinge/core/vec3.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 #include "hinge/molecular/checker.hpp"
+#include "mechanism/moved_atoms.hpp"
 
 namespace hinge::molecular {
 
@@ -23,7 +23,7 @@ Steric Checker::steric(std::span<const double> q, double softness) {
         hierarchy.update(q);
         const auto& model = hierarchy.model();
         const RigidGroups& groups = *model.groups();
-        Steric result{0.0, std::vector<double>(q.size(), 0.0)};
+        Steric result;
         // Per group: the sum of dE/dx over its atoms, and of x cross dE/dx about `centre`.
         std::vector<Vec3> force(groups.size(), Vec3::Zero()), moment(groups.size(), Vec3::Zero());
         Vec3 centre = Vec3::Zero();
@@ -43,18 +43,9 @@ Steric Checker::steric(std::span<const double> q, double softness) {
           force[h] -= pull;
           moment[h] -= cross(Vec3(y - centre), pull);
         }
-        const std::span<const Frame> frames = hierarchy.frames();
-        for (std::size_t g = groups.size(); g-- > 1;) {
-          const RigidGroup& group = groups[id<GroupId>(g)];
-          const Pose pose = frames[g].pose();
-          const Vec3 axis = product(pose.rotation, group.joint.axis);
-          result.gradient[group.dof] =
-              group.joint.kind == JointKind::prismatic
-                  ? dot(axis, force[g])
-                  : dot(axis, Vec3(moment[g] - cross(Vec3(pose * group.joint.point - centre), force[g])));
-          force[index(group.parent)] += force[g];
-          moment[index(group.parent)] += moment[g];
-        }
+        std::vector<Pose> poses;
+        for (const Frame& frame : hierarchy.frames()) poses.push_back(frame.pose());
+        result.gradient = gradient_by_values(groups, poses, centre, force, moment, q.size());
         return result;
       },
       *hierarchy_);

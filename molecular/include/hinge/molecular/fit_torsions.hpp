@@ -29,9 +29,11 @@ HINGE_API std::vector<double> fit_torsions(const Molecule& molecule, const DofSe
 /// Returns the values of PlacedPart::dofs for each placed part, angstrom and rad in [-pi, pi]. They move a part of
 /// `rebuilt`, where all placements are 0, onto its atoms in `positions` by least squares. Before, `positions` are
 /// superposed on the atoms outside placed parts; if there are none, both sets share one frame. rebuilt, positions:
-/// angstrom, one per atom.
+/// angstrom, one per atom. known: atoms whose positions are used, one per atom; empty: all. A part without a known atom
+/// stays.
 HINGE_API std::vector<std::array<double, 6>> fit_placements(const Molecule& molecule, std::span<const Vec3> rebuilt,
-                                                            std::span<const Vec3> positions);
+                                                            std::span<const Vec3> positions,
+                                                            const std::vector<bool>& known = {});
 
 /// Adds whole turns to each value so that it is within pi of the value in `near`. rad; both of the same length.
 HINGE_API void take_shorter_way(std::span<const double> near, std::span<double> turns);

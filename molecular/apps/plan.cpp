@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// biocd plan: finds a motion between two conformations on which no pair collides.
+#include "hinge/molecular/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "conformation_file.hpp"
+#include "hinge/molecular/fit_torsions.hpp"
+#include "hinge/molecular/path_checker.hpp"
+#include "hinge/molecular/relax.hpp"
+#include "hinge_tools/counted.hpp"
+#include "hinge_tools/json_text.hpp"
+#include "options.hpp"
+#include "pair_table.hpp"
+#include "path_end.hpp"
+#include "report.hpp"
+#include "view.hpp"
+
+namespace biocd {
+
+namespace {
+
+using namespace hinge::molecular;
+using hinge::tool::counted;
+
+/// True when --time has passed.
+using OutOfTime = std::function<bool()>;
+
+/// Moves a fitted end out of collision, as little as possible. Other ends stay as the user gave them.
+void mend_end(const Options& options, const Job& job, PathEnd& end, const OutOfTime& out_of_time) {
+  Checker checker = job.checker;
+  if (!end.fitted || !checker.check(end.turns, Mode{}).collides) return;
+  const Relaxation relaxed =
+      relax(job.checker, end.turns, {.closures = job.kept.closures, .seed = options.seed}, out_of_time);
+  checker.check(relaxed.q, Mode{});
+  std::vector<hinge::Vec3> reached;
+  for (const std::uint32_t atom : end.target.atoms) reached.push_back(checker.position(atom));
+  const Superposition found = superpose(reached, end.target.positions);
+  fmt::print(stderr, "note: {} collides in {}; it was relaxed to {}: {:.3f} angstrom RMSD from the given coordinates\n",
+             end.text, counted(relaxed.collisions_before, "pair"), counted(relaxed.collisions, "pair"), found.rmsd);
+  end.turns = relaxed.q;
+  end.fitted->rmsd = found.rmsd;
+  end.fitted->farthest = found.farthest;
+  end.fitted->atom = end.target.atoms[found.atom];
+}
+
+/// Prints the pairs if the end collides. Returns true if it does.
+bool report_collision(const Options& options, const Job& job, const PathEnd& end, const char* which) {
+  Checker checker = job.checker;
+  const std::vector<Contact> pairs = checker.check(end.turns, Mode{Mode::Kind::all}).pairs;
+  if (pairs.empty()) return false;
+  if (options.output == Output::json) {
+    Json json{{"tool", "biocd"}, {"command", "plan"}, {"model", model_json(options, job)}};
+    json["colliding_end"] = which;
+    json["pairs"] = Json::array();
+    for (const Contact& pair : pairs_to_print(options, pairs)) json["pairs"].push_back(pair_json(job, pair));
+    add_left_out(json, options, pairs, Mode{Mode::Kind::all});
+    fmt::print("{}\n", hinge::tool::json_text(json, 1));
+  } else {
+    fmt::print("{}the {} collides in {}\n{}", heading(options, job), which, counted(pairs.size(), "pair"),
+               pair_table(options, job, pairs, true));
+  }
+  fmt::print(stderr,
+             "note: a motion needs ends without collisions: biocd relax mends them, --exempt-reference leaves "
+             "out the pairs that collide in the file\n");
+  return true;
+}
+
+/// Calls use(q) for the first waypoint, and for conformations up to each next one, at most --step apart.
+template <class Use>
+void for_frames(const Options& options, const Job& job, const std::vector<std::vector<double>>& waypoints,
+                const Use& use) {
+  constexpr double angstrom_per_degree = 0.1;  // moves of placed parts against turns
+  use(waypoints.front());
+  for (std::size_t w = 1; w < waypoints.size(); ++w) {
+    const std::vector<double>&a = waypoints[w - 1], &b = waypoints[w];
+    double largest = 0.0;
+    for (std::size_t k = 0; k < a.size(); ++k)
+      largest = std::max(largest, std::abs(b[k] - a[k]) /
+                                      (turns(job, job.checker.selection().dofs()[k]) ? degree : angstrom_per_degree));
+    const auto count = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(largest / options.frame_step)));
+    std::vector<double> q(a.size());
+    for (std::size_t f = 1; f < count; ++f) {
+      const double t = static_cast<double>(f) / static_cast<double>(count);
+      for (std::size_t k = 0; k < q.size(); ++k) q[k] = a[k] + t * (b[k] - a[k]);
+      use(q);
+    }
+    use(b);
+  }
+}
+
+/// Returns the pairs that collide on the straight way from the last waypoint to the end.
+std::vector<Contact> pairs_in_the_way(const Job& job, const PlannedMotion& planned, const PathEnd& to) {
+  const hinge::PathAnswer answer = PathChecker(job.checker).certify(planned.waypoints.back(), to.turns);
+  if (answer.verdict != hinge::PathVerdict::colliding) return {};
+  Checker checker = job.checker;
+  return checker.check(answer.configuration, Mode{Mode::Kind::all}).pairs;
+}
+
+Json plan_json(const Options& options, const Job& job, const PathEnd& from, const PathEnd& to,
+               const PlannedMotion& planned, std::size_t frames) {
+  Json json{{"tool", "biocd"}, {"command", "plan"}, {"model", model_json(options, job)}, {"seed", options.seed}};
+  json["constant_contacts"] = constant_contacts_json(job);
+  json["dofs"] = Json::array();
+  for (const hinge::DofId dof : job.checker.selection().dofs()) json["dofs"].push_back(dof_label(job, dof));
+  json["from"] = end_json(job, from);
+  json["to"] = end_json(job, to);
+  json["reached"] = planned.reached;
+  json["length"] = rounded(planned.length);
+  json["straight"] = rounded(planned.straight);
+  json["remaining"] = rounded(planned.remaining);
+  json["closure_residual"] = planned.open;
+  json["motions"] = planned.motions;
+  json["frames"] = frames;
+  json["waypoints"] = Json::array();
+  for (const std::vector<double>& q : planned.waypoints) json["waypoints"].push_back(in_degrees(job, q));
+  return json;
+}
+
+void print_plan(const Options& options, const Job& job, const PathEnd& from, const PathEnd& to,
+                const PlannedMotion& planned, std::size_t frames) {
+  fmt::print("motion from {} to {}; the straight path is {:.3f} angstrom long\n", shown(from), shown(to),
+             planned.straight);
+  if (planned.reached) {
+    fmt::print("found: {}, {:.3f} angstrom long; {} tested\n", counted(planned.waypoints.size(), "waypoint"),
+               planned.length, counted(planned.motions, "motion"));
+    fmt::print("free: proved for every state between neighbouring waypoints\n");
+  } else {
+    fmt::print("no motion was found; {} tested\n", counted(planned.motions, "motion"));
+    fmt::print("the nearest conformation that was reached is {:.3f} angstrom from the end\n", planned.remaining);
+    const std::vector<Contact> pairs = pairs_in_the_way(job, planned, to);
+    if (!pairs.empty())
+      fmt::print("on the straight way from there, these pairs collide:\n{}", pair_table(options, job, pairs, true));
+  }
+  if (!job.kept.closures.empty())
+    fmt::print("closures kept: {}; between waypoints they are open by at most {:.2g} angstrom\n",
+               job.kept.closures.size(), planned.open);
+  if (frames > 0) fmt::print("{} written to {}\n", counted(frames, "conformation"), options.out);
+}
+
+}  // namespace
+
+Exit run_plan(const Options& options) {
+  const Job job = load(options);
+  print_notes(job);
+  print_left_out(options, job);
+  if (!options.explain.empty()) {
+    explain(options, job);
+    return Exit::free;
+  }
+  require_free_torsions(options, job);
+  const Structure& s = job.molecule->structure();
+  ConformationFile file(options, s, s.atoms.size(), false);
+  const auto start = std::chrono::steady_clock::now();
+  const OutOfTime out_of_time = [&] {
+    return options.seconds &&
+           std::chrono::steady_clock::now() - start >= std::chrono::duration<double>(*options.seconds);
+  };
+
+  PathEnd from = read_path_end("--from", options.from, options, job, job.kept.closures);
+  PathEnd to = read_path_end("--to", options.to, options, job, job.kept.closures);
+  take_shorter_way(job, from, to);
+  for (PathEnd* end : {&from, &to}) {
+    mend_end(options, job, *end, out_of_time);
+    if (const std::string note = note_of(*end, job); !note.empty()) fmt::print(stderr, "note: {}\n", note);
+  }
+  for (const auto& [end, which] : {std::pair{&from, "start"}, std::pair{&to, "end"}})
+    if (report_collision(options, job, *end, which)) return Exit::collision;
+
+  PlanOptions how{.closures = job.kept.closures, .seed = options.seed};
+  if (options.most_tries) how.most_motions = *options.most_tries;
+  const PlannedMotion planned = plan(job.checker, from.turns, to.turns, how, out_of_time);
+  Checker checker = job.checker;
+  if (file.wanted())
+    for_frames(options, job, planned.waypoints, [&](const std::vector<double>& q) {
+      checker.check(q, Mode{});
+      file.add(checker.positions(), static_cast<int>(file.size()) + 1, false);
+    });
+  file.finish();
+
+  if (options.output == Output::json)
+    fmt::print("{}\n", hinge::tool::json_text(plan_json(options, job, from, to, planned, file.size()), 1));
+  else {
+    fmt::print("{}", heading(options, job));
+    print_plan(options, job, from, to, planned, file.size());
+  }
+  if (!planned.reached)
+    fmt::print(stderr, "note: {}\n",
+               planned.stopped ? "--time has passed"
+                               : "more free torsions (--free), tested motions (--tries) or another --seed may help");
+  if (options.view) {
+    checker.check(planned.waypoints.back(), Mode{});
+    write_view(
+        options, job,
+        {planned.reached ? "the end of the motion" : "the nearest conformation to the end", checker.positions(), {}},
+        file.size() > 0);
+  }
+  return planned.reached ? Exit::free : Exit::shortfall;
+}
+
+}  // namespace biocd

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// plan: every motion is free by brute force, ends where it should, and is the same for every engine and thread; what
+// has no motion is said.
+#include "hinge/molecular/plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "hinge/kinematics/closure_equations.hpp"
+#include "hinge/molecular/closed_sampler.hpp"
+#include "hinge/molecular/kept_closures.hpp"
+#include "hinge/molecular/loop.hpp"
+#include "hinge/molecular/sampler.hpp"
+#include "hinge/molecular/selection.hpp"
+#include "molecular/test_files.hpp"
+
+namespace hinge::molecular {
+namespace plan_test {
+
+constexpr double pi = std::numbers::pi;
+
+/// Ubiquitin with free torsions; pairs that collide in the file are left out.
+struct Chain {
+  explicit Chain(const std::string& free, const std::string& loop = "", const std::string& engine = "simd") {
+    const Structure structure = read_structure(test::ubiquitin());
+    MoleculeOptions made;
+    if (!loop.empty()) made.loops = find_loops(structure, loop);
+    molecule = std::make_shared<const Molecule>(structure, made);
+    const auto torsions =
+        loop.empty() ? select_torsions(*molecule, free, false) : select_loop_torsions(*molecule, free, false);
+    const KeptClosures kept = find_kept_closures(*molecule, torsions, Closures::all);
+    how.closures = kept.closures;
+    CheckOptions options;
+    options.exempt_reference = true;
+    options.engine = engine;
+    checker.emplace(molecule, molecule->select_placed(kept.torsions), options);
+    options.engine = "brute";
+    brute.emplace(molecule, checker->selection(), options);
+  }
+  std::vector<double> reference() const { return std::vector<double>(checker->dof_count(), 0.0); }
+  /// Returns free conformations: draws until enough do not collide.
+  std::vector<std::vector<double>> draw_free(std::size_t count, double sigma, std::uint64_t seed) {
+    std::vector<std::vector<double>> found;
+    ClosedSampler sampler(*molecule, checker->selection(), {seed, sigma}, 100, how.closures, {});
+    for (std::uint64_t k = 0; found.size() < count && k < 100000; ++k) {
+      const ClosedSample sample = sampler.sample(k);
+      if (sample.found() && !brute->check(sample.q, Mode{}).collides) found.push_back(sample.q);
+    }
+    return found;
+  }
+  /// Tests states between all waypoints by brute force. Returns their number.
+  std::size_t expect_free(const PlannedMotion& motion, int states) {
+    std::size_t tested = 0;
+    std::optional<ClosureEquations> equations;
+    if (!how.closures.empty()) equations.emplace(molecule->model().tree(), checker->selection(), how.closures);
+    for (std::size_t w = 0; w < motion.waypoints.size(); ++w) {
+      const std::vector<double>&b = motion.waypoints[w], &a = motion.waypoints[w == 0 ? 0 : w - 1];
+      for (int s = 1; s <= states; ++s, ++tested) {
+        std::vector<double> q(a.size());
+        const double t = static_cast<double>(s) / states;
+        for (std::size_t k = 0; k < q.size(); ++k) q[k] = t == 1.0 ? b[k] : a[k] + t * (b[k] - a[k]);
+        EXPECT_FALSE(brute->check(q, Mode{}).collides) << "waypoint " << w << ", t " << t;
+        if (!equations) continue;
+        equations->set(q);
+        EXPECT_LE(equations->worst(), t == 1.0 ? 1e-6 : 1.5 * motion.open + 1e-6);
+      }
+    }
+    return tested;
+  }
+
+  std::shared_ptr<const Molecule> molecule;
+  PlanOptions how{};
+  std::optional<Checker> checker, brute;
+};
+
+void expect_ends(const PlannedMotion& motion, const std::vector<double>& from, const std::vector<double>& to) {
+  EXPECT_EQ(motion.waypoints.front(), from);
+  for (std::size_t k = 0; k < to.size() && motion.reached; ++k)
+    EXPECT_NEAR(std::remainder(motion.waypoints.back()[k] - to[k], 2.0 * pi), 0.0, 1e-9);
+}
+
+TEST(Plan, MotionsOfATailAreFree) {
+  constexpr std::uint64_t seed = 4711;
+  RecordProperty("seed", static_cast<int>(seed));
+  Chain chain("A:72-76:phi,psi");
+  const std::size_t wanted = std::getenv("HINGE_TEST_ALL") != nullptr ? 60 : 12;
+  std::size_t reached = 0, motions = 0;
+  for (const std::vector<double>& to : chain.draw_free(wanted, 1.5, seed)) {
+    chain.how.most_motions = 3000;
+    const PlannedMotion motion = plan(*chain.checker, chain.reference(), to, chain.how);
+    expect_ends(motion, chain.reference(), to);
+    chain.expect_free(motion, 10);
+    motions += motion.waypoints.size() - 1;
+    reached += motion.reached ? 1 : 0;
+    EXPECT_EQ(motion.reached, motion.remaining == 0.0);
+    if (!motion.reached) continue;
+    EXPECT_GE(motion.length, (1.0 - 1e-9) * motion.straight);
+  }
+  EXPECT_GE(2 * reached, wanted);  // some have none: phi of an amino acid does not pass 0
+  EXPECT_GT(motions, wanted);
+}
+
+TEST(Plan, MotionsOfALoopStayClosed) {
+  constexpr std::uint64_t seed = 815;
+  RecordProperty("seed", static_cast<int>(seed));
+  Chain chain("none", "A:7-13");
+  const auto ends = chain.draw_free(5, 0.3, seed);
+  ASSERT_EQ(ends.size(), 5U);
+  std::size_t reached = 0;
+  for (const std::vector<double>& to : ends) {
+    chain.how.most_motions = 300;
+    const PlannedMotion motion = plan(*chain.checker, chain.reference(), to, chain.how);
+    expect_ends(motion, chain.reference(), to);
+    chain.expect_free(motion, 4);
+    EXPECT_LT(motion.open, 0.02);
+    reached += motion.reached ? 1 : 0;
+  }
+  EXPECT_GE(reached, 3U);
+}
+
+TEST(Plan, DependsOnTheArgumentsAlone) {
+  Chain chain("A:72-76:phi,psi"), lazy("A:72-76:phi,psi", "", "lazy"), brute("A:72-76:phi,psi", "", "brute");
+  const std::vector<double> to = chain.draw_free(1, 1.5, 99).front();
+  chain.how.most_motions = 500;
+  const auto ask = [&](Chain& other) { return plan(*other.checker, other.reference(), to, chain.how).waypoints; };
+  const auto expected = ask(chain);
+  EXPECT_EQ(ask(chain), expected);
+  EXPECT_EQ(ask(lazy), expected);
+  EXPECT_EQ(ask(brute), expected);
+  std::vector<std::vector<std::vector<double>>> found(2);
+  std::thread first([&] { found[0] = ask(chain); }), second([&] { found[1] = ask(lazy); });
+  first.join();
+  second.join();
+  EXPECT_EQ(found[0], expected);
+  EXPECT_EQ(found[1], expected);
+}
+
+TEST(Plan, SaysThatThereIsNone) {
+  // phi alone: the chain meets itself on both ways round.
+  Chain chain("A:60:phi");
+  chain.how.most_motions = 200;
+  const std::vector<double> to{pi};
+  const PlannedMotion motion = plan(*chain.checker, chain.reference(), to, chain.how);
+  expect_ends(motion, chain.reference(), to);
+  chain.expect_free(motion, 20);
+  EXPECT_FALSE(motion.reached);
+  EXPECT_FALSE(motion.stopped);
+  EXPECT_GT(motion.remaining, 0.0);
+  EXPECT_LT(motion.remaining, motion.straight);
+  EXPECT_GE(motion.motions, 200U);
+  EXPECT_LT(motion.motions, 1000U);
+  const PlannedMotion stopped = plan(*chain.checker, chain.reference(), to, chain.how, [] { return true; });
+  EXPECT_TRUE(stopped.stopped);
+  EXPECT_FALSE(stopped.reached);
+  EXPECT_LT(stopped.motions, 10U);
+}
+
+TEST(Plan, RefusesBadEnds) {
+  Chain chain("A:72-76:phi,psi");
+  const std::vector<double> good = chain.reference();
+  EXPECT_THROW(plan(*chain.checker, good, std::vector<double>(3, 0.0)), ConfigurationError);
+  EXPECT_THROW(plan(*chain.checker, good, std::vector<double>(good.size(), NAN)), ConfigurationError);
+  PlanOptions none;
+  none.most_motions = 0;
+  EXPECT_THROW(plan(*chain.checker, good, good, none), ModelError);
+  EXPECT_THROW(plan(*Chain("none").checker, {}, {}), ModelError);
+  std::vector<double> bad(good);
+  bad[0] = pi;
+  while (!chain.brute->check(bad, Mode{}).collides) bad[0] -= 0.1;
+  try {
+    plan(*chain.checker, good, bad);
+    FAIL() << "expected an error";
+  } catch (const ConfigurationError& error) {
+    EXPECT_NE(std::string(error.what()).find("the end of the motion collides: A:"), std::string::npos) << error.what();
+  }
+  Chain loop("none", "A:7-13");
+  std::vector<double> open = loop.reference();
+  open[0] = 1e-3;
+  EXPECT_THROW(plan(*loop.checker, loop.reference(), open, loop.how), ConfigurationError);
+}
+
+}  // namespace plan_test
+}  // namespace hinge::molecular
