@@ -20,9 +20,9 @@ class Minimiser {
   /// stop must outlive this object. It is called at every evaluation; true ends the descent.
   explicit Minimiser(const std::function<bool()>& stop) : stop_(stop) {}
 
-  /// Moves u (angstrom) to a minimum, until a step moves no value by 1e-4 angstrom, or most_evaluations. Throws what
-  /// the objective or stop() throws.
-  void minimise(std::vector<double>& u, const Objective& objective, int most_evaluations);
+  /// Moves u (angstrom) to a minimum, until a step moves no value by 1e-4 angstrom, or for this many evaluations.
+  /// Throws what the objective or stop() throws.
+  void minimise(std::vector<double>& u, const Objective& objective, int evaluations);
   /// True if stop() returned true.
   bool stopped() const noexcept { return stopped_; }
 
