@@ -58,10 +58,9 @@ HelpTexts help_texts() {
   texts.commands["path"] = {both,
                             {"biocd path" + file + " --free A:72:psi --exempt-reference --from reference --to 20",
                              "biocd path" + file + " --free A:72:phi,psi --from 0,0 --to 30,-40 --sampled 0.5"}};
-  texts.commands["plan"] = {
-      both,
-      {"biocd plan" + file + " --free A:70-76 --exempt-reference --to 0,0,0,0,0,0,0,60,-60,40,20,0,0,0",
-       "biocd plan" + file + " --free A:72:psi --exempt-reference --to 90 --out motion.pdb"}};
+  texts.commands["plan"] = {both,
+                            {"biocd plan" + file + " --free A:74-76:psi --exempt-reference --to -120,-120,90",
+                             "biocd plan" + file + " --free A:74-76:psi --exempt-reference --to 90,90,90 --out m.pdb"}};
   texts.commands["merge"] = {{"Exit status"},
                              {"biocd sample" + file + " -n 10 --csv --shard 1/2 > 1.csv",
                               "biocd sample" + file + " -n 10 --csv --shard 2/2 > 2.csv", "biocd merge 1.csv 2.csv"}};

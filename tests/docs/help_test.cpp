@@ -24,7 +24,7 @@ struct Case {
   std::vector<std::string> commands;
 };
 
-const std::vector<Case> cases{{"biocd", {"info", "check", "sample", "walk", "relax", "merge", "path", "demo"}},
+const std::vector<Case> cases{{"biocd", {"info", "check", "sample", "walk", "relax", "merge", "path", "plan", "demo"}},
                               {"robocd", {"info", "check", "matrix", "path", "relax"}}};
 
 Said run(const std::string& tool, const std::string& arguments) { return run_tool((tools / tool).string(), arguments); }
@@ -117,7 +117,7 @@ std::string offered(const std::string& tool, const std::string& words, const fs:
 TEST(Completion, OffersCommandsOptionsValuesAndFiles) {
   const fs::path folder = make_folder("completion");
   const auto biocd = [&](const std::string& words) { return offered("biocd", "biocd " + words, folder); };
-  EXPECT_EQ(biocd("''"), "info check sample walk relax merge path demo\n");
+  EXPECT_EQ(biocd("''"), "info check sample walk relax merge path plan demo\n");
   EXPECT_EQ(biocd("sa"), "sample\n");
   EXPECT_EQ(biocd("check --hb"), "--hbond --hbond-allowance\n");
   EXPECT_EQ(biocd("check --hbond o"), "on off\n");
