@@ -139,8 +139,9 @@ class QuietOmpl {
 }  // namespace detail
 
 /// Plans from `from` to `to`, both free, by RRT-Connect (Kuffner & LaValle, ICRA 2000), then shortens by shortcuts
-/// until two rounds in a row gain less than 1 percent. The straight motion is tried first. The result depends on the
-/// arguments alone, if stop never returns true.
+/// until two rounds in a row gain less than 1 percent, and leaves out each waypoint whose neighbours are joined by a
+/// free motion. The straight motion is tried first. The result depends on the arguments alone, if stop never returns
+/// true.
 inline FoundMotion find_motion(const MotionProblem& problem, std::span<const double> from, std::span<const double> to,
                                const MotionSearch& search) {
   namespace ob = ompl::base;
@@ -197,6 +198,16 @@ inline FoundMotion find_motion(const MotionProblem& problem, std::span<const dou
                                          shorter.getState(static_cast<unsigned>(k)));
     idle = gains && is_free ? 0 : idle + 1;
     if (is_free) path = shorter;
+  }
+
+  std::vector<ob::State*>& states = path.getStates();
+  for (std::size_t k = 1; k + 1 < states.size() && !(search.stop && search.stop());) {
+    if (!information->checkMotion(states[k - 1], states[k + 1])) {
+      ++k;
+      continue;
+    }
+    information->freeState(states[k]);
+    states.erase(states.begin() + static_cast<std::ptrdiff_t>(k));
   }
 
   for (std::size_t k = 0; k < path.getStateCount(); ++k) {

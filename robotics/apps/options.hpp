@@ -56,13 +56,15 @@ struct Options {
   std::string waypoints;          // CSV file of configurations, instead of from and to
   std::optional<double> sampled;  // rad or m, test states at this distance; empty: certify
   double min_step = hinge::smallest_path_step;
-  // relax: from, seed, out, and
-  std::uint64_t tries = 20000;    // largest number of configurations to test
-  std::optional<double> seconds;  // no test after this time
+  // relax: from, seed, out, and; plan: from, to, seed, out, and
+  std::uint64_t tries = 20000;     // relax: largest number of configurations to test
+  std::uint64_t motions = 100000;  // plan: largest number of motions to test
+  std::optional<double> seconds;   // no test after this time
+  std::optional<double> step;      // plan: rad or m, largest change between rows of `out`; empty: only waypoints
   // matrix
   hinge::robotics::MatrixOptions matrix;  // its clearance is replaced by `clearance` above
   bool disable_unseen = false;
-  // check, relax: CSV file of the configurations, empty: none; matrix: SRDF file, empty: standard output; demo: SVG
+  // check, relax, plan: CSV file of the configurations, empty: none; matrix: SRDF file, empty: standard output; demo: SVG
   // file
   std::string out;
 };
@@ -104,6 +106,7 @@ Exit run_check(const Options& options);
 Exit run_matrix(const Options& options);
 Exit run_path(const Options& options);
 Exit run_relax(const Options& options);
+Exit run_plan(const Options& options);
 Exit run_demo(const Options& options);
 
 }  // namespace robocd

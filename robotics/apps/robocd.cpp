@@ -63,6 +63,12 @@ Exit run(int argc, char** argv) {
   robocd::add_relax_options(*relax, o);
   relax->callback([&] { command = robocd::run_relax; });
 
+  CLI::App* plan = app.add_subcommand("plan", "find a free motion between two configurations");
+  robocd::add_robot_options(*plan, o);
+  robocd::add_pair_options(*plan, o);
+  robocd::add_plan_options(*plan, o);
+  plan->callback([&] { command = robocd::run_plan; });
+
   CLI::App* demo =
       app.add_subcommand("demo", "demonstrate the library on one robot: time, verify, prove a motion, draw");
   robocd::add_robot_options(*demo, o);

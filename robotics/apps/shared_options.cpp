@@ -85,6 +85,16 @@ void add_question_options(CLI::App& command, Options& o) {
   hinge::tool::add_exit_zero(command, o.exit_zero);
 }
 
+/// Adds the limits and the seed of a search.
+void add_search_options(CLI::App& command, Options& o, std::uint64_t& tries, const char* help) {
+  command.option_defaults()->group(title::sampling);
+  add_number(command, "--tries", tries, counts, help);
+  add_number(command, "--time", o.seconds, Reals{0.0, hinge::tool::largest_length, true},
+             "test nothing after this time")
+      ->type_name("SECONDS");
+  add_number(command, "--seed", o.seed, seeds, "seed of the search")->type_name("SEED");
+}
+
 }  // namespace
 
 void add_robot_options(CLI::App& command, Options& o) {
@@ -210,15 +220,25 @@ void add_relax_options(CLI::App& command, Options& o) {
   command.add_option("--from", o.from, std::string("configuration to start from: ") + end_words)
       ->required()
       ->type_name("END");
-  command.option_defaults()->group(title::sampling);
-  add_number(command, "--tries", o.tries, counts, "largest number of configurations to test");
-  add_number(command, "--time", o.seconds, Reals{0.0, hinge::tool::largest_length, true},
-             "test nothing after this time")
-      ->type_name("SECONDS");
-  add_number(command, "--seed", o.seed, seeds, "seed of the search")->type_name("SEED");
+  add_search_options(command, o, o.tries, "largest number of configurations to test");
   add_question_options(command, o);
   command.add_option("--out", o.out, "write the configuration to this CSV file, in the format of check --csv-in")
       ->type_name("FILE");
+}
+
+void add_plan_options(CLI::App& command, Options& o) {
+  command.option_defaults()->group(title::ends);
+  command.add_option("--from", o.from, std::string("start: ") + end_words)->required()->type_name("END");
+  command.add_option("--to", o.to, "end, in the same words")->required()->type_name("END");
+  add_search_options(command, o, o.motions, "largest number of motions to test before the end is reached");
+  add_question_options(command, o);
+  CLI::Option* out =
+      command.add_option("--out", o.out, "write the waypoints to this CSV file, in the format of path --waypoints")
+          ->type_name("FILE");
+  add_number(command, "--step", o.step, Reals{0.0, hinge::tool::largest_length, true},
+             "add rows to the file of --out, so that no joint changes by more than this, rad or m, from row to row")
+      ->needs(out)
+      ->type_name("STEP");
 }
 
 }  // namespace robocd

@@ -21,5 +21,6 @@ void add_check_options(CLI::App& command, Options& o);
 void add_matrix_options(CLI::App& command, Options& o);
 void add_path_options(CLI::App& command, Options& o);
 void add_relax_options(CLI::App& command, Options& o);
+void add_plan_options(CLI::App& command, Options& o);
 
 }  // namespace robocd

@@ -11,6 +11,7 @@
 #include "hinge/robotics/link_margins.hpp"
 #include "hinge/robotics/link_pairs.hpp"
 #include "hinge/robotics/path_checker.hpp"
+#include "hinge/robotics/plan.hpp"
 #include "hinge/robotics/random_configuration.hpp"
 #include "hinge/robotics/read_mesh.hpp"
 #include "hinge/robotics/read_points.hpp"
