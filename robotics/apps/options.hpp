@@ -64,8 +64,8 @@ struct Options {
   // matrix
   hinge::robotics::MatrixOptions matrix;  // its clearance is replaced by `clearance` above
   bool disable_unseen = false;
-  // check, relax, plan: CSV file of the configurations, empty: none; matrix: SRDF file, empty: standard output; demo: SVG
-  // file
+  // check, relax, plan: CSV file of the configurations, empty: none; matrix: SRDF file, empty: standard output; demo:
+  // SVG file
   std::string out;
 };
 
