@@ -49,8 +49,9 @@ ConfigurationError = _core.ConfigurationError
 from . import molecular, robotics  # noqa: E402
 from ._checker import Checker  # noqa: E402
 from ._model import Model  # noqa: E402
+from ._planning import Motion  # noqa: E402
 
-for _public in (Checker, Model):
+for _public in (Checker, Model, Motion):
     _public.__module__ = __name__
 del _public, _name
 
@@ -61,6 +62,7 @@ __all__ = [
     "LoadError",
     "Model",
     "ModelError",
+    "Motion",
     "instruction_set",
     "molecular",
     "robotics",

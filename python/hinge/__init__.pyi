@@ -17,6 +17,7 @@ __all__ = [
     "LoadError",
     "Model",
     "ModelError",
+    "Motion",
     "instruction_set",
     "molecular",
     "robotics",
@@ -73,6 +74,28 @@ class Model:
     def corners(self) -> NDArray[np.float64]: ...
     @property
     def radii(self) -> NDArray[np.float64]: ...
+
+class Motion:
+    waypoints: NDArray[np.float64]
+    reached: bool
+    length: float
+    straight: float
+    remaining: float
+    opening: float
+    motions: int
+    stopped: bool
+    def __init__(
+        self,
+        waypoints: NDArray[np.float64],
+        reached: bool,
+        length: float,
+        straight: float,
+        remaining: float,
+        opening: float,
+        motions: int,
+        stopped: bool,
+    ) -> None: ...
+    def steps(self, step: float) -> NDArray[np.float64]: ...
 
 class Checker:
     def __init__(

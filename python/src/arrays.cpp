@@ -58,6 +58,13 @@ double as_number(py::handle value, const char* name) {
                        ", expected a number");
 }
 
+py::array_t<double> to_rows(const std::vector<std::vector<double>>& rows) {
+  std::vector<double> values;
+  for (const std::vector<double>& row : rows) values.insert(values.end(), row.begin(), row.end());
+  return to_array(std::move(values),
+                  {static_cast<py::ssize_t>(rows.size()), static_cast<py::ssize_t>(rows.front().size())});
+}
+
 double as_length(py::handle value, const char* name, const char* unit) {
   const double length = as_number(value, name);
   if (length >= 0.0 && length <= 1e9) return length;

@@ -82,6 +82,9 @@ pybind11::array_t<T> to_array(std::vector<T> values) {
   return to_array(std::move(values), {size});
 }
 
+/// Returns rows of equal length, at least one, as an array of shape (rows, length).
+pybind11::array_t<double> to_rows(const std::vector<std::vector<double>>& rows);
+
 /// Returns bytes of 0 and 1 as an array of booleans that owns their memory.
 pybind11::array to_booleans(std::vector<std::uint8_t> values);
 

@@ -17,6 +17,8 @@ import hinge.robotics
 
 HERE = pathlib.Path(__file__).resolve().parent
 MODULES = (hinge, hinge.molecular, hinge.robotics)
+# Results, which users do not construct.
+RESULTS = ("CoordinateFit", "Motion", "Relaxation", "RigidGroups", "Walk")
 
 
 def public_things():
@@ -50,7 +52,7 @@ def test_docstrings_name_every_argument(name, thing):
     if isinstance(thing, (classmethod, staticmethod)):
         thing = thing.__func__
     if inspect.isclass(thing):
-        if issubclass(thing, Exception) or thing.__name__ in ("Walk", "RigidGroups", "Relaxation"):
+        if issubclass(thing, Exception) or thing.__name__ in RESULTS:
             return
         doc, function = inspect.getdoc(thing), thing.__init__
     elif callable(thing):
@@ -78,7 +80,7 @@ def test_docstrings_say_what_is_raised(name, thing):
         thing = thing.__func__
     if not callable(thing) or (inspect.isclass(thing) and issubclass(thing, Exception)):
         return
-    if inspect.isclass(thing) and thing.__name__ in ("Walk", "RigidGroups", "Relaxation", "PathAnswer", "Shape"):
+    if inspect.isclass(thing) and thing.__name__ in (*RESULTS, "PathAnswer", "Shape"):
         return
     function = thing.__init__ if inspect.isclass(thing) else thing
     parameters = set(inspect.signature(function).parameters) - {"self", "threads", "progress"}

@@ -13,7 +13,7 @@ placed parts, slides in angstrom and rotations in rad.
 """
 
 from .._core import molecular as _core
-from ._checker import Checker, Relaxation, Walk
+from ._checker import Checker, CoordinateFit, Relaxation, Walk
 from ._ensemble import RigidGroups, find_rigid_groups
 from ._molecule import Molecule
 from ._trajectory import Trajectory
@@ -25,6 +25,7 @@ superpose = _core.superpose
 
 __all__ = [
     "Checker",
+    "CoordinateFit",
     "Molecule",
     "OtherAtoms",
     "Relaxation",
@@ -37,6 +38,6 @@ __all__ = [
     "superpose",
 ]
 
-for _public in (Checker, Molecule, Relaxation, RigidGroups, Trajectory, Walk, find_rigid_groups):
+for _public in (Checker, CoordinateFit, Molecule, Relaxation, RigidGroups, Trajectory, Walk, find_rigid_groups):
     _public.__module__ = __name__
 del _public

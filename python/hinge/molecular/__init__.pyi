@@ -6,10 +6,11 @@ from typing import Literal, Protocol, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .. import LoadError, _Booleans, _One, _Progress, _Several
+from .. import LoadError, Motion, _Booleans, _One, _Progress, _Several
 
 __all__ = [
     "Checker",
+    "CoordinateFit",
     "Molecule",
     "OtherAtoms",
     "Relaxation",
@@ -127,6 +128,17 @@ class Relaxation:
         energy_before: float | NDArray[np.float64],
         energy: float | NDArray[np.float64],
         restarts: int | NDArray[np.int64],
+    ) -> None: ...
+
+class CoordinateFit:
+    q: NDArray[np.float64]
+    rmsd: float
+    farthest: float
+    atom: int
+    n_atoms: int
+    stopped: bool
+    def __init__(
+        self, q: NDArray[np.float64], rmsd: float, farthest: float, atom: int, n_atoms: int, stopped: bool
     ) -> None: ...
 
 class Trajectory:
@@ -291,6 +303,18 @@ class Checker:
         threads: int | None = None,
         progress: _Progress = None,
     ) -> Relaxation: ...
+    def plan(
+        self,
+        start: ArrayLike | None,
+        end: ArrayLike | None,
+        *,
+        tries: int = 100_000,
+        seed: int = 1,
+        seconds: float | None = None,
+    ) -> Motion: ...
+    def fit_coordinates(
+        self, x: ArrayLike | Molecule, *, atoms: ArrayLike | None = None, seconds: float | None = None
+    ) -> CoordinateFit: ...
     def fit(self, x: ArrayLike | Trajectory, *, progress: _Progress = None) -> NDArray[np.float64]: ...
     @property
     def molecule(self) -> Molecule: ...

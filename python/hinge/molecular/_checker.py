@@ -10,6 +10,7 @@ import numpy as np
 from .. import ModelError
 from .._core import molecular as _core
 from .._paths import named_verdicts, path_options
+from .._planning import Motion, seconds_of
 from ._molecule import Molecule, one_of, residues_of
 
 
@@ -43,6 +44,23 @@ class Relaxation:
     energy_before: "float | np.ndarray"
     energy: "float | np.ndarray"
     restarts: "int | np.ndarray"
+
+
+@dataclasses.dataclass(frozen=True)
+class CoordinateFit:
+    """The result of Checker.fit_coordinates().
+
+    q: the configuration, shape (dof,), rad and angstrom. rmsd: root mean square distance of the matched atoms from the
+    given coordinates after superposition, angstrom. farthest: the largest distance, angstrom. atom: index of the atom
+    that has it. n_atoms: number of atoms that were matched. stopped: the time passed.
+    """
+
+    q: np.ndarray
+    rmsd: float
+    farthest: float
+    atom: int
+    n_atoms: int
+    stopped: bool
 
 
 def _integer(name, value, least):
@@ -280,6 +298,40 @@ class Checker(_core.CheckerBase):
         if np.ndim(given) == 1:
             return Relaxation(found[0][0], *(value[0].item() for value in found[1:]))
         return Relaxation(*found)
+
+    def plan(self, start, end, *, tries=100_000, seed=1, seconds=None):
+        """Find a motion between two conformations on which no pair collides, as `biocd plan` does.
+
+        start, end: shape (dof,), rad and angstrom; None: the reference. Both have to be free, and cycles that the
+        checker keeps are closed at them and stay closed. tries: largest number of motions to test before one is found.
+        seed: of the random conformations. seconds: the search ends after this time. Returns a Motion; look at `reached`.
+        No motion is no proof that there is none. Torsions may reach the end with whole turns more or less.
+        Raises ConfigurationError, with the pair, if an end collides.
+        """
+        start, end = (np.zeros(self.dof) if q is None else q for q in (start, end))
+        return Motion(
+            *self._plan(start, end, _integer("tries", tries, 1), _integer("seed", seed, 0), seconds_of(seconds))
+        )
+
+    def fit_coordinates(self, x, *, atoms=None, seconds=None):
+        """Return the configuration whose atoms are nearest to given coordinates, as the ends of `biocd plan` are found.
+
+        x: shape (n, 3), angstrom, in any frame; or a Molecule, whose atoms match by chain, residue and atom name.
+        atoms: indices or booleans of the n atoms; None: all. seconds: the search ends after this time.
+        The mean squared distance after superposition is minimised over the free torsions, from two starts; collisions do
+        not count. Bond lengths, angles and other torsions stay as in the reference, so the atoms come as near as these
+        allow: look at `rmsd`. Cycles that the checker keeps are closed at the result. Returns a CoordinateFit.
+        fit() reads the torsions of frames of the same molecule instead.
+        """
+        if isinstance(x, Molecule):
+            if atoms is not None:
+                raise ValueError("atoms: given with a Molecule, expected None")
+            atoms, x = self._match(x)
+        elif atoms is None:
+            atoms = np.arange(len(self._molecule.atoms))
+        q, rmsd, farthest, atom, stopped = self._fit_coordinates(x, atoms, seconds_of(seconds))
+        n_atoms = int(np.count_nonzero(atoms)) if np.asarray(atoms).dtype == bool else len(atoms)
+        return CoordinateFit(q, rmsd, farthest, atom, n_atoms, stopped)
 
     def fit(self, x, *, progress=None):
         """Return the configurations with the torsions of given coordinates, shape (n, dof), rad.

@@ -8,6 +8,7 @@ import numpy as np
 from .. import ModelError
 from .._core import robotics as _core
 from .._paths import named_verdicts, path_options
+from .._planning import Motion, seconds_of
 from . import _arguments as _check
 from ._environment import Environment
 from ._matrix import CollisionMatrix
@@ -193,6 +194,18 @@ class Checker(_core.CheckerBase):
         if np.ndim(q) == 1:
             return Relaxation(found[0][0], *(value[0].item() for value in found[1:]))
         return Relaxation(*found)
+
+    def plan(self, start, end, *, tries=100_000, seed=1, seconds=None):
+        """Find a motion from one configuration to another on which nothing collides, as `robocd plan` does.
+
+        start, end: shape (dof,), rad and m; both have to be free. tries: largest number of motions to test before one is
+        found. seed: of the random configurations. seconds: the search ends after this time. Joints stay within their
+        limits. Links and bodies both count. Returns a Motion; look at `reached`. No motion is no proof that there is
+        none. Raises ConfigurationError, with the pair, if an end collides.
+        """
+        return Motion(
+            *self._plan(start, end, _check.count("tries", tries, 1), _check.seed(seed), seconds_of(seconds))
+        )
 
     def certify(self, a, b, *, smallest_step=2.0**-20, resolution=None, threads=None, progress=None):
         """Prove whether straight paths from a to b are free of collisions, with links and with bodies.

@@ -6,7 +6,7 @@ from typing import Literal, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .. import _Booleans, _Numbers, _One, _Progress, _Several
+from .. import Motion, _Booleans, _Numbers, _One, _Progress, _Several
 from ._environment import Environment
 from ._matrix import CollisionMatrix
 from ._robot import Robot
@@ -145,6 +145,15 @@ class Checker:
         threads: int | None = None,
         progress: _Progress = None,
     ) -> Relaxation: ...
+    def plan(
+        self,
+        start: ArrayLike,
+        end: ArrayLike,
+        *,
+        tries: int = 100_000,
+        seed: int = 1,
+        seconds: float | None = None,
+    ) -> Motion: ...
     def certify(
         self,
         a: ArrayLike,

@@ -235,6 +235,7 @@ void bind_checker(py::module_& module) {
   add_sampling(checker);
   add_paths(checker);
   add_relaxation(checker);
+  add_planning(checker);
 }
 
 }  // namespace hinge::python

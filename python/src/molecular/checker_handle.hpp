@@ -64,5 +64,6 @@ void add_coordinates(CheckerClass& checker);  ///< answers for given coordinates
 void add_sampling(CheckerClass& checker);     ///< samples and walks
 void add_paths(CheckerClass& checker);        ///< certified paths
 void add_relaxation(CheckerClass& checker);   ///< steric energies, relaxation
+void add_planning(CheckerClass& checker);     ///< planned motions, fitted conformations
 
 }  // namespace hinge::python

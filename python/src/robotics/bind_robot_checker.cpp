@@ -206,6 +206,7 @@ void bind_robot_checker(py::module_& module) {
   add_robot_pairs(checker);
   add_clearances(checker);
   add_robot_relaxation(checker);
+  add_robot_planning(checker);
   add_robot_paths(checker);
   add_two_robots(checker);
 }

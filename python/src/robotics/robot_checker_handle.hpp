@@ -148,6 +148,7 @@ void add_robot_pairs(RobotCheckerClass& checker);  ///< pairs, distances, contai
 void add_clearances(RobotCheckerClass& checker);   ///< distances with derivatives
 void add_robot_paths(RobotCheckerClass& checker);
 void add_robot_relaxation(RobotCheckerClass& checker);
+void add_robot_planning(RobotCheckerClass& checker);
 void add_two_robots(RobotCheckerClass& checker);
 
 }  // namespace hinge::python

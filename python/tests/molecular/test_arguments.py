@@ -106,9 +106,9 @@ def test_random_arguments_never_crash(m, c, seed):
     methods = [
         "collides", "pairs", "closest", "positions", "closure_residuals", "collides_coordinates", "pairs_coordinates",
         "closest_coordinates", "overlaps", "residue_clashes", "sample", "unclosable", "walk", "fit", "steric",
-        "relax",
+        "relax", "plan", "fit_coordinates",
     ]  # fmt: skip
-    keywords = ["threads", "progress", "within", "decimals", "out", "seed", "sigma", "first", "tries", "resolution", "softness"]
+    keywords = ["threads", "progress", "within", "decimals", "out", "seed", "sigma", "first", "tries", "resolution", "softness", "seconds"]
     for _ in range(60):
         method = methods[rng.integers(len(methods))]
         pick = lambda: values[rng.integers(len(values))]  # noqa: E731

@@ -184,7 +184,7 @@ def test_fuzz_of_arguments_never_crashes(robot):
     world = hr.Environment()
     world.add(hr.Box((1, 1, 0.1)), (0, 0, -2), "table")
     c = hr.Checker(robot, environment=world)
-    calls = [c.collides, c.pairs, c.closest, c.distances, c.clearances, c.distance, c.relax, c.certify, c.check_path, c.link_poses,
+    calls = [c.collides, c.pairs, c.closest, c.distances, c.clearances, c.distance, c.relax, c.plan, c.certify, c.check_path, c.link_poses,
              c.contained, c.attach, c.detach, c.allow, c.colliding_links, c.calibrate, c.collides_with, c.closest_with,
              world.add,
              world.attach, world.detach, world.allow, world.set_pose, world.remove, world.pose, hr.Box, hr.Sphere,
