@@ -59,8 +59,13 @@ class SharedWork {
       between();
     }
   }
-  /// Lets no further slice begin.
-  void stop() { end_ = 0; }
+  /// Lets no further slice begin; rethrow() throws the exception then, even if the work did not pass it on.
+  void stop(const std::exception_ptr& why) {
+    const std::lock_guard lock(mutex_);
+    error_at_ = 0;
+    error_ = why;
+    end_ = 0;
+  }
   bool stopped() const { return end_.load() == 0; }
   std::size_t done() const { return done_; }
   void rethrow() {
@@ -131,7 +136,6 @@ void run_on_threads(SharedWork& shared, unsigned threads, Watch& watch, const st
   std::condition_variable ended;
   std::size_t running = threads - 1;
   std::vector<std::thread> others;
-  std::exception_ptr mine;
   try {
     for (unsigned k = 1; k < threads; ++k)
       others.emplace_back([&] {
@@ -155,11 +159,9 @@ void run_on_threads(SharedWork& shared, unsigned threads, Watch& watch, const st
       lock.lock();
     }
   } catch (...) {
-    shared.stop();
-    mine = std::current_exception();
+    shared.stop(std::current_exception());
   }
   for (std::thread& other : others) other.join();
-  if (mine) std::rethrow_exception(mine);
 }
 
 }  // namespace
@@ -169,7 +171,7 @@ void poll() {
     try {
       polled.watch->look(polled.shared->done());
     } catch (...) {
-      polled.shared->stop();
+      polled.shared->stop(std::current_exception());
       throw;
     }
   }

@@ -61,6 +61,18 @@ def lifted(mesh):
 
 def prepare(name):
     """Returns the call, and how many times to repeat it."""
+    if name == "small_plan":  # phi alone: there is no motion to find
+        molecule = hm.Molecule(ROOT / "molecular/data/1ubq.pdb")
+        checker = hm.Checker(molecule, "A:60:phi", exempt_reference=True)
+        return lambda: checker.plan(None, [np.pi], tries=10**9)
+    if name == "small_fit":
+        checker = hm.Checker(hm.Molecule(ROOT / "molecular/data/1ubq.pdb"))
+        target = checker.molecule.coordinates[::-1]
+        return lambda: [checker.fit_coordinates(target) for _ in range(1000)]
+    if name == "small_relax":
+        checker = hm.Checker(hm.Molecule(ROOT / "molecular/data/1ubq.pdb"))
+        q = checker.sample(1000)
+        return lambda: checker.relax(q)
     if name.startswith("molecule"):
         source = sys.argv[3] if len(sys.argv) > 3 else gzip.compress(many_chains(250), 1)
         if name == "molecule":
@@ -99,6 +111,9 @@ def prepare(name):
     if name == "robot_checker":
         return lambda: [hr.Checker(robot) for _ in range(100)]
     world = hr.Environment()
+    if name == "robot_plan":
+        world.add(hr.Box((9, 9, 0.1)), (0, 0, 2), "wall")
+        return lambda: hr.Checker(robot, environment=world).plan([1.0], [4.0], tries=10**9)
     world.add(mesh, (0, 0, -5), "sheet")
     checker = hr.Checker(robot, environment=world)
 

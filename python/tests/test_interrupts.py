@@ -10,7 +10,7 @@ import sys
 import pytest
 
 import hinge
-from conftest import shared
+from conftest import PROMPT, shared
 
 PROGRAM = pathlib.Path(__file__).with_name("interrupt_program.py")
 CALLS = [
@@ -47,6 +47,11 @@ def late(*arguments):
 def test_ctrl_c_ends_the_call(call):
     # The shortest of these calls takes 0.5 s. A loaded machine may be late once.
     assert min(late(call, 0.2) for _ in range(2)) < 0.2
+
+
+@pytest.mark.parametrize("call", ["small_plan", "small_relax", "small_fit", "robot_plan"])
+def test_ctrl_c_ends_a_search(call):
+    assert min(late(call, 0.2) for _ in range(2)) < PROMPT
 
 
 @pytest.mark.long

@@ -268,6 +268,15 @@ TEST(Relax, LeavesTheStartWhereNothingCanBeDone) {
   EXPECT_EQ(calls, 3);
   EXPECT_LE(stopped.collisions, stopped.collisions_before);
   EXPECT_THROW(relax(hopeless, start, {}, []() -> bool { throw std::runtime_error("stop"); }), std::runtime_error);
+  // The first exception counts, however often the optimiser still asks.
+  calls = 0;
+  const auto throws = [&]() -> bool { throw std::runtime_error("call " + std::to_string(++calls)); };
+  try {
+    relax(hopeless, start, {}, throws);
+    FAIL() << "expected an exception";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "call 1");
+  }
 }
 
 TEST(Relax, RefusesBadArguments) {

@@ -2,7 +2,7 @@
 // Calls NLopt.
 #include "mechanism/minimise.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <memory>
 
 namespace hinge::molecular {
@@ -14,9 +14,10 @@ double Minimiser::call(unsigned n, const double* u, double* gradient, void* self
     if (minimiser.stopped_) nlopt_force_stop(minimiser.optimiser_);
     return (*minimiser.objective_)({u, n}, {gradient, gradient == nullptr ? 0U : n});
   } catch (...) {
-    minimiser.error_ = std::current_exception();
+    if (!minimiser.error_) minimiser.error_ = std::current_exception();
     nlopt_force_stop(minimiser.optimiser_);
-    return HUGE_VAL;
+    std::fill_n(gradient, gradient == nullptr ? 0U : n, 0.0);  // a minimum: the line search ends, too
+    return 0.0;
   }
 }
 
