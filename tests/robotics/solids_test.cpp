@@ -168,8 +168,8 @@ TEST(Solids, CollideWhenTheyShareAPoint) {
 
 TEST(Solids, HoldMeshesAndTheirPartsButHollowMeshesHoldNothing) {
   auto two = std::make_shared<TriangleMesh>(*mesh_of(BoxShape{Vec3::Constant(0.1)}));
-  for (const Triangle& t : mesh_of(BoxShape{Vec3::Constant(0.1)})->triangles)
-    two->triangles.push_back(t.placed(at(5.0)));
+  const auto one = *two;
+  for (const Triangle& t : one.triangles) two->triangles.push_back(t.placed(at(5.0)));
   const MeshShape parts{two}, room{mesh_of(BoxShape{Vec3::Ones()})};
   MeshShape solid_room = room;
   solid_room.solid = true;
