@@ -38,11 +38,13 @@ struct MotionSearch {
   std::function<bool()> stop = {};  ///< called before every draw; if it returns true, the search ends
 };
 
+using Waypoints = std::vector<std::vector<double>>;
+
 /// The result of find_motion().
 struct FoundMotion {
   /// Configurations from the start on; the motion between neighbours is free. The last one is the end if it was
   /// reached, otherwise the nearest to it that was reached.
-  std::vector<std::vector<double>> waypoints;
+  Waypoints waypoints;
   bool reached = false;       ///< the last waypoint is the end
   double remaining = 0.0;     ///< distance from the last waypoint to the end; 0 if reached
   std::uint64_t motions = 0;  ///< motions that were tested, those of shortening included
@@ -136,52 +138,85 @@ class QuietOmpl {
   inline static ompl::msg::OutputHandler* handler_ = nullptr;
 };
 
+/// The space of a problem with the tests of its states and motions, and copies of its states.
+class MotionSpace {
+ public:
+  /// Both must outlive this object.
+  MotionSpace(const MotionProblem& problem, const MotionSearch& search)
+      : information_(
+            std::make_shared<ompl::base::SpaceInformation>(std::make_shared<JointSpace>(problem, search.seed))),
+        motions_(std::make_shared<MotionIsFree>(information_, problem)) {
+    information_->setStateValidityChecker(std::make_shared<StateIsFree>(information_, problem));
+    information_->setMotionValidator(motions_);
+    information_->setup();
+  }
+  const ompl::base::SpaceInformationPtr& information() const { return information_; }
+  /// Number of motions that were tested.
+  std::uint64_t tested() const {
+    return std::uint64_t{motions_->getValidMotionCount()} + motions_->getInvalidMotionCount();
+  }
+  ompl::base::ScopedState<> state(std::span<const double> q) const {
+    ompl::base::ScopedState<> made(information_);
+    std::ranges::copy(q, JointSpace::values(made.get()).begin());
+    return made;
+  }
+  static Waypoints waypoints(const ompl::geometric::PathGeometric& path) {
+    Waypoints all;
+    for (std::size_t k = 0; k < path.getStateCount(); ++k) {
+      const std::span<const double> q = JointSpace::values(path.getState(static_cast<unsigned>(k)));
+      all.emplace_back(q.begin(), q.end());
+    }
+    return all;
+  }
+
+ private:
+  QuietOmpl quiet_;
+  ompl::base::SpaceInformationPtr information_;
+  std::shared_ptr<MotionIsFree> motions_;
+};
+
 }  // namespace detail
 
-/// Plans from `from` to `to`, both free, by RRT-Connect (Kuffner & LaValle, ICRA 2000), then shortens by shortcuts
-/// until two rounds in a row gain less than 1 percent, and leaves out each waypoint whose neighbours are joined by a
-/// free motion. The straight motion is tried first. The result depends on the arguments alone, if stop never returns
-/// true.
-inline FoundMotion find_motion(const MotionProblem& problem, std::span<const double> from, std::span<const double> to,
-                               const MotionSearch& search) {
+/// Plans from `from` to `to`, both free, by RRT-Connect (Kuffner & LaValle, ICRA 2000). The straight motion is tried
+/// first. The motion is not shortened.
+inline FoundMotion connect(const MotionProblem& problem, std::span<const double> from, std::span<const double> to,
+                           const MotionSearch& search) {
   namespace ob = ompl::base;
-  const detail::QuietOmpl quiet;
-  const auto space = std::make_shared<JointSpace>(problem, search.seed);
-  const auto information = std::make_shared<ob::SpaceInformation>(space);
-  information->setStateValidityChecker(std::make_shared<detail::StateIsFree>(information, problem));
-  const auto motions = std::make_shared<detail::MotionIsFree>(information, problem);
-  information->setMotionValidator(motions);
-  information->setup();
-  const auto tested = [&] { return std::uint64_t{motions->getValidMotionCount()} + motions->getInvalidMotionCount(); };
-
-  const auto state = [&](std::span<const double> q) {
-    ob::ScopedState<> made(information);
-    std::copy(q.begin(), q.end(), JointSpace::values(made.get()).begin());
-    return made;
-  };
-  const auto start = state(from), end = state(to);
-  ompl::geometric::PathGeometric path(information);
+  const detail::MotionSpace space(problem, search);
+  const auto start = space.state(from), end = space.state(to);
   FoundMotion found;
-  if (information->checkMotion(start.get(), end.get())) {
-    path.append(start.get());
-    path.append(end.get());
+  if (space.information()->checkMotion(start.get(), end.get())) {
+    found.waypoints = {{from.begin(), from.end()}, {to.begin(), to.end()}};
     found.reached = true;
   } else {
-    const auto definition = std::make_shared<ob::ProblemDefinition>(information);
+    const auto definition = std::make_shared<ob::ProblemDefinition>(space.information());
     definition->setStartAndGoalStates(start, end, std::numeric_limits<double>::epsilon());
-    detail::Connect planner(information);
+    detail::Connect planner(space.information());
     planner.setRange(search.range);
     planner.setProblemDefinition(definition);
     planner.setup();
     planner.solve(ob::PlannerTerminationCondition(
-        [&] { return tested() >= search.most_motions || (search.stop && search.stop()); }));
+        [&] { return space.tested() >= search.most_motions || (search.stop && search.stop()); }));
     found.reached = definition->hasExactSolution();
+    ompl::geometric::PathGeometric path(space.information());
     if (found.reached)
       path = static_cast<const ompl::geometric::PathGeometric&>(*definition->getSolutionPath());
     else
       planner.append_nearest(end.get(), path);
+    found.waypoints = detail::MotionSpace::waypoints(path);
   }
+  found.motions = space.tested();
+  return found;
+}
 
+/// Shortens a motion by shortcuts until two rounds in a row gain less than 1 percent, and leaves out each waypoint
+/// whose neighbours are joined by a free motion. Then it puts the steps of the motions in (MotionProblem::steps). Adds
+/// to `found.motions`.
+inline void shorten(const MotionProblem& problem, FoundMotion& found, const MotionSearch& search) {
+  const detail::MotionSpace space(problem, search);
+  const auto& information = space.information();
+  ompl::geometric::PathGeometric path(information);
+  for (const std::vector<double>& waypoint : found.waypoints) path.append(space.state(waypoint).get());
   detail::Shortener shortener(information, search.seed);
   constexpr unsigned shortcuts_per_round = 50;
   constexpr int most_idle_rounds = 2;
@@ -200,7 +235,7 @@ inline FoundMotion find_motion(const MotionProblem& problem, std::span<const dou
     if (is_free) path = shorter;
   }
 
-  std::vector<ob::State*>& states = path.getStates();
+  std::vector<ompl::base::State*>& states = path.getStates();
   for (std::size_t k = 1; k + 1 < states.size() && !(search.stop && search.stop());) {
     if (!information->checkMotion(states[k - 1], states[k + 1])) {
       ++k;
@@ -210,16 +245,24 @@ inline FoundMotion find_motion(const MotionProblem& problem, std::span<const dou
     states.erase(states.begin() + static_cast<std::ptrdiff_t>(k));
   }
 
-  for (std::size_t k = 0; k < path.getStateCount(); ++k) {
-    const std::span<const double> q = JointSpace::values(path.getState(static_cast<unsigned>(k)));
-    if (k == 0)
-      found.waypoints.emplace_back(q.begin(), q.end());
+  found.waypoints.clear();
+  for (const std::vector<double>& q : detail::MotionSpace::waypoints(path)) {
+    if (found.waypoints.empty())
+      found.waypoints.push_back(q);
     else
       for (std::vector<double>& step : problem.steps(std::vector<double>(found.waypoints.back()), q))
         found.waypoints.push_back(std::move(step));
   }
+  found.motions += space.tested();
+}
+
+/// Returns a motion that connect() finds, shortened. The result depends on the arguments alone, if stop never returns
+/// true.
+inline FoundMotion find_motion(const MotionProblem& problem, std::span<const double> from, std::span<const double> to,
+                               const MotionSearch& search) {
+  FoundMotion found = connect(problem, from, to, search);
+  shorten(problem, found, search);
   if (!found.reached) found.remaining = problem.distance(found.waypoints.back(), to);
-  found.motions = tested();
   return found;
 }
 

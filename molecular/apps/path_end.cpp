@@ -140,7 +140,7 @@ std::vector<double> turned(const Job& job, std::vector<double> values) {
 }  // namespace
 
 PathEnd read_path_end(const char* option, const std::string& text, const Options& options, const Job& job,
-                      std::span<const std::size_t> closures) {
+                      const FitOptions& fit, const std::function<bool()>& stop) {
   PathEnd end{text, {}};
   const std::size_t count = job.checker.dof_count();
   const std::optional<NamedFile> named = named_file(text);
@@ -150,7 +150,7 @@ PathEnd read_path_end(const char* option, const std::string& text, const Options
     const Structure& s = job.molecule->structure();
     end.target = named ? read_target(option, *named, options, job)
                        : whole(s.models[find_model(option, std::string_view(text).substr(6), s)]);
-    end.fitted = fit_coordinates(job.checker, end.target, closures);
+    end.fitted = fit_coordinates(job.checker, end.target, fit, stop);
     end.turns = end.fitted->q;
   } else if (text.starts_with('@')) {
     const std::string path = text.substr(1);

@@ -2,9 +2,8 @@
 // An end of a path, as given on the command line.
 #pragma once
 
-#include <cstddef>
+#include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -25,11 +24,11 @@ struct PathEnd {
 /// Reads "reference", "model:N" (number in the file), a file of coordinates, "@FILE" or a list. A file is PDB or mmCIF,
 /// with ":N" for a model other than the first, or a trajectory "FILE:FRAME" of the molecule. A list, or the file after
 /// @, has values relative to the reference, one per selected DOF, in degrees (moves in angstrom), separated by commas,
-/// blanks or line ends. Coordinates are fitted (fit_coordinates) with these closures kept. Throws ModelError, naming
+/// blanks or line ends. Coordinates are fitted (fit_coordinates); fit and stop are for that. Throws ModelError, naming
 /// the option, if the text, a count or a number is wrong; LoadError for the same in a file, or for one that is not of
 /// this molecule.
 PathEnd read_path_end(const char* option, const std::string& text, const Options& options, const Job& job,
-                      std::span<const std::size_t> closures = {});
+                      const hinge::molecular::FitOptions& fit = {}, const std::function<bool()>& stop = {});
 
 /// Angles of a fitted end are known up to whole turns: turns them so that the path is the shorter way. A list states
 /// the turns exactly, so it stays.

@@ -35,19 +35,15 @@ using hinge::tool::counted;
 /// True when --time has passed.
 using OutOfTime = std::function<bool()>;
 
-/// Moves a fitted end out of collision, as little as possible. Other ends stay as the user gave them.
-void mend_end(const Options& options, const Job& job, PathEnd& end, const OutOfTime& out_of_time) {
+/// Sets a fitted end to the conformation that the motion has there.
+void replace_end(const Job& job, PathEnd& end, const std::vector<double>& q) {
+  if (!end.fitted) return;
   Checker checker = job.checker;
-  if (!end.fitted || !checker.check(end.turns, Mode{}).collides) return;
-  const Relaxation relaxed =
-      relax(job.checker, end.turns, {.closures = job.kept.closures, .seed = options.seed}, out_of_time);
-  checker.check(relaxed.q, Mode{});
+  checker.check(q, Mode{});
   std::vector<hinge::Vec3> reached;
   for (const std::uint32_t atom : end.target.atoms) reached.push_back(checker.position(atom));
   const Superposition found = superpose(reached, end.target.positions);
-  fmt::print(stderr, "note: {} collides in {}; it was relaxed to {}: {:.3f} angstrom RMSD from the given coordinates\n",
-             end.text, counted(relaxed.collisions_before, "pair"), counted(relaxed.collisions, "pair"), found.rmsd);
-  end.turns = relaxed.q;
+  end.turns = q;
   end.fitted->rmsd = found.rmsd;
   end.fitted->farthest = found.farthest;
   end.fitted->atom = end.target.atoms[found.atom];
@@ -166,19 +162,20 @@ Exit run_plan(const Options& options) {
            std::chrono::steady_clock::now() - start >= std::chrono::duration<double>(*options.seconds);
   };
 
-  PathEnd from = read_path_end("--from", options.from, options, job, job.kept.closures);
-  PathEnd to = read_path_end("--to", options.to, options, job, job.kept.closures);
+  const FitOptions fit{job.kept.closures, true};
+  PathEnd from = read_path_end("--from", options.from, options, job, fit, out_of_time);
+  PathEnd to = read_path_end("--to", options.to, options, job, fit, out_of_time);
   take_shorter_way(job, from, to);
-  for (PathEnd* end : {&from, &to}) {
-    mend_end(options, job, *end, out_of_time);
-    if (const std::string note = note_of(*end, job); !note.empty()) fmt::print(stderr, "note: {}\n", note);
-  }
   for (const auto& [end, which] : {std::pair{&from, "start"}, std::pair{&to, "end"}})
-    if (report_collision(options, job, *end, which)) return Exit::collision;
+    if (!end->fitted && report_collision(options, job, *end, which)) return Exit::collision;
 
   PlanOptions how{.closures = job.kept.closures, .seed = options.seed};
   if (options.most_tries) how.most_motions = *options.most_tries;
-  const PlannedMotion planned = plan(job.checker, from.turns, to.turns, how, out_of_time);
+  const PlannedMotion planned = plan(job.checker, {from.turns, from.target}, {to.turns, to.target}, how, out_of_time);
+  replace_end(job, from, planned.waypoints.front());
+  if (planned.reached) replace_end(job, to, planned.waypoints.back());
+  for (const PathEnd* end : {&from, &to})
+    if (const std::string note = note_of(*end, job); !note.empty()) fmt::print(stderr, "note: {}\n", note);
   Checker checker = job.checker;
   if (file.wanted())
     for_frames(options, job, planned.waypoints, [&](const std::vector<double>& q) {

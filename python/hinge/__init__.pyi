@@ -84,6 +84,8 @@ class Motion:
     opening: float
     motions: int
     stopped: bool
+    start_rmsd: float
+    end_rmsd: float
     def __init__(
         self,
         waypoints: NDArray[np.float64],
@@ -94,6 +96,8 @@ class Motion:
         opening: float,
         motions: int,
         stopped: bool,
+        start_rmsd: float = 0.0,
+        end_rmsd: float = 0.0,
     ) -> None: ...
     def steps(self, step: float) -> NDArray[np.float64]: ...
 

@@ -16,8 +16,9 @@ class Motion:
     the end if it was reached, otherwise the nearest to it that was found. reached: whether it is the end. length: sum of
     the distances between neighbours. straight: distance from the start to the end. remaining: distance from the last
     waypoint to the end; 0 if it was reached. opening: of molecules, how far kept cycles are open half way between
-    waypoints at most, angstrom. motions: number of motions that were tested. stopped: the time passed.
-    Distances are in angstrom for molecules (root mean square displacement of the atoms) and in m for robots (how far
+    waypoints at most, angstrom. motions: number of motions that were tested. stopped: the time passed. start_rmsd,
+    end_rmsd: of molecules, if an end was a CoordinateFit, how far its waypoint is from these coordinates; else 0.
+    Distances are in angstrom for molecules (root mean square distance of the atoms, superposed) and in m for robots (how far
     the joints move the robot's farthest point, root of the sum of squares).
     """
 
@@ -29,6 +30,8 @@ class Motion:
     opening: float
     motions: int
     stopped: bool
+    start_rmsd: float = 0.0
+    end_rmsd: float = 0.0
 
     def steps(self, step):
         """Return configurations along the motion, shape (m, dof), with all waypoints.

@@ -99,6 +99,25 @@ TEST(FitCoordinates, NoTorsionImprovesIt) {
     }
 }
 
+TEST(FitCoordinates, CanEndFree) {
+  const Structure structure = read_structure(test::ubiquitin());
+  const Checker checker = make_checker(structure, "all");
+  Checker other = checker;
+  for (std::uint64_t k = 0; k < 3; ++k) {
+    SampleStream stream(31, k);
+    const std::vector<double> drawn = sample_configuration({31, 1.0 * degree}, k, checker.dof_count());
+    const TargetCoordinates target = target_of(positions_at(checker, drawn), 0.9, 0.2, stream);
+    const CoordinateFit fit = fit_coordinates(checker, target);
+    EXPECT_EQ(fit.collisions, other.check(fit.q, Mode{Mode::Kind::all}).pairs.size());
+    EXPECT_GT(fit.collisions, 0U);
+    const CoordinateFit free = fit_coordinates(checker, target, {{}, true});
+    EXPECT_EQ(free.collisions, 0U);
+    EXPECT_FALSE(other.check(free.q, Mode{}).collides);
+    EXPECT_GE(free.rmsd, fit.rmsd);
+    EXPECT_LT(free.rmsd, fit.rmsd + 0.3);
+  }
+}
+
 TEST(FitCoordinates, OpensAdenylateKinase) {
   const auto folder = test::shared_molecules();
   if (!std::filesystem::exists(folder / "adk_dims.dcd")) GTEST_SKIP() << folder << " has no adk_dims.dcd";

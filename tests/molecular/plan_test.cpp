@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -17,12 +18,16 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
+#include "hinge/core/philox.hpp"
 #include "hinge/kinematics/closure_equations.hpp"
 #include "hinge/molecular/closed_sampler.hpp"
+#include "hinge/molecular/fit_coordinates.hpp"
+#include "hinge/molecular/fit_torsions.hpp"
 #include "hinge/molecular/kept_closures.hpp"
 #include "hinge/molecular/loop.hpp"
 #include "hinge/molecular/sampler.hpp"
 #include "hinge/molecular/selection.hpp"
+#include "hinge/molecular/trajectory.hpp"
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
@@ -98,7 +103,7 @@ TEST(Plan, MotionsOfATailAreFree) {
   std::size_t reached = 0, motions = 0;
   for (const std::vector<double>& to : chain.draw_free(wanted, 1.5, seed)) {
     chain.how.most_motions = 3000;
-    const PlannedMotion motion = plan(*chain.checker, chain.reference(), to, chain.how);
+    const PlannedMotion motion = plan(*chain.checker, {chain.reference()}, {to}, chain.how);
     expect_ends(motion, chain.reference(), to);
     chain.expect_free(motion, 10);
     motions += motion.waypoints.size() - 1;
@@ -120,7 +125,7 @@ TEST(Plan, MotionsOfALoopStayClosed) {
   std::size_t reached = 0;
   for (const std::vector<double>& to : ends) {
     chain.how.most_motions = 300;
-    const PlannedMotion motion = plan(*chain.checker, chain.reference(), to, chain.how);
+    const PlannedMotion motion = plan(*chain.checker, {chain.reference()}, {to}, chain.how);
     expect_ends(motion, chain.reference(), to);
     chain.expect_free(motion, 4);
     EXPECT_LT(motion.open, 0.02);
@@ -129,11 +134,84 @@ TEST(Plan, MotionsOfALoopStayClosed) {
   EXPECT_GE(reached, 3U);
 }
 
+TEST(Plan, FollowsCoordinatesWithAllTorsionsFree) {
+  constexpr std::uint64_t seed = 1616;
+  RecordProperty("seed", static_cast<int>(seed));
+  Chain chain("all");
+  chain.how.most_motions = 2000;
+  const std::size_t wanted = std::getenv("HINGE_TEST_ALL") != nullptr ? 12 : 3;
+  for (std::uint64_t k = 0; k < wanted; ++k) {
+    SCOPED_TRACE(k);
+    // A conformation of clashes and distorted bonds.
+    SampleStream stream(seed, k);
+    std::vector<double> q(chain.checker->dof_count());
+    for (double& value : q) value = 0.02 * stream.normal();
+    chain.brute->check(q, Mode{});
+    MotionEnd end{{}, {{}, chain.brute->positions()}};
+    for (std::uint32_t i = 0; i < end.target.positions.size(); ++i) {
+      end.target.atoms.push_back(i);
+      end.target.positions[i] += 0.2 * Vec3(stream.normal(), stream.normal(), stream.normal());
+    }
+    const auto rmsd = [&](const std::vector<double>& at) {
+      chain.brute->check(at, Mode{});
+      return superpose(chain.brute->positions(), end.target.positions).rmsd;
+    };
+    const CoordinateFit nearest = fit_coordinates(*chain.checker, end.target);
+    EXPECT_GT(nearest.collisions, 0U);
+    end.q = nearest.q;
+    const PlannedMotion motion = plan(*chain.checker, {chain.reference()}, end, chain.how);
+    ASSERT_TRUE(motion.reached);
+    chain.expect_free(motion, 8);
+    EXPECT_EQ(motion.waypoints.front(), chain.reference());
+    EXPECT_NEAR(motion.end_rmsd, rmsd(motion.waypoints.back()), 1e-9);
+    EXPECT_GE(motion.end_rmsd, nearest.rmsd - 1e-3);
+    EXPECT_LE(motion.end_rmsd, 1.0);
+    EXPECT_EQ(motion.start_rmsd, 0.0);
+    EXPECT_GE(motion.length, motion.straight - motion.end_rmsd - nearest.rmsd);
+    // The other way round, the start is the end that may be replaced.
+    const PlannedMotion back = plan(*chain.checker, end, {chain.reference()}, chain.how);
+    ASSERT_TRUE(back.reached);
+    EXPECT_EQ(back.waypoints.back(), chain.reference());
+    EXPECT_NEAR(back.start_rmsd, rmsd(back.waypoints.front()), 1e-9);
+    EXPECT_EQ(back.end_rmsd, 0.0);
+    std::vector<std::vector<double>> reversed(back.waypoints.rbegin(), back.waypoints.rend());
+    EXPECT_EQ(reversed, motion.waypoints);
+    // A start that may be replaced has to be free if the end may be replaced, too.
+    EXPECT_THROW(plan(*chain.checker, end, end, chain.how), ConfigurationError);
+  }
+}
+
+TEST(Plan, OpensAdenylateKinase) {
+  const auto folder = test::shared_molecules();
+  if (std::getenv("HINGE_TEST_ALL") == nullptr) GTEST_SKIP() << "takes minutes: HINGE_TEST_ALL";
+  if (!std::filesystem::exists(folder / "adk_dims.dcd")) GTEST_SKIP() << folder << " has no adk_dims.dcd";
+  const Structure structure = read_structure(folder / "adk_closed.pdb");
+  const auto molecule = std::make_shared<const Molecule>(structure);
+  CheckOptions options;
+  const Checker checker(molecule, molecule->select(select_torsions(*molecule, "all", false)), options);
+  const Trajectory trajectory(folder / "adk_dims.dcd", structure, {}, true);
+  MotionEnd open{{}, {{}, trajectory.kept(trajectory.frame(97))}};
+  for (std::uint32_t i = 0; i < open.target.positions.size(); ++i) open.target.atoms.push_back(i);
+  open.q = fit_coordinates(checker, open.target).q;
+  const PlannedMotion motion = plan(checker, {std::vector<double>(checker.dof_count(), 0.0)}, open);
+  ASSERT_TRUE(motion.reached);
+  EXPECT_LE(motion.end_rmsd, 1.0);
+  EXPECT_GT(motion.straight, 6.0);
+  options.engine = "brute";
+  Checker brute(molecule, checker.selection(), options);
+  for (std::size_t w = 1; w < motion.waypoints.size(); ++w)
+    for (const double t : {0.25, 0.5, 0.75, 1.0}) {
+      std::vector<double> q = motion.waypoints[w - 1];
+      for (std::size_t k = 0; k < q.size(); ++k) q[k] += t * (motion.waypoints[w][k] - q[k]);
+      EXPECT_FALSE(brute.check(q, Mode{}).collides) << w << " " << t;
+    }
+}
+
 TEST(Plan, DependsOnTheArgumentsAlone) {
   Chain chain("A:72-76:phi,psi"), lazy("A:72-76:phi,psi", "", "lazy"), brute("A:72-76:phi,psi", "", "brute");
   const std::vector<double> to = chain.draw_free(1, 1.5, 99).front();
   chain.how.most_motions = 500;
-  const auto ask = [&](Chain& other) { return plan(*other.checker, other.reference(), to, chain.how).waypoints; };
+  const auto ask = [&](Chain& other) { return plan(*other.checker, {other.reference()}, {to}, chain.how).waypoints; };
   const auto expected = ask(chain);
   EXPECT_EQ(ask(chain), expected);
   EXPECT_EQ(ask(lazy), expected);
@@ -151,7 +229,7 @@ TEST(Plan, SaysThatThereIsNone) {
   Chain chain("A:60:phi");
   chain.how.most_motions = 200;
   const std::vector<double> to{pi};
-  const PlannedMotion motion = plan(*chain.checker, chain.reference(), to, chain.how);
+  const PlannedMotion motion = plan(*chain.checker, {chain.reference()}, {to}, chain.how);
   expect_ends(motion, chain.reference(), to);
   chain.expect_free(motion, 20);
   EXPECT_FALSE(motion.reached);
@@ -160,7 +238,7 @@ TEST(Plan, SaysThatThereIsNone) {
   EXPECT_LT(motion.remaining, motion.straight);
   EXPECT_GE(motion.motions, 200U);
   EXPECT_LT(motion.motions, 1000U);
-  const PlannedMotion stopped = plan(*chain.checker, chain.reference(), to, chain.how, [] { return true; });
+  const PlannedMotion stopped = plan(*chain.checker, {chain.reference()}, {to}, chain.how, [] { return true; });
   EXPECT_TRUE(stopped.stopped);
   EXPECT_FALSE(stopped.reached);
   EXPECT_LT(stopped.motions, 10U);
@@ -169,17 +247,17 @@ TEST(Plan, SaysThatThereIsNone) {
 TEST(Plan, RefusesBadEnds) {
   Chain chain("A:72-76:phi,psi");
   const std::vector<double> good = chain.reference();
-  EXPECT_THROW(plan(*chain.checker, good, std::vector<double>(3, 0.0)), ConfigurationError);
-  EXPECT_THROW(plan(*chain.checker, good, std::vector<double>(good.size(), NAN)), ConfigurationError);
+  EXPECT_THROW(plan(*chain.checker, {good}, {std::vector<double>(3, 0.0)}), ConfigurationError);
+  EXPECT_THROW(plan(*chain.checker, {good}, {std::vector<double>(good.size(), NAN)}), ConfigurationError);
   PlanOptions none;
   none.most_motions = 0;
-  EXPECT_THROW(plan(*chain.checker, good, good, none), ModelError);
-  EXPECT_THROW(plan(*Chain("none").checker, {}, {}), ModelError);
+  EXPECT_THROW(plan(*chain.checker, {good}, {good}, none), ModelError);
+  EXPECT_THROW(plan(*Chain("none").checker, MotionEnd{}, MotionEnd{}), ModelError);
   std::vector<double> bad(good);
   bad[0] = pi;
   while (!chain.brute->check(bad, Mode{}).collides) bad[0] -= 0.1;
   try {
-    plan(*chain.checker, good, bad);
+    plan(*chain.checker, {good}, {bad});
     FAIL() << "expected an error";
   } catch (const ConfigurationError& error) {
     EXPECT_NE(std::string(error.what()).find("the end of the motion collides: A:"), std::string::npos) << error.what();
@@ -187,7 +265,7 @@ TEST(Plan, RefusesBadEnds) {
   Chain loop("none", "A:7-13");
   std::vector<double> open = loop.reference();
   open[0] = 1e-3;
-  EXPECT_THROW(plan(*loop.checker, loop.reference(), open, loop.how), ConfigurationError);
+  EXPECT_THROW(plan(*loop.checker, {loop.reference()}, {open}, loop.how), ConfigurationError);
 }
 
 }  // namespace plan_test

@@ -15,6 +15,10 @@
 
 namespace hinge::molecular {
 
+/// Files have three decimals, which change a distance by at most sqrt(3) * 0.001 angstrom. Pairs that are farther from
+/// a collision than this stay free in them.
+inline constexpr double file_rounding = 0.002;  // angstrom
+
 /// Adds weight * (sum of squared residuals) at q to the value that it returns, and its derivatives to `gradient` unless
 /// that is empty.
 double add_closures(ClosureEquations& equations, double weight, std::span<const double> q, std::span<double> gradient);

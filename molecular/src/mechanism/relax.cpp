@@ -21,8 +21,6 @@ namespace hinge::molecular {
 
 namespace {
 
-// Files have three decimals, which change a distance by at most sqrt(3) * 0.001 angstrom. Free pairs stay free in them.
-constexpr double file_rounding = 0.002;
 constexpr std::array displacement_weights{1e-2, 1e-3, 1e-4, 0.0};  // mu, largest first
 constexpr double unseen_move = 0.02;                               // angstrom; smaller displacements are taken back
 constexpr std::size_t tries_per_restart = 32;

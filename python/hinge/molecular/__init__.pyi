@@ -135,10 +135,20 @@ class CoordinateFit:
     rmsd: float
     farthest: float
     atom: int
-    n_atoms: int
+    atoms: NDArray[np.int64]
+    x: NDArray[np.float64]
+    collisions: int
     stopped: bool
     def __init__(
-        self, q: NDArray[np.float64], rmsd: float, farthest: float, atom: int, n_atoms: int, stopped: bool
+        self,
+        q: NDArray[np.float64],
+        rmsd: float,
+        farthest: float,
+        atom: int,
+        atoms: NDArray[np.int64],
+        x: NDArray[np.float64],
+        collisions: int,
+        stopped: bool,
     ) -> None: ...
 
 class Trajectory:
@@ -305,15 +315,20 @@ class Checker:
     ) -> Relaxation: ...
     def plan(
         self,
-        start: ArrayLike | None,
-        end: ArrayLike | None,
+        start: ArrayLike | CoordinateFit | None,
+        end: ArrayLike | CoordinateFit | None,
         *,
         tries: int = 100_000,
         seed: int = 1,
         seconds: float | None = None,
     ) -> Motion: ...
     def fit_coordinates(
-        self, x: ArrayLike | Molecule, *, atoms: ArrayLike | None = None, seconds: float | None = None
+        self,
+        x: ArrayLike | Molecule,
+        *,
+        atoms: ArrayLike | None = None,
+        collision_free: bool = False,
+        seconds: float | None = None,
     ) -> CoordinateFit: ...
     def fit(self, x: ArrayLike | Trajectory, *, progress: _Progress = None) -> NDArray[np.float64]: ...
     @property

@@ -52,14 +52,17 @@ class CoordinateFit:
 
     q: the configuration, shape (dof,), rad and angstrom. rmsd: root mean square distance of the matched atoms from the
     given coordinates after superposition, angstrom. farthest: the largest distance, angstrom. atom: index of the atom
-    that has it. n_atoms: number of atoms that were matched. stopped: the time passed.
+    that has it. atoms: indices of the matched atoms, shape (n,). x: their given coordinates, shape (n, 3), angstrom.
+    collisions: pairs that collide at q. stopped: the time passed.
     """
 
     q: np.ndarray
     rmsd: float
     farthest: float
     atom: int
-    n_atoms: int
+    atoms: np.ndarray
+    x: np.ndarray
+    collisions: int
     stopped: bool
 
 
@@ -302,25 +305,40 @@ class Checker(_core.CheckerBase):
     def plan(self, start, end, *, tries=100_000, seed=1, seconds=None):
         """Find a motion between two conformations on which no pair collides, as `biocd plan` does.
 
-        start, end: shape (dof,), rad and angstrom; None: the reference. Both have to be free, and cycles that the
-        checker keeps are closed at them and stay closed. tries: largest number of motions to test before one is found.
-        seed: of the random conformations. seconds: the search ends after this time. Returns a Motion; look at `reached`.
+        start, end: shape (dof,), rad and angstrom; None: the reference; or a CoordinateFit. Configurations have to be
+        free, with the cycles closed that the checker keeps. A CoordinateFit that is farther than 0.002 angstrom from its
+        coordinates may be replaced by another conformation, which is at most 1 angstrom or its own distance from them:
+        look at `start_rmsd` and `end_rmsd` of the result. If both ends are such, only the end is replaced.
+        tries: largest number of motions to test before one is found. seed: of the random conformations. seconds: the
+        search ends after this time. Returns a Motion; look at `reached`.
         No motion is no proof that there is none. Torsions may reach the end with whole turns more or less.
         Raises ConfigurationError, with the pair, if an end collides.
         """
-        start, end = (np.zeros(self.dof) if q is None else q for q in (start, end))
+
+        def tuple_of(end):
+            if isinstance(end, CoordinateFit):
+                return end.q, end.x, end.atoms
+            return (np.zeros(self.dof) if end is None else end,)
+
         return Motion(
-            *self._plan(start, end, _integer("tries", tries, 1), _integer("seed", seed, 0), seconds_of(seconds))
+            *self._plan(
+                tuple_of(start),
+                tuple_of(end),
+                _integer("tries", tries, 1),
+                _integer("seed", seed, 0),
+                seconds_of(seconds),
+            )
         )
 
-    def fit_coordinates(self, x, *, atoms=None, seconds=None):
+    def fit_coordinates(self, x, *, atoms=None, collision_free=False, seconds=None):
         """Return the configuration whose atoms are nearest to given coordinates, as the ends of `biocd plan` are found.
 
         x: shape (n, 3), angstrom, in any frame; or a Molecule, whose atoms match by chain, residue and atom name.
-        atoms: indices or booleans of the n atoms; None: all. seconds: the search ends after this time.
-        The mean squared distance after superposition is minimised over the free torsions, from two starts; collisions do
-        not count. Bond lengths, angles and other torsions stay as in the reference, so the atoms come as near as these
-        allow: look at `rmsd`. Cycles that the checker keeps are closed at the result. Returns a CoordinateFit.
+        atoms: indices or booleans of the n atoms; None: all. collision_free: move the result until no pair collides, as
+        little as possible; look at `collisions`. seconds: the search ends after this time.
+        The mean squared distance after superposition is minimised over the free torsions, from two starts. Bond lengths,
+        angles and other torsions stay as in the reference, so the atoms come as near as these allow: look at `rmsd`.
+        Cycles that the checker keeps are closed at the result. Returns a CoordinateFit.
         fit() reads the torsions of frames of the same molecule instead.
         """
         if isinstance(x, Molecule):
@@ -329,9 +347,12 @@ class Checker(_core.CheckerBase):
             atoms, x = self._match(x)
         elif atoms is None:
             atoms = np.arange(len(self._molecule.atoms))
-        q, rmsd, farthest, atom, stopped = self._fit_coordinates(x, atoms, seconds_of(seconds))
-        n_atoms = int(np.count_nonzero(atoms)) if np.asarray(atoms).dtype == bool else len(atoms)
-        return CoordinateFit(q, rmsd, farthest, atom, n_atoms, stopped)
+        q, rmsd, farthest, atom, collisions, stopped = self._fit_coordinates(
+            x, atoms, bool(collision_free), seconds_of(seconds)
+        )
+        atoms = np.asarray(atoms)
+        atoms = np.flatnonzero(atoms) if atoms.dtype == bool else atoms.astype(np.int64)
+        return CoordinateFit(q, rmsd, farthest, atom, atoms, np.array(x, np.float64), collisions, stopped)
 
     def fit(self, x, *, progress=None):
         """Return the configurations with the torsions of given coordinates, shape (n, dof), rad.

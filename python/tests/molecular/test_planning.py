@@ -86,18 +86,36 @@ def test_coordinates_are_fitted():
     turn *= np.linalg.det(turn)
     moved = x @ turn.T + [30.0, -20.0, 5.0]
     found = c.fit_coordinates(moved)
-    assert found.rmsd < 1e-4 and found.n_atoms == len(x) and not found.stopped
+    assert found.rmsd < 1e-4 and len(found.atoms) == len(x) and not found.stopped
     assert np.allclose(found.q, q, atol=1e-3)
     # Some atoms, chosen by index or by booleans.
     chosen = np.arange(len(x)) % 2 == 0
     for atoms in (chosen, np.flatnonzero(chosen)):
         part = c.fit_coordinates(moved[chosen], atoms=atoms)
-        assert part.rmsd < 1e-4 and part.n_atoms == chosen.sum()
+        assert part.rmsd < 1e-4 and (part.atoms == np.flatnonzero(chosen)).all()
     # With few free torsions, it comes as near as these allow.
     few = hm.Checker(c.molecule, "A:76:phi").fit_coordinates(moved)
     assert few.rmsd > 1.0 and few.farthest > few.rmsd and 0 <= few.atom < len(x)
     noisy = moved + random.normal(0.0, 0.5, moved.shape)
     assert c.fit_coordinates(noisy, seconds=0).stopped and not c.fit_coordinates(noisy).stopped
+
+
+def test_a_motion_to_coordinates_may_end_near_them():
+    c = hm.Checker(hm.Molecule(path_of("1ubq")), "all", exempt_reference=True)
+    random = np.random.default_rng(SEED)
+    x = c.positions(random.normal(0.0, 0.02, c.dof)) + random.normal(0.0, 0.2, (len(c.molecule.atoms), 3))
+    fit = c.fit_coordinates(x)
+    assert fit.collisions == len(c.pairs(fit.q)) > 0
+    free = c.fit_coordinates(x, collision_free=True)
+    assert free.collisions == 0 and fit.rmsd <= free.rmsd < 1.0 and not c.collides(free.q)
+    for start, end in ((None, fit), (fit, None), (None, free), (free, fit)):
+        found = c.plan(start, end, tries=2000)
+        assert found.reached and found.start_rmsd < 1.0 and found.end_rmsd < 1.0
+        assert (found.start_rmsd > 0) == (start is not None) and (found.end_rmsd > 0) == (end is not None)
+        for given, waypoint in ((start, found.waypoints[0]), (end, found.waypoints[-1])):
+            if given is None:
+                assert np.all(np.abs(np.remainder(waypoint + np.pi, 2 * np.pi) - np.pi) < 1e-9)
+        assert (c.certify(found.waypoints[:-1], found.waypoints[1:])["verdict"] == "free").all()
 
 
 def test_molecules_match_by_name(tmp_path):
@@ -114,7 +132,7 @@ def test_molecules_match_by_name(tmp_path):
     file = tmp_path / "other.pdb"
     file.write_text("".join("".join(reversed(atoms)) for atoms in list(residues.values())[5:]))
     found = c.fit_coordinates(hm.Molecule(file))
-    assert found.n_atoms == len(lines) - sum(len(atoms) for atoms in list(residues.values())[:5])
+    assert len(found.atoms) == len(lines) - sum(len(atoms) for atoms in list(residues.values())[:5])
     assert found.rmsd < 1e-3 and np.allclose(found.q, q, atol=0.02)
     with pytest.raises(ValueError, match="atoms"):
         c.fit_coordinates(m, atoms=[0])

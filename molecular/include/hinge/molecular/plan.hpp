@@ -5,13 +5,19 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <vector>
 
 #include "hinge/core/api.hpp"
 #include "hinge/molecular/checker.hpp"
+#include "hinge/molecular/fit_coordinates.hpp"
 
 namespace hinge::molecular {
+
+/// An end of a motion.
+struct MotionEnd {
+  std::vector<double> q;       ///< conformation: one value per selected DOF, rad or angstrom
+  TargetCoordinates target{};  ///< coordinates that q was fitted to (fit_coordinates()), or nothing
+};
 
 /// Options of plan().
 struct PlanOptions {
@@ -24,33 +30,44 @@ struct PlanOptions {
 struct PlannedMotion {
   /// Configurations from the start on, one value per selected DOF, rad or angstrom. The straight path from each to the
   /// next is proved free (PathChecker::certify). The last one is the end if it was reached, otherwise the nearest to it
-  /// that was reached.
+  /// that was found.
   std::vector<std::vector<double>> waypoints;
-  bool reached = false;       ///< the last waypoint is the end
+  bool reached = false;       ///< the last waypoint is the end, or is near the coordinates of the end
   double length = 0.0;        ///< of the motion, angstrom: sum of the distances between neighbours
-  double straight = 0.0;      ///< distance from the start to the end, angstrom
+  double straight = 0.0;      ///< distance between the conformations of the ends, angstrom
   double remaining = 0.0;     ///< distance from the last waypoint to the end, angstrom; 0 if reached
+  double start_rmsd = 0.0;    ///< distance of the first waypoint from the target of the start; 0 without a target
+  double end_rmsd = 0.0;      ///< distance of the last waypoint from the target of the end; 0 without a target
   double open = 0.0;          ///< largest residual of a kept closure half way between waypoints, angstrom
   std::uint64_t motions = 0;  ///< motions that were tested
   bool stopped = false;       ///< stop() ended the search
 };
 
-/// Plans from `from` to `to` with RRT-Connect (Kuffner & LaValle, ICRA 2000; OMPL) and shortens the motion. Half of the
-/// random conformations are near the straight path, the others anywhere: torsions within half a turn of the start,
-/// placed parts within 10 angstrom of the straight path. Angles have no end: a motion may reach the end with whole
-/// turns more or less than `to` has.
+/// Plans a motion without collisions from one conformation to another. It tries, in this order:
+/// 1. The straight path, and RRT-Connect (Kuffner & LaValle, ICRA 2000; OMPL) with few motions. Half of the random
+///    conformations are near the straight path, the others anywhere: torsions within half a turn of the start, placed
+///    parts within 10 angstrom of the straight path.
+/// 2. Small steps that follow the coordinates of the start on their way to those of the end. Each step minimises the
+///    distance from the coordinates, the steric energy (Checker::steric) and the changes of the values together. Such a
+///    motion moves all torsions of a protein from one domain arrangement to another.
+/// 3. RRT-Connect from where these steps ended.
+/// The motion is shortened. Angles have no end: a motion may reach the end with whole turns more or less than it has.
 ///
-/// The distance of two conformations is the root mean square displacement of all atoms, linear in the values: every
-/// DOF counts with the moment of inertia of the atoms that it moves in the reference, and angles take the shorter way.
-/// With closures, a motion goes in steps of at most 0.05 rad or angstrom per value, and ClosureSolver closes each of
-/// them; between two steps the cycles are open by `open`.
+/// An end with a target that its q does not meet within 0.002 angstrom may be replaced by another conformation, which
+/// is at most as far from the target as q or 1 angstrom, whichever is larger. One end of a motion is replaced at most:
+/// the last one if it has such a target, else the first one. An end that can be replaced at the last waypoint may
+/// collide.
 ///
-/// from, to: one value per selected DOF, with closures closed. The result depends on the arguments alone, if stop never
-/// returns true, and it is the same for every engine. stop: called often; if it returns true, the search ends with the
-/// nearest conformation so far. The checker is copied. Throws ModelError if nothing is free, most_motions is 0 or a
-/// closure does not exist; ConfigurationError as Checker::check(), and if an end collides or its closures are open by
-/// more than 1e-6 angstrom.
-HINGE_API PlannedMotion plan(const Checker& checker, std::span<const double> from, std::span<const double> to,
+/// Distances are root mean square displacements of all atoms (of a target: of its atoms) after superposition. With
+/// closures, a motion goes in steps of at most 0.05 rad or angstrom per value, and ClosureSolver closes each of them;
+/// between two steps the cycles are open by `open`.
+///
+/// Closures are closed at both ends. The result depends on the arguments alone, if stop never returns true, and it is
+/// the same for every engine. stop: called often; if it returns true, the search ends with the nearest conformation so
+/// far. The checker is copied. Throws ModelError if nothing is free, most_motions is 0, a closure does not exist, or a
+/// target does not fit the molecule; ConfigurationError as Checker::check(), and if an end collides or its closures are
+/// open by more than 1e-6 angstrom.
+HINGE_API PlannedMotion plan(const Checker& checker, const MotionEnd& from, const MotionEnd& to,
                              const PlanOptions& options = {}, const std::function<bool()>& stop = {});
 
 }  // namespace hinge::molecular
