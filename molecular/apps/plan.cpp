@@ -11,9 +11,11 @@
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "conformation_file.hpp"
+#include "hinge/core/error.hpp"
 #include "hinge/molecular/fit_torsions.hpp"
 #include "hinge/molecular/path_checker.hpp"
 #include "hinge/molecular/relax.hpp"
@@ -166,12 +168,16 @@ Exit run_plan(const Options& options) {
   PathEnd from = read_path_end("--from", options.from, options, job, fit, out_of_time);
   PathEnd to = read_path_end("--to", options.to, options, job, fit, out_of_time);
   take_shorter_way(job, from, to);
-  for (const auto& [end, which] : {std::pair{&from, "start"}, std::pair{&to, "end"}})
-    if (!end->fitted && report_collision(options, job, *end, which)) return Exit::collision;
-
   PlanOptions how{.closures = job.kept.closures, .seed = options.seed};
   if (options.most_tries) how.most_motions = *options.most_tries;
-  const PlannedMotion planned = plan(job.checker, {from.turns, from.target}, {to.turns, to.target}, how, out_of_time);
+  PlannedMotion planned;
+  try {
+    planned = plan(job.checker, {from.turns, from.target}, {to.turns, to.target}, how, out_of_time);
+  } catch (const hinge::ConfigurationError&) {
+    for (const auto& [end, which] : {std::pair{&from, "start"}, std::pair{&to, "end"}})
+      if (report_collision(options, job, *end, which)) return Exit::collision;
+    throw;
+  }
   replace_end(job, from, planned.waypoints.front());
   if (planned.reached) replace_end(job, to, planned.waypoints.back());
   for (const PathEnd* end : {&from, &to})

@@ -71,6 +71,11 @@ TEST(BiocdPlan, SaysWhatFails) {
   const auto start = run_biocd("plan " + test::ubiquitin().string() + " --free A:72:chi1 --to 10 2>&1");
   EXPECT_EQ(start.status, 1);
   EXPECT_TRUE(has(start.out, "the start collides in 1 pair")) << start.out;
+  // A fitted end that was not moved in time.
+  const auto fitted =
+      run_biocd("plan " + test::ubiquitin().string() + " --free A:72:chi1 --from model:1 --to 30 --time 1e-9 2>&1");
+  EXPECT_EQ(fitted.status, 1);
+  EXPECT_TRUE(has(fitted.out, "the start collides in 1 pair")) << fitted.out;
   // phi alone: the chain meets itself on both ways round.
   const test::TemporaryFile part("", ".pdb");
   const std::string none = "plan " + test::ubiquitin().string() +
