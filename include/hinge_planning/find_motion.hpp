@@ -40,13 +40,13 @@ struct MotionSearch {
 
 using Waypoints = std::vector<std::vector<double>>;
 
-/// The result of find_motion().
+/// The result of find_motion() and connect().
 struct FoundMotion {
   /// Configurations from the start on; the motion between neighbours is free. The last one is the end if it was
   /// reached, otherwise the nearest to it that was reached.
   Waypoints waypoints;
   bool reached = false;       ///< the last waypoint is the end
-  double remaining = 0.0;     ///< distance from the last waypoint to the end; 0 if reached
+  double remaining = 0.0;     ///< of find_motion(): distance from the last waypoint to the end; 0 if reached
   std::uint64_t motions = 0;  ///< motions that were tested, those of shortening included
 };
 
@@ -138,7 +138,7 @@ class QuietOmpl {
   inline static ompl::msg::OutputHandler* handler_ = nullptr;
 };
 
-/// The space of a problem with the tests of its states and motions, and copies of its states.
+/// The state space of a problem, with the tests of its states and motions.
 class MotionSpace {
  public:
   /// Both must outlive this object.
@@ -210,13 +210,14 @@ inline FoundMotion connect(const MotionProblem& problem, std::span<const double>
 }
 
 /// Shortens a motion by shortcuts until two rounds in a row gain less than 1 percent, and leaves out each waypoint
-/// whose neighbours are joined by a free motion. Then it puts the steps of the motions in (MotionProblem::steps). Adds
-/// to `found.motions`.
+/// whose neighbours are joined by a free motion. Then replaces each motion by its steps (MotionProblem::steps). Adds
+/// the motions that it tests to `found.motions`.
 inline void shorten(const MotionProblem& problem, FoundMotion& found, const MotionSearch& search) {
   const detail::MotionSpace space(problem, search);
   const auto& information = space.information();
   ompl::geometric::PathGeometric path(information);
   for (const std::vector<double>& waypoint : found.waypoints) path.append(space.state(waypoint).get());
+
   detail::Shortener shortener(information, search.seed);
   constexpr unsigned shortcuts_per_round = 50;
   constexpr int most_idle_rounds = 2;

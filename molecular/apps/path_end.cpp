@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -73,13 +72,6 @@ std::size_t find_model(const std::string& option, std::string_view number, const
                   s.model_numbers.size() > 1 ? fmt::format(" ... {}", s.model_numbers.back()) : ""));
 }
 
-/// Returns all atoms with these positions.
-TargetCoordinates whole(std::vector<hinge::Vec3> positions) {
-  TargetCoordinates target{std::vector<std::uint32_t>(positions.size()), std::move(positions)};
-  std::iota(target.atoms.begin(), target.atoms.end(), 0U);
-  return target;
-}
-
 /// A file of coordinates, and a number after it.
 struct NamedFile {
   std::string path, number;
@@ -127,7 +119,7 @@ TargetCoordinates read_target(const std::string& option, const NamedFile& named,
     throw hinge::ModelError(fmt::format("{} {}{}{}: the file has {}, expected one of them as in {}:0", option,
                                         named.path, named.number.empty() ? "" : ":", named.number,
                                         hinge::tool::counted(file.size(), "frame"), named.path));
-  return whole(file.kept(file.frame(frame)));
+  return all_atoms(file.kept(file.frame(frame)));
 }
 
 /// Converts the values of revolute DOF from degrees to rad.
@@ -149,7 +141,7 @@ PathEnd read_path_end(const char* option, const std::string& text, const Options
   } else if (text.starts_with("model:") || named) {
     const Structure& s = job.molecule->structure();
     end.target = named ? read_target(option, *named, options, job)
-                       : whole(s.models[find_model(option, std::string_view(text).substr(6), s)]);
+                       : all_atoms(s.models[find_model(option, std::string_view(text).substr(6), s)]);
     end.fitted = fit_coordinates(job.checker, end.target, fit, stop);
     end.turns = end.fitted->q;
   } else if (text.starts_with('@')) {

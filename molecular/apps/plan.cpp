@@ -16,9 +16,8 @@
 
 #include "conformation_file.hpp"
 #include "hinge/core/error.hpp"
-#include "hinge/molecular/fit_torsions.hpp"
+#include "hinge/molecular/fit_coordinates.hpp"
 #include "hinge/molecular/path_checker.hpp"
-#include "hinge/molecular/relax.hpp"
 #include "hinge_tools/counted.hpp"
 #include "hinge_tools/json_text.hpp"
 #include "options.hpp"
@@ -42,13 +41,11 @@ void replace_end(const Job& job, PathEnd& end, const std::vector<double>& q) {
   if (!end.fitted) return;
   Checker checker = job.checker;
   checker.check(q, Mode{});
-  std::vector<hinge::Vec3> reached;
-  for (const std::uint32_t atom : end.target.atoms) reached.push_back(checker.position(atom));
-  const Superposition found = superpose(reached, end.target.positions);
+  const Superposition found = superpose(checker.positions(), end.target);
   end.turns = q;
   end.fitted->rmsd = found.rmsd;
   end.fitted->farthest = found.farthest;
-  end.fitted->atom = end.target.atoms[found.atom];
+  end.fitted->atom = found.atom;
 }
 
 /// Prints the pairs if the end collides. Returns true if it does.

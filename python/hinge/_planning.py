@@ -17,9 +17,9 @@ class Motion:
     the distances between neighbours. straight: distance from the start to the end. remaining: distance from the last
     waypoint to the end; 0 if it was reached. opening: of molecules, how far kept cycles are open half way between
     waypoints at most, angstrom. motions: number of motions that were tested. stopped: the time passed. start_rmsd,
-    end_rmsd: of molecules, if an end was a CoordinateFit, how far its waypoint is from these coordinates; else 0.
-    Distances are in angstrom for molecules (root mean square distance of the atoms, superposed) and in m for robots (how far
-    the joints move the robot's farthest point, root of the sum of squares).
+    end_rmsd: of molecules, how far the first and the last waypoint are from the coordinates of a CoordinateFit; else 0.
+    Distances are in angstrom for molecules (root mean square distance of the atoms after superposition) and in m for
+    robots (how far the joints move the robot's farthest point, root of the sum of squares).
     """
 
     waypoints: np.ndarray

@@ -126,9 +126,7 @@ TEST(FitCoordinates, OpensAdenylateKinase) {
   const Structure structure = read_structure(folder / "adk_closed.pdb", read);
   const Checker checker = make_checker(structure, "all");
   const Trajectory trajectory(folder / "adk_dims.dcd", structure, read, true);
-  TargetCoordinates target;
-  target.positions = trajectory.kept(trajectory.frame(97));
-  for (std::uint32_t i = 0; i < target.positions.size(); ++i) target.atoms.push_back(i);
+  const TargetCoordinates target = all_atoms(trajectory.kept(trajectory.frame(97)));
   EXPECT_LT(fit_coordinates(checker, target).rmsd, 1.0);
 }
 

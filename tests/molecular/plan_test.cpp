@@ -142,16 +142,13 @@ TEST(Plan, FollowsCoordinatesWithAllTorsionsFree) {
   const std::size_t wanted = std::getenv("HINGE_TEST_ALL") != nullptr ? 12 : 3;
   for (std::uint64_t k = 0; k < wanted; ++k) {
     SCOPED_TRACE(k);
-    // A conformation of clashes and distorted bonds.
+    // Coordinates of a conformation that collides, with noise that no torsions follow.
     SampleStream stream(seed, k);
     std::vector<double> q(chain.checker->dof_count());
     for (double& value : q) value = 0.02 * stream.normal();
     chain.brute->check(q, Mode{});
-    MotionEnd end{{}, {{}, chain.brute->positions()}};
-    for (std::uint32_t i = 0; i < end.target.positions.size(); ++i) {
-      end.target.atoms.push_back(i);
-      end.target.positions[i] += 0.2 * Vec3(stream.normal(), stream.normal(), stream.normal());
-    }
+    MotionEnd end{{}, all_atoms(chain.brute->positions())};
+    for (Vec3& at : end.target.positions) at += 0.2 * Vec3(stream.normal(), stream.normal(), stream.normal());
     const auto rmsd = [&](const std::vector<double>& at) {
       chain.brute->check(at, Mode{});
       return superpose(chain.brute->positions(), end.target.positions).rmsd;
@@ -190,8 +187,7 @@ TEST(Plan, OpensAdenylateKinase) {
   CheckOptions options;
   const Checker checker(molecule, molecule->select(select_torsions(*molecule, "all", false)), options);
   const Trajectory trajectory(folder / "adk_dims.dcd", structure, {}, true);
-  MotionEnd open{{}, {{}, trajectory.kept(trajectory.frame(97))}};
-  for (std::uint32_t i = 0; i < open.target.positions.size(); ++i) open.target.atoms.push_back(i);
+  MotionEnd open{{}, all_atoms(trajectory.kept(trajectory.frame(97)))};
   open.q = fit_coordinates(checker, open.target).q;
   const PlannedMotion motion = plan(checker, {std::vector<double>(checker.dof_count(), 0.0)}, open);
   ASSERT_TRUE(motion.reached);
@@ -261,6 +257,11 @@ TEST(Plan, RefusesBadEnds) {
     FAIL() << "expected an error";
   } catch (const ConfigurationError& error) {
     EXPECT_NE(std::string(error.what()).find("the end of the motion collides: A:"), std::string::npos) << error.what();
+  }
+  for (const TargetCoordinates& wrong :
+       {TargetCoordinates{{99999}, {Vec3::Zero()}}, TargetCoordinates{{0, 1}, {Vec3::Zero()}}}) {
+    EXPECT_THROW(plan(*chain.checker, {good}, {good, wrong}), ModelError);
+    EXPECT_THROW(plan(*chain.checker, {good, wrong}, {good}), ModelError);
   }
   Chain loop("none", "A:7-13");
   std::vector<double> open = loop.reference();

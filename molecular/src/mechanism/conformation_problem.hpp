@@ -28,25 +28,13 @@ class ConformationProblem {
   /// Returns the problem of a motion between two conformations. It refers to this object, and is valid until the next
   /// call.
   planning::MotionProblem between(std::span<const double> from, std::span<const double> to);
-  /// Returns the root mean square displacement of all atoms, linear in the values; angles take the shorter way.
-  double distance(std::span<const double> a, std::span<const double> b) const {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < a.size(); ++k) sum += std::pow(weights_[k] * change(k, a, b), 2);
-    return std::sqrt(sum);
-  }
-  /// Distance of the two conformations of between().
+  /// Distance of the two conformations of between(): root mean square displacement of all atoms, linear in the values.
   double straight() const noexcept { return straight_; }
   /// Returns the largest residual at the configuration, angstrom; 0 without closures.
   double residual(std::span<const double> q) {
     if (!equations_) return 0.0;
     equations_->set(q);
     return equations_->worst();
-  }
-  /// Returns the configuration of `to` that the motion from `from` ends at: no angle changes by more than half a turn.
-  std::vector<double> end_of(std::span<const double> from, std::span<const double> to) const {
-    std::vector<double> end(from.begin(), from.end());
-    for (std::size_t k = 0; k < end.size(); ++k) end[k] += change(k, from, to);
-    return end;
   }
   /// True if the straight path is proved free.
   bool is_certified(std::span<const double> from, std::span<const double> to) {
@@ -57,6 +45,18 @@ class ConformationProblem {
   bool is_closed(std::span<const double> q) { return residual(q) <= closed_tolerance; }
 
  private:
+  /// Returns the root mean square displacement of all atoms, linear in the values; angles take the shorter way.
+  double distance(std::span<const double> a, std::span<const double> b) const {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < a.size(); ++k) sum += std::pow(weights_[k] * change(k, a, b), 2);
+    return std::sqrt(sum);
+  }
+  /// Returns the configuration of `to` that the motion from `from` ends at: no angle changes by more than half a turn.
+  std::vector<double> end_of(std::span<const double> from, std::span<const double> to) const {
+    std::vector<double> end(from.begin(), from.end());
+    for (std::size_t k = 0; k < end.size(); ++k) end[k] += change(k, from, to);
+    return end;
+  }
   double largest_distance() const;
   void draw(SampleStream& stream, std::span<double> q);
   void go(std::span<const double> from, std::span<const double> to, double share, std::span<double> q);

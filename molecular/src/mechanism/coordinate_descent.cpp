@@ -24,6 +24,8 @@ constexpr double open_closure_weight = 100.0;  // of squared residuals against t
 // Of the distances against the steric energy, largest first.
 constexpr std::array target_weights{1.0, 1e-1, 1e-2, 1e-3, 1e-4};
 
+}  // namespace
+
 void check_target(const Checker& checker, const TargetCoordinates& target) {
   if (target.atoms.empty()) throw ModelError("the target has no atoms, expected at least one");
   if (target.atoms.size() != target.positions.size())
@@ -40,8 +42,6 @@ void check_target(const Checker& checker, const TargetCoordinates& target) {
                                  number_text(target.positions[k][axis]) + ", expected a finite length");
   }
 }
-
-}  // namespace
 
 CoordinateDescent::CoordinateDescent(Checker& checker, const TargetCoordinates& target,
                                      std::span<const std::size_t> closures, const std::function<bool()>& stop)

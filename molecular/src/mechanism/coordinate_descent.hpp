@@ -19,6 +19,9 @@
 
 namespace hinge::molecular {
 
+/// Throws as the constructor of CoordinateDescent for a bad target.
+void check_target(const Checker& checker, const TargetCoordinates& target);
+
 /// Minimises weight * (sum of squared distances of atoms from their target, after the best superposition) + the steric
 /// energy, if wanted, + squared closure residuals. The distances are those of the atoms, not linear in the values, so
 /// torsions that cancel each other cost nothing.

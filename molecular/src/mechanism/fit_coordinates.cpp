@@ -4,13 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <string>
+#include <cstdint>
+#include <numeric>
+#include <utility>
 
-#include "hinge/core/error.hpp"
-#include "hinge/core/finite.hpp"
-#include "hinge/core/number_text.hpp"
-#include "hinge/molecular/fit_torsions.hpp"
 #include "mechanism/coordinate_descent.hpp"
 
 namespace hinge::molecular {
@@ -101,6 +98,20 @@ std::vector<double> CoordinateFitter::by_torsions() {
 }
 
 }  // namespace
+
+TargetCoordinates all_atoms(std::vector<Vec3> positions) {
+  TargetCoordinates target{std::vector<std::uint32_t>(positions.size()), std::move(positions)};
+  std::iota(target.atoms.begin(), target.atoms.end(), 0U);
+  return target;
+}
+
+Superposition superpose(std::span<const Vec3> positions, const TargetCoordinates& target) {
+  std::vector<Vec3> matched;
+  for (const std::uint32_t atom : target.atoms) matched.push_back(positions[atom]);
+  Superposition found = superpose(matched, target.positions);
+  found.atom = target.atoms[found.atom];
+  return found;
+}
 
 CoordinateFit fit_coordinates(const Checker& checker, const TargetCoordinates& target, const FitOptions& options,
                               const std::function<bool()>& stop) {

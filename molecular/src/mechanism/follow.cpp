@@ -51,7 +51,6 @@ Followed follow(ConformationProblem& problem, CoordinateDescent& descent, std::s
       stiffness *= stiffer;
     }
   }
-  way.arrived = place >= 1.0;
   return way;
 }
 

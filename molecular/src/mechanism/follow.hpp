@@ -15,15 +15,15 @@ namespace hinge::molecular {
 /// The result of follow().
 struct Followed {
   std::vector<std::vector<double>> waypoints;  ///< from the start on; the motion between neighbours is proved free
-  bool arrived = false;                        ///< the last one is near the end's coordinates
   std::uint64_t motions = 0;                   ///< motions that were tested
 };
 
 /// Moves from `from`, which is free, towards coordinates in small steps. The target of a step is a mean of the start's
 /// and the end's coordinates, superposed, weighted by the place on the way. A step goes from the conformation before to
 /// one near its target that is free (CoordinateDescent::make_free). If the motion between the two is not free, the
-/// next step is shorter and stiffer. The way ends where the steps get too short. descent: of the atoms of `to`.
-/// to: one position per atom of the descent, angstrom, in any frame. stop: if it returns true, the way ends.
+/// next step is shorter and stiffer. The way ends where the steps get too short.
+/// descent: of the atoms of `to`. to: one position per atom of the descent, angstrom, in any frame. stop: if it returns
+/// true, the way ends.
 Followed follow(ConformationProblem& problem, CoordinateDescent& descent, std::span<const double> from,
                 const std::vector<Vec3>& to, const std::function<bool()>& stop);
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,6 +13,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge/core/number_text.hpp"
 #include "hinge_planning/find_motion.hpp"
+#include "mechanism/clash_descent.hpp"
 #include "mechanism/conformation_problem.hpp"
 #include "mechanism/coordinate_descent.hpp"
 #include "mechanism/follow.hpp"
@@ -24,23 +24,7 @@ namespace {
 
 constexpr double range_share = 0.1;         // of the straight distance: the longest motion that is added to a tree
 constexpr std::uint64_t few_motions = 100;  // of RRT-Connect before coordinates are followed
-constexpr double exact_rmsd = 0.002;        // angstrom: what the rounding of files changes
 constexpr double near_rmsd = 1.0;           // angstrom
-
-void check_end(const Checker& checker, ConformationProblem& problem, std::span<const double> q, const char* which) {
-  Checker fresh = checker;
-  const Verdict verdict = fresh.check(q, Mode{});
-  if (verdict.collides) {
-    const Structure& s = checker.molecule().structure();
-    const Hit hit = fresh.check(q, Mode{Mode::Kind::all}).pairs.front().hit;
-    throw ConfigurationError(std::string("the ") + which +
-                             " of the motion collides: " + label(s, static_cast<std::uint32_t>(index(hit.first))) +
-                             " and " + label(s, static_cast<std::uint32_t>(index(hit.second))));
-  }
-  if (!problem.is_closed(q))
-    throw ConfigurationError(std::string("the ") + which + " of the motion: a closure is open by " +
-                             number_text(problem.residual(q)) + " angstrom, expected at most 1e-6");
-}
 
 class Planner {
  public:
@@ -52,11 +36,11 @@ class Planner {
           return stopped_;
         }),
         problem_(checker, options.closures),
-        all_(checker_, everywhere(checker), options.closures, stop_) {}
+        all_(checker_, all_atoms(checker.molecule().structure().models.front()), options.closures, stop_) {}
 
   PlannedMotion run(const MotionEnd& from, const MotionEnd& to) {
     if (!is_replaceable(to) && is_replaceable(from)) {
-      check_end(checker_, problem_, to.q, "end");
+      check_end(to.q, "end");
       PlannedMotion back = one_way(to, from);
       if (back.reached) {
         std::ranges::reverse(back.waypoints);
@@ -64,23 +48,16 @@ class Planner {
         return back;
       }
     }
-    check_end(checker_, problem_, from.q, "start");
-    if (!is_replaceable(to)) check_end(checker_, problem_, to.q, "end");
+    check_end(from.q, "start");
+    if (!is_replaceable(to)) check_end(to.q, "end");
     return one_way(from, to);
   }
 
  private:
-  /// All atoms at the reference.
-  static TargetCoordinates everywhere(const Checker& checker) {
-    const Structure& s = checker.molecule().structure();
-    TargetCoordinates all{std::vector<std::uint32_t>(s.atoms.size()), s.models.front()};
-    std::iota(all.atoms.begin(), all.atoms.end(), 0U);
-    return all;
-  }
-  bool is_replaceable(const MotionEnd& end) { return target_rmsd(end, end.q) > exact_rmsd; }
+  void check_end(std::span<const double> q, const char* which);
+  bool is_replaceable(const MotionEnd& end) { return target_rmsd(end, end.q) > file_rounding; }
   double target_rmsd(const MotionEnd& end, std::span<const double> q) {
-    if (end.target.atoms.empty()) return 0.0;
-    return CoordinateDescent(checker_, end.target, options_.closures, stop_).rmsd(q);
+    return end.target.atoms.empty() ? 0.0 : superpose(all_.place(q), end.target).rmsd;
   }
   double distance(std::span<const double> a, std::span<const double> b) {
     all_.aim(all_.place(a));
@@ -94,8 +71,21 @@ class Planner {
   bool stopped_ = false;
   const std::function<bool()> stop_;
   ConformationProblem problem_;
-  CoordinateDescent all_;
+  CoordinateDescent all_;  // with a target of all atoms
 };
+
+void Planner::check_end(std::span<const double> q, const char* which) {
+  if (checker_.check(q, Mode{}).collides) {
+    const Structure& s = checker_.molecule().structure();
+    const Hit hit = checker_.check(q, Mode{Mode::Kind::all}).pairs.front().hit;
+    throw ConfigurationError(std::string("the ") + which +
+                             " of the motion collides: " + label(s, static_cast<std::uint32_t>(index(hit.first))) +
+                             " and " + label(s, static_cast<std::uint32_t>(index(hit.second))));
+  }
+  if (!problem_.is_closed(q))
+    throw ConfigurationError(std::string("the ") + which + " of the motion: a closure is open by " +
+                             number_text(problem_.residual(q)) + " angstrom, expected at most 1e-6");
+}
 
 PlannedMotion Planner::one_way(const MotionEnd& from, const MotionEnd& to) {
   const bool replaceable = is_replaceable(to);
@@ -153,7 +143,10 @@ PlannedMotion plan(const Checker& checker, const MotionEnd& from, const MotionEn
                    const std::function<bool()>& stop) {
   if (checker.dof_count() == 0) throw ModelError("nothing is free, expected at least one torsion or placed part");
   if (options.most_motions == 0) throw ModelError("0 motions to test, expected at least one");
-  for (const MotionEnd* end : {&from, &to}) Checker(checker).check(end->q, Mode{});  // throws for bad values
+  for (const MotionEnd* end : {&from, &to}) {
+    Checker(checker).check(end->q, Mode{});  // throws for bad values
+    if (!end->target.atoms.empty()) check_target(checker, end->target);
+  }
   return Planner(checker, options, stop).run(from, to);
 }
 

@@ -305,25 +305,25 @@ class Checker(_core.CheckerBase):
     def plan(self, start, end, *, tries=100_000, seed=1, seconds=None):
         """Find a motion between two conformations on which no pair collides, as `biocd plan` does.
 
-        start, end: shape (dof,), rad and angstrom; None: the reference; or a CoordinateFit. Configurations have to be
-        free, with the cycles closed that the checker keeps. A CoordinateFit that is farther than 0.002 angstrom from its
-        coordinates may be replaced by another conformation, which is at most 1 angstrom or its own distance from them:
-        look at `start_rmsd` and `end_rmsd` of the result. If both ends are such, only the end is replaced.
+        start, end: shape (dof,), rad and angstrom; None: the reference; or a CoordinateFit. Both have to be free, and
+        cycles that the checker keeps are closed at them. But if a CoordinateFit is more than 0.002 angstrom from its
+        coordinates, the motion may have another conformation there, within 1 angstrom of them or as near as the fit:
+        look at `start_rmsd` and `end_rmsd`. Only one is replaced: `end` if it is such a fit, otherwise `start`.
         tries: largest number of motions to test before one is found. seed: of the random conformations. seconds: the
         search ends after this time. Returns a Motion; look at `reached`.
         No motion is no proof that there is none. Torsions may reach the end with whole turns more or less.
         Raises ConfigurationError, with the pair, if an end collides.
         """
 
-        def tuple_of(end):
-            if isinstance(end, CoordinateFit):
-                return end.q, end.x, end.atoms
-            return (np.zeros(self.dof) if end is None else end,)
+        def parts_of(given):
+            if isinstance(given, CoordinateFit):
+                return given.q, given.x, given.atoms
+            return (np.zeros(self.dof) if given is None else given,)
 
         return Motion(
             *self._plan(
-                tuple_of(start),
-                tuple_of(end),
+                parts_of(start),
+                parts_of(end),
                 _integer("tries", tries, 1),
                 _integer("seed", seed, 0),
                 seconds_of(seconds),
@@ -336,9 +336,9 @@ class Checker(_core.CheckerBase):
         x: shape (n, 3), angstrom, in any frame; or a Molecule, whose atoms match by chain, residue and atom name.
         atoms: indices or booleans of the n atoms; None: all. collision_free: move the result until no pair collides, as
         little as possible; look at `collisions`. seconds: the search ends after this time.
-        The mean squared distance after superposition is minimised over the free torsions, from two starts. Bond lengths,
-        angles and other torsions stay as in the reference, so the atoms come as near as these allow: look at `rmsd`.
-        Cycles that the checker keeps are closed at the result. Returns a CoordinateFit.
+        The mean squared distance after superposition is minimised over the free torsions, from two starts. Bond
+        lengths, angles and other torsions stay as in the reference, so the atoms come as near as these allow: look at
+        `rmsd`. Cycles that the checker keeps are closed at the result. Returns a CoordinateFit.
         fit() reads the torsions of frames of the same molecule instead.
         """
         if isinstance(x, Molecule):

@@ -11,6 +11,7 @@
 #include "hinge/core/api.hpp"
 #include "hinge/core/vec3.hpp"
 #include "hinge/molecular/checker.hpp"
+#include "hinge/molecular/fit_torsions.hpp"
 #include "hinge/molecular/structure.hpp"
 
 namespace hinge::molecular {
@@ -20,6 +21,14 @@ struct TargetCoordinates {
   std::vector<std::uint32_t> atoms;  ///< indices in Structure::atoms, each once
   std::vector<Vec3> positions;       ///< one per entry of `atoms`, angstrom, in any frame
 };
+
+/// Returns a target of all atoms; positions: one per atom, angstrom.
+HINGE_API TargetCoordinates all_atoms(std::vector<Vec3> positions);
+
+/// Returns the distances from the target after superposition (superpose() of two lists), angstrom; `atom` is an index
+/// in Structure::atoms. positions: one per atom of the structure, angstrom. The target has at least one atom, and all
+/// of its atoms are in the structure.
+HINGE_API Superposition superpose(std::span<const Vec3> positions, const TargetCoordinates& target);
 
 /// Options of fit_coordinates().
 struct FitOptions {

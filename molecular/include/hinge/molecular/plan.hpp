@@ -32,7 +32,7 @@ struct PlannedMotion {
   /// next is proved free (PathChecker::certify). The last one is the end if it was reached, otherwise the nearest to it
   /// that was found.
   std::vector<std::vector<double>> waypoints;
-  bool reached = false;       ///< the last waypoint is the end, or is near the coordinates of the end
+  bool reached = false;       ///< the last waypoint is the end or its replacement
   double length = 0.0;        ///< of the motion, angstrom: sum of the distances between neighbours
   double straight = 0.0;      ///< distance between the conformations of the ends, angstrom
   double remaining = 0.0;     ///< distance from the last waypoint to the end, angstrom; 0 if reached
@@ -53,10 +53,9 @@ struct PlannedMotion {
 /// 3. RRT-Connect from where these steps ended.
 /// The motion is shortened. Angles have no end: a motion may reach the end with whole turns more or less than it has.
 ///
-/// An end with a target that its q does not meet within 0.002 angstrom may be replaced by another conformation, which
-/// is at most as far from the target as q or 1 angstrom, whichever is larger. One end of a motion is replaced at most:
-/// the last one if it has such a target, else the first one. An end that can be replaced at the last waypoint may
-/// collide.
+/// If q of an end is more than 0.002 angstrom from its target, the motion may have another conformation there. That one
+/// is within 1 angstrom of the target, or as near as q. Only one end is replaced: `to` if it has such a target,
+/// otherwise `from`. This end may collide at q.
 ///
 /// Distances are root mean square displacements of all atoms (of a target: of its atoms) after superposition. With
 /// closures, a motion goes in steps of at most 0.05 rad or angstrom per value, and ClosureSolver closes each of them;
