@@ -21,7 +21,7 @@ constexpr int evaluations_of_a_step = 60;
 }  // namespace
 
 Followed follow(ConformationProblem& problem, CoordinateDescent& descent, std::span<const double> from,
-                const std::vector<Vec3>& to, const std::function<bool()>& stop) {
+                const std::vector<Vec3>& to, std::uint64_t most_motions, const std::function<bool()>& stop) {
   const std::vector<Vec3> start(descent.place(from));
   const Vec3 here = centre(start), there = centre(to);
   const Mat3 rotation = closest_rotation(to, there, start, here);
@@ -35,7 +35,7 @@ Followed follow(ConformationProblem& problem, CoordinateDescent& descent, std::s
   Followed way;
   way.waypoints.assign(1, {from.begin(), from.end()});
   double place = 0.0, step = first_step, stiffness = least_stiffness;
-  while (place < 1.0 && step > smallest_step && !(stop && stop())) {
+  while (place < 1.0 && step > smallest_step && way.motions < most_motions && !(stop && stop())) {
     const double next = std::min(1.0, place + step);
     descent.aim(target(next));
     std::vector<double> q = way.waypoints.back();

@@ -96,12 +96,12 @@ PlannedMotion Planner::one_way(const MotionEnd& from, const MotionEnd& to) {
     return planning::connect(described, start, to.q, {range, most, options_.seed, stop_});
   };
   planning::FoundMotion found{.waypoints = {from.q}};
-  if (end_is_free) found = connect(from.q, std::min(few_motions, options_.most_motions));
-  if (!found.reached) {
+  if (end_is_free) found = connect(from.q, std::min(few_motions, options_.most_motions / 2));
+  if (!found.reached && !stopped_ && found.motions < options_.most_motions) {
     std::optional<CoordinateDescent> some;
     if (!to.target.atoms.empty()) some.emplace(checker_, to.target, options_.closures, stop_);
     const std::vector<Vec3> target = some ? to.target.positions : all_.place(to.q);
-    Followed way = follow(problem_, some ? *some : all_, from.q, target, stop_);
+    Followed way = follow(problem_, some ? *some : all_, from.q, target, options_.most_motions - found.motions, stop_);
     found.waypoints = std::move(way.waypoints);
     found.motions += way.motions;
     found.reached =
