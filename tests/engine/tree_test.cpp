@@ -212,7 +212,7 @@ TEST(TreeQueries, EqualBruteForceWithoutThresholds) {
 /// them.
 TEST(TreeQueries, EqualBruteForceWhereLinksOfAGroupAreTestedWithOthers) {
   int collides = 0, apart = 0, merged = 0;
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
     const std::size_t count = 6 + random.below(34);
