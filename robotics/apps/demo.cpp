@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// robocd demo: times and verifies random configurations, proves or refutes a motion, and draws its first collision.
+// robocd demo: times and verifies random configurations, proves or refutes a motion, and draws a collision.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -58,7 +58,7 @@ void draw_robot(Picture& picture, RobotChecker checker, const std::vector<double
 std::string title(const Robot& robot, PathVerdict verdict) {
   switch (verdict) {
     case PathVerdict::free: return robot.name() + ": the motion is free (start: light)";
-    case PathVerdict::colliding: return robot.name() + ": first collision of the motion (red; start: light)";
+    case PathVerdict::colliding: return robot.name() + ": a collision of the motion (red; start: light)";
     case PathVerdict::undecided: break;
   }
   return robot.name() + ": the motion is undecided";
