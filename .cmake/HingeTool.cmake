@@ -25,20 +25,23 @@ function(hinge_add_tool tool library)
                    "libtbb-dev)")
     return()
   endif()
+  if(NOT TARGET hinge_report)
+    add_subdirectory(${PROJECT_SOURCE_DIR}/report ${PROJECT_BINARY_DIR}/report)
+  endif()
   file(GLOB sources CONFIGURE_DEPENDS apps/*.cpp)
   # The tool starts a program for another instruction set only if both were built from the same sources.
   file(RELATIVE_PATH programs_from_bin /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBEXECDIR}/hinge)
   set(build_id ${CMAKE_CURRENT_BINARY_DIR}/build_id.cpp)
   set(write_build_id ${PROJECT_SOURCE_DIR}/.cmake/write_build_id.cmake)
   file(GLOB_RECURSE hashed CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/*.hpp include/*.hpp src/*.[hc]pp
-       apps/*.[hc]pp)
+       apps/*.[hc]pp ${PROJECT_SOURCE_DIR}/report/dist/*.html)
   add_custom_command(OUTPUT ${build_id} DEPENDS ${hashed} ${write_build_id} VERBATIM
                      COMMAND ${CMAKE_COMMAND} -DOUT=${build_id} -DTOOL=${tool} -DVERSION=${PROJECT_VERSION}
                              -DROOT=${PROJECT_SOURCE_DIR} -DFOLDER=${CMAKE_CURRENT_SOURCE_DIR}
                              -DPROGRAMS=${programs_from_bin} -P ${write_build_id})
   set_source_files_properties(${build_id} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   list(APPEND sources ${build_id})
-  set(libraries hinge_ensemble hinge_own CLI11::CLI11 nlohmann_json::nlohmann_json fmt::fmt)
+  set(libraries hinge_ensemble hinge_own hinge_report CLI11::CLI11 nlohmann_json::nlohmann_json fmt::fmt)
   add_executable(${tool} ${sources})
   target_link_libraries(${tool} PRIVATE ${library} ${libraries})
   set(programs ${tool})

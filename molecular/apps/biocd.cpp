@@ -19,6 +19,7 @@
 #include "hinge_tools/number_option.hpp"
 #include "hinge_tools/parse_command_line.hpp"
 #include "hinge_tools/pick_instruction_set.hpp"
+#include "hinge_tools/report_page.hpp"
 #include "hinge_tools/run_tool.hpp"
 #include "options.hpp"
 #include "report.hpp"
@@ -51,6 +52,7 @@ std::vector<std::string> with_hetero_words(int argc, char** argv) {
 Exit run(int argc, char** argv) {
   Options o;
   o.read.dictionary = hinge::molecular::installed_dictionary();
+  o.command_line = hinge::tool::command_text("biocd", argc, argv);
   std::function<Exit(const Options&)> command;
   const hinge::tool::HelpTexts texts = biocd::help_texts();
   CLI::App app{"collisions of proteins and other molecules as articulated mechanisms", "biocd"};
@@ -134,6 +136,7 @@ Exit run(int argc, char** argv) {
   biocd::add_out_option(*walk, o);
   add_number(*walk, "--every", o.every, counts, "number of steps between two written conformations");
   biocd::add_view_option(*walk, o);
+  biocd::add_report_option(*walk, o);
   biocd::add_explain_option(*walk, o);
   hinge::tool::add_exit_zero(*walk, o.exit_zero);
   walk->option_defaults()->group(title::moves);
@@ -156,6 +159,7 @@ Exit run(int argc, char** argv) {
   biocd::add_output_options(*relax, o);
   biocd::add_out_option(*relax, o);
   biocd::add_view_option(*relax, o);
+  biocd::add_report_option(*relax, o);
   biocd::add_explain_option(*relax, o);
   hinge::tool::add_exit_zero(*relax, o.exit_zero);
   relax->option_defaults()->group(title::moves);
@@ -194,6 +198,7 @@ Exit run(int argc, char** argv) {
              "largest turn of a torsion between two written conformations (placed parts: a tenth of it in angstrom)")
       ->type_name("DEGREES");
   biocd::add_view_option(*plan, o);
+  biocd::add_report_option(*plan, o);
   biocd::add_explain_option(*plan, o);
   hinge::tool::add_exit_zero(*plan, o.exit_zero);
   plan->option_defaults()->group(title::moves);

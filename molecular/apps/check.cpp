@@ -21,6 +21,7 @@
 #include "hinge_tools/counted.hpp"
 #include "hinge_tools/max_pairs_option.hpp"
 #include "hinge_tools/progress_bar.hpp"
+#include "molecule_page.hpp"
 #include "options.hpp"
 #include "pair_table.hpp"
 #include "pair_text.hpp"
@@ -108,17 +109,24 @@ Checked check_alone(const Options& options, int model, const Mode& mode, const s
   return checked;
 }
 
-/// Returns true if every model has the atoms of the first. Needed if one file is to hold all models.
-bool have_same_atoms(const Options& options, const Structure& s) {
-  const std::vector<std::string> none;
-  const Frames frames(none, options.file, s, options.read);
-  try {
-    for (std::size_t k = 0; k < frames.size(); ++k) frames.file(k).frame(frames.place(k).frame);
-  } catch (const OtherAtoms&) {
-    return false;
-  } catch (const hinge::LoadError&) {  // reported when this frame is checked
+/// Writes the page of --report. mode: the pairs to list; others: models that were checked with atoms of their own.
+void write_page(MoleculePage& page, const Job& job, const Frames& frames, const Mode& mode, std::size_t others,
+                const Summary& summary) {
+  if (!page.wanted()) return;
+  Checker checker = job.checker;
+  for (const std::uint64_t k : page.chosen()) {
+    std::vector<hinge::Vec3> own = frames.file(k).kept(frames.file(k).frame(frames.place(k).frame));
+    Verdict verdict = checker.check_coordinates(own, lists_pairs(mode) ? mode : Mode{Mode::Kind::all});
+    page.add({k, frames.name(k), verdict.collides, std::move(own), std::move(verdict.pairs)});
   }
-  return true;
+  const char* word = frames.are_models() ? "model" : "frame";
+  page.words().frame_word = {word, std::string(word) + "s"};
+  page.words().numbers_from = static_cast<unsigned>(std::max(0, frames.number(0)));
+  if (others > 0)
+    page.words().notes.push_back(counted(others, "model has", "models have") +
+                                 " other atoms than the first model and is not shown");
+  page.write(summary.colliding() > 0 ? "collides" : "free",
+             hinge::tool::collide_text(summary.colliding(), summary.checked(), word));
 }
 
 }  // namespace
@@ -162,6 +170,7 @@ Exit run_check(const Options& options) {
   std::string worst_name;
   bool headed = true;  // the next list of pairs starts with the names of its columns
   ViewChoice choice;
+  MoleculePage page(options, job, false, lists_pairs(mode));
   std::optional<ClashTable> clashes;
   if (options.by) clashes.emplace(*options.by);
   std::uint64_t left_out = 0;  // pairs that are not printed
@@ -235,7 +244,10 @@ Exit run_check(const Options& options) {
       worst = checked.bond;
       worst_name = frames.name(k);
     }
-    if (!checked.own) choice.offer(k, checked.verdict);
+    if (!checked.own) {
+      choice.offer(k, checked.verdict);
+      page.offer(k, checked.verdict);
+    }
     file.add(checked.positions, static_cast<int>(k) + 1, checked.verdict.collides);
     bar.show(n + 1);
   };
@@ -281,6 +293,7 @@ Exit run_check(const Options& options) {
     write_view(options, job, {frames.name(k), own, checker.check_coordinates(own, Mode{Mode::Kind::all}).pairs},
                same_atoms && file.size() > 0);
   }
+  write_page(page, job, frames, mode, others, summary);
   return summary.colliding() > 0 ? Exit::collision : Exit::free;
 }
 

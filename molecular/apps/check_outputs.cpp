@@ -54,6 +54,11 @@ void check_outputs(const Options& options, bool is_folder) {
       if (is_inside(file, options.read.dictionary))
         throw hinge::ModelError("--view: " + file.string() + " is in the monomer dictionary, expected another --out");
     }
+  if (!options.report.empty()) {
+    if (std::filesystem::path(options.report).extension() != ".html")
+      throw hinge::ModelError("--report " + options.report + ": expected a file name with .html");
+    hinge::tool::check_output("--report", options.report, input_files(options));
+  }
   const std::filesystem::path out = options.out;
   if (out.empty()) return;
   if (!is_folder) {

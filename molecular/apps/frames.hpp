@@ -13,6 +13,7 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/trajectory.hpp"
+#include "options.hpp"
 #include "report.hpp"
 
 namespace biocd {
@@ -108,5 +109,18 @@ class Frames {
   std::vector<std::size_t> starts_;
   std::size_t size_ = 0;
 };
+
+/// Returns true if every model has the atoms of the first. Needed if one file is to hold all models.
+inline bool have_same_atoms(const Options& options, const hinge::molecular::Structure& s) {
+  const std::vector<std::string> none;
+  const Frames frames(none, options.file, s, options.read);
+  try {
+    for (std::size_t k = 0; k < frames.size(); ++k) frames.file(k).frame(frames.place(k).frame);
+  } catch (const hinge::molecular::OtherAtoms&) {
+    return false;
+  } catch (const hinge::LoadError&) {  // reported when this frame is checked
+  }
+  return true;
+}
 
 }  // namespace biocd

@@ -78,6 +78,8 @@ struct Options {
   std::optional<double> sigma_degrees;          ///< sample: standard deviation of a torsion; nothing: full range
   unsigned threads = 1;                         ///< check, sample: worker threads
   std::string out;                              ///< file of conformations; demo: folder
+  std::string report;                           ///< HTML page to write (all but info, merge, demo); empty: none
+  std::string command_line;                     ///< as typed, for the page
   bool torsions = false;                        ///< sample: rows contain the torsions
   std::string torsions_out;                     ///< sample: .npy file of the torsions
   bool only_free = false;                       ///< check, sample: `out` gets only conformations that do not collide
@@ -120,8 +122,8 @@ void require_free_torsions(const Options& options, const Job& job);
 inline constexpr const char* demo_files[] = {"speed.svg", "tail.svg",  "worst.pdb",
                                              "worst.cif", "worst.cxc", "worst.pml"};
 
-/// Throws ModelError if --out, --torsions-out or --view has another format than expected, or would overwrite an input,
-/// a directory or the file of the results. is_folder: --out names demo's folder.
+/// Throws ModelError if --out, --torsions-out, --view or --report has another format than expected, or would overwrite
+/// an input, a directory, the file of the results or each other. is_folder: --out names demo's folder.
 void check_outputs(const Options& options, bool is_folder);
 
 /// Each of these runs one command and returns its exit status. Throw LoadError for bad input, ModelError for bad

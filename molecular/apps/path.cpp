@@ -17,6 +17,7 @@
 #include "hinge/path/path_answer.hpp"
 #include "hinge_tools/counted.hpp"
 #include "hinge_tools/json_text.hpp"
+#include "molecule_page.hpp"
 #include "options.hpp"
 #include "pair_table.hpp"
 #include "path_end.hpp"
@@ -123,6 +124,38 @@ void note_open_closures(const Job& job, const Asked& asked) {
                closure_names(job)[static_cast<std::size_t>(most - worst.begin())].c_str(), *most);
 }
 
+/// Writes the page of --report: states of the path, and the state where it collides or is undecided.
+void write_page(MoleculePage& page, const Options& options, const Job& job, const Asked& asked) {
+  if (!page.wanted()) return;
+  constexpr std::size_t steps = 60;
+  std::vector<double> shown;
+  for (std::size_t k = 0; k <= steps; ++k) shown.push_back(static_cast<double>(k) / double{steps});
+  if (!asked.answer.is_free())
+    shown.insert(std::ranges::lower_bound(shown, asked.answer.parameter), asked.answer.parameter);
+  Checker checker = job.checker;
+  for (std::size_t k = 0; k < shown.size(); ++k) {
+    const double t = shown[k];
+    std::vector<double> q = asked.answer.configuration;
+    if (asked.answer.is_free() || t != asked.answer.parameter) {
+      q = asked.from.turns;
+      for (std::size_t j = 0; j < q.size(); ++j) q[j] += t * (asked.to.turns[j] - asked.from.turns[j]);
+    }
+    Verdict verdict = checker.check(q, Mode{Mode::Kind::all});
+    page.add_next({k, fmt::format("t = {:.4g}", t), verdict.collides, checker.positions(), std::move(verdict.pairs)});
+  }
+  switch (asked.answer.verdict) {
+    case PathVerdict::free:
+      return page.write("free", options.sampled_degrees ? "every tested state of the path is free"
+                                                        : "the path is free, proved for every state");
+    case PathVerdict::colliding:
+      return page.write("collides",
+                        fmt::format("the path collides, for example at t = {:.4g}", asked.answer.parameter));
+    case PathVerdict::undecided: break;
+  }
+  page.write("undecided", fmt::format("nothing is proved within {:.2g} of t = {:.8g}", asked.answer.half_width,
+                                      asked.answer.parameter));
+}
+
 }  // namespace
 
 Exit run_path(const Options& options) {
@@ -134,6 +167,7 @@ Exit run_path(const Options& options) {
     explain(options, job);
     return Exit::free;
   }
+  MoleculePage page(options, job, true);
   Asked asked{
       read_path_end("--from", options.from, options, job), read_path_end("--to", options.to, options, job), {}, {}};
   take_shorter_way(job, asked.from, asked.to);
@@ -166,6 +200,7 @@ Exit run_path(const Options& options) {
                 checker.positions(), std::move(pairs)},
                false);
   }
+  write_page(page, options, job, asked);
   switch (asked.answer.verdict) {
     case PathVerdict::free: return Exit::free;
     case PathVerdict::colliding: return Exit::collision;

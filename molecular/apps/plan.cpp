@@ -20,6 +20,7 @@
 #include "hinge/molecular/path_checker.hpp"
 #include "hinge_tools/counted.hpp"
 #include "hinge_tools/json_text.hpp"
+#include "molecule_page.hpp"
 #include "options.hpp"
 #include "pair_table.hpp"
 #include "path_end.hpp"
@@ -142,6 +143,27 @@ void print_plan(const Options& options, const Job& job, const PathEnd& from, con
   if (frames > 0) fmt::print("{} written to {}\n", counted(frames, "conformation"), options.out);
 }
 
+/// Writes the page of --report.
+void write_page(MoleculePage& page, const Options& options, const Job& job, const PlannedMotion& planned) {
+  if (!page.wanted()) return;
+  constexpr std::size_t most_shown = 200;
+  std::vector<std::vector<double>> frames;
+  for_frames(options, job, planned.waypoints, [&](const std::vector<double>& q) { frames.push_back(q); });
+  const std::size_t shown = std::min(frames.size(), most_shown);
+  Checker checker = job.checker;
+  for (std::size_t n = 0; n < shown; ++n) {
+    const std::size_t k = shown == 1 ? 0 : n * (frames.size() - 1) / (shown - 1);
+    Verdict verdict = checker.check(frames[k], Mode{Mode::Kind::all});
+    page.add_next({k, fmt::format("conformation {} of {}", k + 1, frames.size()), verdict.collides, checker.positions(),
+                   std::move(verdict.pairs)});
+  }
+  page.write(planned.reached ? "free" : "undecided",
+             planned.reached ? fmt::format("a motion was found, {:.3f} angstrom long, proved free", planned.length)
+                             : fmt::format("no motion was found; the nearest conformation is {:.3f} angstrom from the "
+                                           "end",
+                                           planned.remaining));
+}
+
 }  // namespace
 
 Exit run_plan(const Options& options) {
@@ -155,6 +177,7 @@ Exit run_plan(const Options& options) {
   require_free_torsions(options, job);
   const Structure& s = job.molecule->structure();
   ConformationFile file(options, s, s.atoms.size(), false);
+  MoleculePage page(options, job, true);
   const auto start = std::chrono::steady_clock::now();
   const OutOfTime out_of_time = [&] {
     return options.seconds &&
@@ -204,6 +227,7 @@ Exit run_plan(const Options& options) {
         {planned.reached ? "the end of the motion" : "the nearest conformation to the end", checker.positions(), {}},
         file.size() > 0);
   }
+  write_page(page, options, job, planned);
   return planned.reached ? Exit::free : Exit::shortfall;
 }
 

@@ -18,6 +18,7 @@
 #include "hinge/molecular/severity.hpp"
 #include "hinge_tools/counted.hpp"
 #include "hinge_tools/json_text.hpp"
+#include "molecule_page.hpp"
 #include "options.hpp"
 #include "pair_table.hpp"
 #include "report.hpp"
@@ -119,6 +120,7 @@ Exit run_relax(const Options& options) {
   require_free_torsions(options, job);
   const Structure& s = job.molecule->structure();
   ConformationFile file(options, s, s.atoms.size(), false);
+  MoleculePage page(options, job, true);
   if (options.output == Output::table) fmt::print("{}", heading(options, job));
 
   if (const std::size_t left = job.checker.reference_collisions().size(); options.check.exempt_reference && left > 0)
@@ -182,6 +184,11 @@ Exit run_relax(const Options& options) {
   }
   if (options.view)
     write_view(options, job, {"the relaxed conformation", after.positions, after.pairs}, file.size() > 0);
+  page.add_next({0, "before", !before.pairs.empty(), before.positions, before.pairs});
+  page.add_next({1, "after", !after.pairs.empty(), after.positions, after.pairs});
+  page.write(after.pairs.empty() && constant == 0 ? "free" : "collides",
+             fmt::format("{} before, {} after", counted(before.pairs.size(), "clash", "clashes"),
+                         counted(after.pairs.size(), "clash", "clashes")));
   return after.pairs.empty() && constant == 0 ? Exit::free : Exit::collision;
 }
 

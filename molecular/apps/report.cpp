@@ -36,20 +36,14 @@ Severity severity(const Job& job, const Contact& pair) {
   return severity_of(job.checker.thresholds(), pair.hit, pair.collides);
 }
 
-/// Returns "d < 0.8 * (bondi v1 radii), pairs at least 4 bonds apart, ...", or the same with the name of the rules.
-std::string rule_line(const Checker& checker) {
-  const auto& t = checker.thresholds();
-  const auto bonds = checker.min_bonds();
-  std::string text =
-      t.rho ? fmt::format("d < {} * ({} v{} radii)", *t.rho, t.radii, t.radii_version)
-            : fmt::format("{} v{} ({} v{} radii)", t.rules->name, t.rules->version, t.radii, t.radii_version);
-  text += fmt::format(", pairs at least {} apart", counted(static_cast<std::uint64_t>(bonds.heavy), "bond"));
-  if (bonds.hydrogen != bonds.heavy) text += fmt::format(" ({} with a hydrogen)", bonds.hydrogen);
-  if (!t.rules->inside_residues) text += ", not inside residues";
-  return text + fmt::format(", hydrogen-bond rule {}", t.hydrogen_bonds ? "on" : "off");
+Json free_words_json(const Job& job) {
+  Json list = Json::array();
+  for (const auto& word : job.selected.words) list.push_back({{"word", word.text}, {"torsions", word.count}});
+  return list;
 }
 
-/// Returns the notes of loader, builder and selection.
+}  // namespace
+
 std::vector<std::string> all_notes(const Job& job) {
   std::vector<std::string> notes = job.molecule->structure().notes;
   notes.insert(notes.end(), job.molecule->notes().begin(), job.molecule->notes().end());
@@ -57,28 +51,11 @@ std::vector<std::string> all_notes(const Job& job) {
   return notes;
 }
 
-/// Returns the number of reference collisions that are exempt: all others are admitted.
 std::size_t exempted_pairs(const Job& job) {
   return static_cast<std::size_t>(std::ranges::count_if(job.checker.reference_collisions(), [&](const hinge::Hit& hit) {
     return !job.checker.exclusions().admits(hit.first, hit.second);
   }));
 }
-
-Json free_words_json(const Job& job) {
-  Json list = Json::array();
-  for (const auto& word : job.selected.words) list.push_back({{"word", word.text}, {"torsions", word.count}});
-  return list;
-}
-
-/// Returns how many torsions each word of --free selects; empty if there is only one word.
-std::string free_words_line(const Job& job) {
-  if (job.selected.words.size() < 2) return "";
-  std::string text = "selected by word:";
-  for (const auto& word : job.selected.words) text += fmt::format(" [{}] {}", word.text, word.count);
-  return text + "\n";
-}
-
-}  // namespace
 
 bool has_classes(std::string_view rules) {
   return rules == "molprobity" || rules == "chimerax" || rules == "posebusters";
@@ -222,51 +199,6 @@ std::string with_columns(const std::string& rows, const std::string& columns) {
     text += c;
   }
   return text;
-}
-
-std::string heading(const Options& options, const Job& job) {
-  const Structure& s = job.molecule->structure();
-  const Checker& checker = job.checker;
-  std::string exempt;
-  if (options.check.exempt_reference) {
-    exempt = ", reference collisions exempt";
-    if (const std::size_t rest = checker.reference_collisions().size() - exempted_pairs(job); rest > 0)
-      exempt += fmt::format(" except {} between molecules (--exempt-interfaces)", rest);
-  }
-  std::string text = fmt::format("{}: {}, {}, {}, {}\n", options.file, counted(s.atoms.size(), "atom"),
-                                 counted(s.residues.size(), "residue"), counted(s.chains.size(), "chain"),
-                                 counted(s.bonds.size(), "bond"));
-  text += fmt::format("selection {}{}{}: {} DOF, {}, {}\nrule: {}{}\n", options.free,
-                      options.omega ? " with omega" : "", options.loop.empty() ? "" : " and loop " + options.loop,
-                      checker.dof_count(), counted(checker.rigid_groups().size(), "rigid group"),
-                      counted(job.molecule->model().tree().closures().size(), "closure"), rule_line(checker), exempt);
-  text += left_out_line(s) + free_words_line(job) + scene_lines(options, job);
-  text +=
-      fmt::format("reference: {}; constant contacts under this selection: {}\n",
-                  counted(checker.reference_collisions().size(), "colliding pair"), checker.constant_contacts().size());
-  text += pair_table(options, job, contacts(checker.constant_contacts()), true, "  (constant)");
-  return text;
-}
-
-std::string left_out_line(const Structure& s) {
-  std::string what, options;
-  constexpr std::size_t most_names = 6;
-  std::size_t names = 0;
-  for (const auto& [name, count] : s.hetero_residues_dropped) {
-    if (++names > most_names) continue;
-    what += fmt::format("{}{} x{}", what.empty() ? "" : ", ", name, count);
-  }
-  if (names > most_names) what += fmt::format(" and {}", counted(names - most_names, "more name"));
-  if (s.waters_dropped > 0) what += (what.empty() ? "" : ", ") + counted(s.waters_dropped, "water");
-  if (what.empty()) return {};
-  if (names > 0) options = "--hetero keeps ligands and ions";
-  if (s.waters_dropped > 0) options += names > 0 ? ", --hetero waters also keeps waters" : "--hetero waters keeps them";
-  return fmt::format("left out: {} ({})\n", what, options);
-}
-
-void print_left_out(const Options& options, const Job& job) {
-  const std::string line = left_out_line(job.molecule->structure());
-  if (options.output == Output::csv && !line.empty()) std::fprintf(stderr, "note: %s", line.c_str());
 }
 
 void print_constant_contacts(const Job& job) {

@@ -2,10 +2,12 @@
 // Shared parts of the outputs of all commands. The JSON keys are a contract: docs/reference/biocd.md.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "hinge/molecular/checker.hpp"
@@ -64,6 +66,15 @@ std::string csv_rows(const Job& job, std::uint64_t index, const hinge::molecular
 
 /// Returns the rows with `columns` appended to each; every column starts with a comma.
 std::string with_columns(const std::string& rows, const std::string& columns);
+
+/// Returns the question in words, as names and values: what is free, the rules, what was left out.
+std::vector<std::pair<std::string, std::string>> question_words(const Options& options, const Job& job);
+
+/// Returns the number of reference collisions that are exempt: all others are admitted.
+std::size_t exempted_pairs(const Job& job);
+
+/// Returns the notes of loader, builder and selection.
+std::vector<std::string> all_notes(const Job& job);
 
 /// Returns the heading of tables: the file, the selection, the rules and the constant contacts.
 std::string heading(const Options& options, const Job& job);

@@ -22,6 +22,7 @@
 #include "hinge/molecular/sampler.hpp"
 #include "hinge_tools/counted.hpp"
 #include "hinge_tools/progress_bar.hpp"
+#include "molecule_page.hpp"
 #include "options.hpp"
 #include "pair_table.hpp"
 #include "pair_text.hpp"
@@ -192,6 +193,7 @@ Exit run_sample(const Options& options) {
   Worker worker{job.checker, {}, {}};
   Shortfall shortfall(s);
   ViewChoice choice;
+  MoleculePage page(options, job, false, lists_pairs(mode));
   std::uint64_t left_out = 0;  // pairs that are not printed
   if (options.collision_free) {
     const FreeSampling how{.sampling = sampling,
@@ -214,6 +216,7 @@ Exit run_sample(const Options& options) {
     if (!sample.found) return shortfall.add(sample.blockers, sample.stopped);
     summary.add(s, sample.verdict);
     choice.offer(k, sample.verdict);
+    page.offer(k, sample.verdict);
     const std::size_t printed = pairs_to_print(options, sample.verdict.pairs).size();
     left_out += sample.verdict.pairs.size() - printed;
     if (options.output == Output::json) {
@@ -268,6 +271,13 @@ Exit run_sample(const Options& options) {
                {fmt::format("conformation {}", *choice.best()), worker.checker.positions(), shown.verdict.pairs},
                file.size() > 0);
   }
+  for (const std::uint64_t k : page.chosen()) {
+    Sample shown = draw(worker, job, sampling, k, lists_pairs(mode) ? mode : Mode{Mode::Kind::all});
+    page.add({k, fmt::format("conformation {}", k), shown.verdict.collides, worker.checker.positions(),
+              std::move(shown.verdict.pairs)});
+  }
+  page.write(summary.colliding() > 0 ? "collides" : "free",
+             hinge::tool::collide_text(summary.colliding(), summary.checked(), "conformation"));
   shortfall.print(options.collision_free, end - begin, most_starts);
   return exit_of(summary);
 }

@@ -197,6 +197,13 @@ void add_view_option(CLI::App& command, Options& o) {
       "structure: NAME_clashes.* with the name of --out, or of FILE in the working directory");
 }
 
+void add_report_option(CLI::App& command, Options& o) {
+  command
+      .add_option("--report", o.report,
+                  "write an HTML page with the molecule, its conformations and their clashes, for any browser")
+      ->type_name("FILE.html");
+}
+
 void add_check_options(CLI::App& command, Options& o) {
   command.option_defaults()->group(title::question);
   hinge::tool::add_mode(
@@ -215,6 +222,7 @@ void add_check_options(CLI::App& command, Options& o) {
           "run only part I of N (from 1), for biocd merge; needs --json or --csv")
       ->type_name("I/N");
   add_view_option(command, o);
+  add_report_option(command, o);
   add_explain_option(command, o);
   hinge::tool::add_exit_zero(command, o.exit_zero);
   command.option_defaults()->group(title::performance);
@@ -255,6 +263,7 @@ void add_path_options(CLI::App& command, Options& o) {
       ->type_name("FRACTION");
   add_output_options(command, o);
   add_view_option(command, o);
+  add_report_option(command, o);
   add_explain_option(command, o);
   hinge::tool::add_exit_zero(command, o.exit_zero);
 }

@@ -23,6 +23,8 @@ void add_out_option(CLI::App& command, Options& o);
 void add_explain_option(CLI::App& command, Options& o);
 /// Adds --view.
 void add_view_option(CLI::App& command, Options& o);
+/// Adds --report.
+void add_report_option(CLI::App& command, Options& o);
 /// Adds the further options that check and sample share: output format, mode, --out, shards, threads.
 void add_check_options(CLI::App& command, Options& o);
 /// Adds --closures.

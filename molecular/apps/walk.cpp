@@ -2,6 +2,7 @@
 // biocd walk: runs a Monte Carlo walk of collision-free moves from the file's conformation.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <stdexcept>
@@ -16,6 +17,7 @@
 #include "hinge_tools/counted.hpp"
 #include "hinge_tools/json_text.hpp"
 #include "hinge_tools/progress_bar.hpp"
+#include "molecule_page.hpp"
 #include "options.hpp"
 #include "report.hpp"
 #include "view.hpp"
@@ -79,6 +81,8 @@ Exit run_walk(const Options& options) {
   std::vector<hinge::DofChange> changes;
   hinge::MoveCloser closer(job.molecule->model().tree(), job.checker.selection(), job.kept.closures);
   std::uint64_t accepted = 0, unclosed = 0;
+  MoleculePage page(options, job, true);
+  const std::uint64_t shown_every = std::max<std::uint64_t>(1, options.steps / 100);
   const auto start = std::chrono::steady_clock::now();
   for (std::uint64_t step = 0; step < options.steps; ++step) {
     hinge::random_move(options.seed, step, moves.configuration(), options.changes, sigma, changes);
@@ -92,6 +96,8 @@ Exit run_walk(const Options& options) {
     }
     if (file.wanted() && (step + 1) % options.every == 0)
       file.add(positions(moves), static_cast<int>(file.size()) + 1, false);
+    if (page.wanted() && (step + 1) % shown_every == 0)
+      page.add_next({step + 1, fmt::format("after step {}", step + 1), false, positions(moves), {}});
     bar.show(step + 1);
   }
   const std::chrono::duration<double> walking = std::chrono::steady_clock::now() - start;
@@ -127,6 +133,8 @@ Exit run_walk(const Options& options) {
       fmt::print("closures: the worst residual at the end is {:.3g} angstrom\n", end.closure_residual);
   }
   if (options.view) write_view(options, job, {"the end of the walk", positions(moves), {}}, file.size() > 0);
+  page.write("free", fmt::format("{} of {} accepted; every conformation of the walk is free", accepted,
+                                 counted(options.steps, "step")));
   return Exit::free;
 }
 

@@ -22,6 +22,7 @@
 #include "hinge_tools/json_text.hpp"
 #include "hinge_tools/progress_bar.hpp"
 #include "report.hpp"
+#include "robot_page.hpp"
 
 namespace robocd {
 
@@ -108,6 +109,7 @@ Exit run_check(const Options& options) {
   bool headed = true;          // the next list of pairs starts with the names of its columns
   std::uint64_t left_out = 0;  // pairs that are not printed
   const Columns columns{mode, !options.environment.empty(), options.contained, options.max_pairs};
+  RobotPage page(options, job, worker, mode, false);
   hinge::tool::ProgressBar bar(configurations.count);
   const auto start = std::chrono::steady_clock::now();
   const auto judge = [&](Worker& own, std::size_t k) {
@@ -117,6 +119,7 @@ Exit run_check(const Options& options) {
     ++summary.checked;
     summary.colliding += answer.collides ? 1 : 0;
     for (NamedPair& pair : named_pairs(worker, answer)) ++summary.pairs[std::move(pair)];
+    page.offer(k, answer);
     if (options.output == Output::json)
       fmt::print("{}\n{}", k == 0 ? "" : ",",
                  hinge::tool::json_text(answer_json(worker, k, configurations.at(k), answer, columns)));
@@ -170,6 +173,10 @@ Exit run_check(const Options& options) {
     fmt::print(stderr, "note: --max-pairs {}: {} without a row\n", options.max_pairs.value_or(0),
                hinge::tool::counted(left_out, "pair"));
   if (options.output == Output::table) print_table_end(summary, *job.robot, sampled, checking.count());
+  for (const std::uint64_t k : page.chosen())
+    page.add(fmt::format("configuration {}", k), configurations.at(static_cast<std::size_t>(k)));
+  page.write(summary.colliding > 0 ? "collides" : "free",
+             hinge::tool::collide_text(summary.colliding, summary.checked, "configuration"));
   print_incomplete(*job.robot);
   return summary.colliding > 0 ? Exit::collision : Exit::free;
 }

@@ -30,6 +30,10 @@ void check_outputs(const Options& options) {
   inputs.insert(inputs.end(), options.skip_pairs.begin(), options.skip_pairs.end());
   for (const std::string& body : options.environment) inputs.push_back(parse_body(body).file);
   hinge::tool::check_output("--out", options.out, inputs);
+  if (options.report.empty()) return;
+  if (std::filesystem::path(options.report).extension() != ".html")
+    throw hinge::ModelError("--report " + options.report + ": expected a file name with .html");
+  hinge::tool::check_output("--report", options.report, inputs);
 }
 
 namespace {

@@ -8,13 +8,16 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <vector>
 
+#include "answer.hpp"
 #include "configurations.hpp"
 #include "hinge/robotics/write_srdf.hpp"
 #include "hinge_tools/complete_file.hpp"
 #include "hinge_tools/counted.hpp"
 #include "hinge_tools/progress_bar.hpp"
 #include "options.hpp"
+#include "robot_page.hpp"
 
 namespace robocd {
 
@@ -46,14 +49,34 @@ CollisionMatrix find(const Robot& robot, const MatrixOptions& options) {
   });
 }
 
+/// Writes the page of --report: the matrix, and the robot in the default configuration.
+void write_page(RobotPage& page, const Robot& robot, const CollisionMatrix& matrix, const std::string& verdict) {
+  std::vector<double> q(robot.independent_joints().size(), 0.0);
+  for (std::size_t k = 0; k < q.size(); ++k)
+    if (robot.lower()[k] > 0.0 || robot.upper()[k] < 0.0) q[k] = 0.5 * (robot.lower()[k] + robot.upper()[k]);
+  page.add_next("default configuration", q);
+  std::vector<std::string> words;
+  for (const PairKind kind : {PairKind::adjacent, PairKind::always, PairKind::in_default, PairKind::sometimes,
+                              PairKind::never, PairKind::unseen})
+    words.emplace_back(name(kind));
+  page.set_matrix(matrix, words);
+  page.write("", verdict);
+}
+
 }  // namespace
 
 Exit run_matrix(const Options& options) {
-  const Job job = load(options);
+  Job job = load(options);
   const auto& robot = job.robot;
   print_notes(job);
   check_limits(options, *robot);
   hinge::tool::CompleteFile file(options.out);
+  std::optional<Worker> worker;
+  std::optional<RobotPage> page;
+  if (!options.report.empty()) {
+    worker.emplace(make_worker(options, job));
+    page.emplace(options, job, *worker, Mode{Mode::Kind::all}, false);
+  }
   MatrixOptions wanted = options.matrix;
   wanted.clearance = options.clearance;
   wanted.settled = job.disabled;
@@ -86,13 +109,15 @@ Exit run_matrix(const Options& options) {
     std::fprintf(stderr, "%6zu %s disabled by %s\n", kept, noun_of(kept, "pair").c_str(), options.srdf.c_str());
   for (const auto& [kind, count] : counts)
     std::fprintf(stderr, "%6zu %s %s\n", count, noun_of(count, "pair").c_str(), name(kind));
-  std::fprintf(stderr, "%zu of %s disabled\n", kept + disabled,
-               hinge::tool::counted(matrix.entries.size(), "pair").c_str());
+  const std::string result =
+      fmt::format("{} of {} disabled", kept + disabled, hinge::tool::counted(matrix.entries.size(), "pair"));
+  std::fprintf(stderr, "%s\n", result.c_str());
   if (met > 0)
     std::fprintf(stderr,
                  "note: pairs that %s disables, but that collide in some configurations: %zu; comments in the output "
                  "name them\n",
                  options.srdf.c_str(), met);
+  if (page) write_page(*page, *robot, matrix, result);
   print_incomplete(*robot);
   return Exit::free;
 }

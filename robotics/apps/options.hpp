@@ -64,6 +64,8 @@ struct Options {
   // matrix
   hinge::robotics::MatrixOptions matrix;  // its clearance is replaced by `clearance` above
   bool disable_unseen = false;
+  std::string report;        // check, path, relax, plan, matrix: HTML page to write; empty: none
+  std::string command_line;  // as typed, for the page
   // check, relax, plan: CSV file of the configurations, empty: none; matrix: SRDF file, empty: standard output; demo:
   // SVG file
   std::string out;
@@ -80,8 +82,9 @@ struct Job {
   hinge::robotics::LinkPairs tested;
 };
 
-/// Throws ModelError if --out would overwrite an input of the command, or is a directory or the file of standard
-/// output. Mesh files are checked by load_robot(), which knows them.
+/// Throws ModelError if --out or --report would overwrite an input of the command, or is a directory or the file of
+/// standard output, or if --report has another extension than .html. Mesh files are checked by load_robot(), which
+/// knows them.
 void check_outputs(const Options& options);
 
 /// Reads the robot. With --contained closed meshes become solid. `notes` receives the notes of the reader and the links

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -20,6 +21,7 @@
 #include "path_end.hpp"
 #include "read_configurations.hpp"
 #include "report.hpp"
+#include "robot_page.hpp"
 
 namespace robocd {
 
@@ -127,6 +129,26 @@ void print_table(const Options& options, const Job& job, const Worker& worker, c
   }
 }
 
+void write_page(RobotPage& page, const Options& options, const Asked& asked) {
+  if (!page.wanted()) return;
+  const RobotPathAnswer& path = asked.path;
+  const std::string where = asked.waypoints.size() == 2 ? "" : fmt::format(" of segment {}", asked.segment);
+  std::optional<MotionStop> stop;
+  if (!path.is_free()) stop = MotionStop{asked.segment, path.parameter, path.configuration};
+  add_motion(page, asked.waypoints, stop);
+  switch (path.verdict) {
+    case PathVerdict::free:
+      return page.write("free", options.sampled ? "every tested state of the path is free"
+                                                : "the path is free, proved for every state");
+    case PathVerdict::colliding:
+      return page.write("collides",
+                        fmt::format("the path collides, for example at t = {:.4g}{}", path.parameter, where));
+    case PathVerdict::undecided: break;
+  }
+  page.write("undecided",
+             fmt::format("nothing is proved within {:.2g} of t = {:.8g}{}", path.half_width, path.parameter, where));
+}
+
 }  // namespace
 
 Exit run_path(const Options& options) {
@@ -139,6 +161,7 @@ Exit run_path(const Options& options) {
   for (const std::string& note : notes_on_bodies(options, worker)) job.notes.push_back(note);
   print_notes(job);
 
+  RobotPage page(options, job, worker, Mode{Mode::Kind::all}, true);
   PathChecker paths =
       worker.environment ? PathChecker(worker.checker, *worker.environment) : PathChecker(worker.checker);
   for (std::size_t k = 0; k + 1 < asked.waypoints.size(); ++k) {
@@ -160,6 +183,7 @@ Exit run_path(const Options& options) {
     fmt::print("{}\n", hinge::tool::json_text(path_json(options, job, worker, asked), 1));
   else
     print_table(options, job, worker, asked);
+  write_page(page, options, asked);
   print_incomplete(*job.robot);
   switch (asked.path.verdict) {
     case PathVerdict::free: return Exit::free;

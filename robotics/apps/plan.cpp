@@ -20,6 +20,7 @@
 #include "options.hpp"
 #include "path_end.hpp"
 #include "report.hpp"
+#include "robot_page.hpp"
 
 namespace robocd {
 
@@ -92,6 +93,7 @@ Exit run_plan(const Options& options) {
   for (const std::string& note : notes_on_bodies(options, worker)) job.notes.push_back(note);
   print_notes(job);
   hinge::tool::CompleteFile file(options.out);
+  RobotPage page(options, job, worker, Mode{Mode::Kind::all}, true);
   for (const auto& [q, which] : {std::pair{&from, "start"}, std::pair{&to, "end"}})
     if (report_end(options, job, worker, *q, which)) return Exit::collision;
 
@@ -139,6 +141,11 @@ Exit run_plan(const Options& options) {
     }
     if (written > 0) fmt::print("{} written to {}\n", counted(written, "row"), options.out);
   }
+  add_motion(page, planned.waypoints);
+  page.write(planned.reached ? "free" : "undecided",
+             planned.reached ? fmt::format("a motion was found, {:.3f} m long, proved free", planned.length)
+                             : fmt::format("no motion was found; the nearest configuration is {:.3f} m from the end",
+                                           planned.remaining));
   print_incomplete(*job.robot);
   if (!planned.reached)
     fmt::print(stderr, "note: {}\n",

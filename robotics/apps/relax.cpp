@@ -17,6 +17,7 @@
 #include "options.hpp"
 #include "path_end.hpp"
 #include "report.hpp"
+#include "robot_page.hpp"
 
 namespace robocd {
 
@@ -50,6 +51,7 @@ Exit run_relax(const Options& options) {
   for (const std::string& note : notes_on_bodies(options, worker)) job.notes.push_back(note);
   print_notes(job);
   hinge::tool::CompleteFile file(options.out);
+  RobotPage page(options, job, worker, Mode{Mode::Kind::all}, true);
 
   const auto begin = std::chrono::steady_clock::now();
   const auto out_of_time = [&] {
@@ -99,6 +101,11 @@ Exit run_relax(const Options& options) {
   if (after.collides)
     fmt::print(stderr, "note: no free configuration in {}{}\n", counted(relaxed.tries, "try", "tries"),
                relaxed.stopped ? "; --time has passed" : "");
+  page.add_next("before", start);
+  page.add_next("after", relaxed.q);
+  page.write(after.collides ? "collides" : "free", after.collides
+                                                       ? std::string("no free configuration was found")
+                                                       : fmt::format("free, {:.6f} from the start", relaxed.distance));
   print_incomplete(*job.robot);
   return after.collides ? Exit::collision : Exit::free;
 }

@@ -36,8 +36,6 @@ std::size_t rigid_groups(const Robot& robot) {
   return hinge::RigidGroups(tree, hinge::DofSelection::all(tree)).size();
 }
 
-Json point_json(const hinge::Vec3& x) { return {x[0], x[1], x[2]}; }
-
 /// One finding: two names, with distance and points if they are known.
 struct Finding {
   const char* kind;
@@ -99,7 +97,22 @@ Json pair_json(const Finding& f, const char* second_key) {
   return json;
 }
 
+std::string robot_text(const Robot& robot) {
+  return fmt::format("{}, {} with geometry, {} ({} degenerate){}", counted(robot.link_count() - 1, "link"),
+                     links_with_geometry(robot), counted(robot.model().size(), "triangle"), robot.degenerate_count(),
+                     incomplete(robot));
+}
+
+std::string tested_text(const Job& job) {
+  return fmt::format("{} DOF, {}, {}; {} tested, {} disabled", job.robot->independent_joints().size(),
+                     counted(job.robot->model().tree().dof_count(), "movable joint"),
+                     counted(rigid_groups(*job.robot), "rigid group"),
+                     counted(job.tested.size(), "pair of links", "pairs of links"), job.disabled.size());
+}
+
 }  // namespace
+
+Json point_json(const hinge::Vec3& x) { return {x[0], x[1], x[2]}; }
 
 Json robot_json(const Options& options, const Job& job) {
   const Robot& robot = *job.robot;
@@ -207,15 +220,23 @@ std::vector<std::pair<std::string, std::string>> named_pairs(const Worker& worke
   return pairs;
 }
 
-std::string heading(const Options& options, const Job& job) {
+std::vector<std::pair<std::string, std::string>> question_words(const Options& options, const Job& job) {
   const Robot& robot = *job.robot;
-  return fmt::format("{}: robot '{}', {}, {} with geometry, {} ({} degenerate){}\n", options.urdf, robot.name(),
-                     counted(robot.link_count() - 1, "link"), links_with_geometry(robot),
-                     counted(robot.model().size(), "triangle"), robot.degenerate_count(), incomplete(robot)) +
-         fmt::format("{} DOF, {}, {}; {} tested, {} disabled\n", robot.independent_joints().size(),
-                     counted(robot.model().tree().dof_count(), "movable joint"),
-                     counted(rigid_groups(robot), "rigid group"),
-                     counted(job.tested.size(), "pair of links", "pairs of links"), job.disabled.size());
+  std::vector<std::pair<std::string, std::string>> words{{"Robot", robot_text(robot)}, {"Tested", tested_text(job)}};
+  words.emplace_back("A pair collides if", options.clearance > 0.0
+                                               ? fmt::format("it touches or is closer than {} m", options.clearance)
+                                               : std::string("it touches"));
+  if (options.contained) words.emplace_back("Closed meshes", "are solid");
+  std::string bodies;
+  for (const Body& body : job.bodies) bodies += (bodies.empty() ? "" : "; ") + body.name;
+  if (!bodies.empty()) words.emplace_back("Bodies", bodies);
+  for (const auto& [link, body] : job.allowed) words.emplace_back("May touch", link + " and " + body);
+  return words;
+}
+
+std::string heading(const Options& options, const Job& job) {
+  return fmt::format("{}: robot '{}', {}\n{}\n", options.urdf, job.robot->name(), robot_text(*job.robot),
+                     tested_text(job));
 }
 
 }  // namespace robocd

@@ -18,6 +18,9 @@ namespace robocd {
 /// Keys keep the order in which they are written.
 using Json = nlohmann::ordered_json;
 
+/// Returns the coordinates of a point as an array.
+Json point_json(const hinge::Vec3& x);
+
 /// Returns the JSON object that describes the robot.
 Json robot_json(const Options& options, const Job& job);
 
@@ -54,6 +57,9 @@ std::string pair_table(const Worker& worker, const Answer& answer, const std::op
 
 /// Returns the pairs of an answer by name: two links, or link and body, each pair once.
 std::vector<std::pair<std::string, std::string>> named_pairs(const Worker& worker, const Answer& answer);
+
+/// Returns the question in words, as names and values: the robot, what is tested, the bodies.
+std::vector<std::pair<std::string, std::string>> question_words(const Options& options, const Job& job);
 
 /// Returns lines of text about the robot and its tested pairs.
 std::string heading(const Options& options, const Job& job);

@@ -13,6 +13,7 @@
 #include "hinge_tools/help_texts.hpp"
 #include "hinge_tools/parse_command_line.hpp"
 #include "hinge_tools/pick_instruction_set.hpp"
+#include "hinge_tools/report_page.hpp"
 #include "hinge_tools/run_tool.hpp"
 #include "options.hpp"
 #include "shared_options.hpp"
@@ -25,6 +26,7 @@ namespace title = hinge::tool::title;
 
 Exit run(int argc, char** argv) {
   Options o;
+  o.command_line = hinge::tool::command_text("robocd", argc, argv);
   std::function<Exit(const Options&)> command;
   const hinge::tool::HelpTexts texts = robocd::help_texts();
   CLI::App app{"collisions of robots as articulated mechanisms", "robocd"};

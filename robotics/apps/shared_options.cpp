@@ -25,6 +25,13 @@ namespace title = hinge::tool::title;
 
 namespace {
 
+void add_report_option(CLI::App& command, Options& o) {
+  command
+      .add_option("--report", o.report,
+                  "write an HTML page with the robot, its configurations and their collisions, for any browser")
+      ->type_name("FILE.html");
+}
+
 constexpr NumberRange<std::uint64_t> counts{1, std::uint64_t{1} << 53};
 constexpr NumberRange<std::uint64_t> seeds{0, UINT64_MAX};
 
@@ -81,6 +88,7 @@ void add_question_options(CLI::App& command, Options& o) {
   add_clearance_option(command, o);
   add_contained_option(command, o);
   add_json_option(command, o);
+  add_report_option(command, o);
   hinge::tool::add_max_pairs(command, o.max_pairs);
   hinge::tool::add_exit_zero(command, o.exit_zero);
 }
@@ -170,6 +178,7 @@ void add_check_options(CLI::App& command, Options& o) {
           "--csv", [&o] { o.output = robocd::Output::csv; }, "print CSV on standard output")
       ->excludes("--json");
   hinge::tool::add_max_pairs(command, o.max_pairs);
+  add_report_option(command, o);
   command.add_option("--out", o.out, "write the configurations to this CSV file, in the format of --csv-in")
       ->type_name("FILE");
   hinge::tool::add_exit_zero(command, o.exit_zero);
@@ -190,6 +199,7 @@ void add_matrix_options(CLI::App& command, Options& o) {
   command.add_flag("--disable-unseen", o.disable_unseen,
                    "also disable pairs that were not seen in collision, although this is not a proof");
   command.add_option("--out", o.out, "SRDF file to write (default: standard output)")->type_name("FILE");
+  add_report_option(command, o);
 }
 
 void add_path_options(CLI::App& command, Options& o) {

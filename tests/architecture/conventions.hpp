@@ -81,23 +81,15 @@ inline std::vector<std::string> oracle_violations(const SourceTree& tree) {
 
 /// Returns unexpected names in the root folder of the repository. Dot files and the build folder are allowed.
 inline std::vector<std::string> strangers_at_top(const std::filesystem::path& root) {
-  static const std::set<std::string> known = {"CMakeLists.txt",
-                                              "CMakePresets.json",
-                                              "README.md",
-                                              "CHANGELOG.md",
-                                              "CONTRIBUTING.md",
-                                              "CITATION.cff",
-                                              "LICENSE",
-                                              "run",
-                                              "include",
-                                              "molecular",
-                                              "robotics",
-                                              "python",
-                                              "tests",
-                                              "bench",
-                                              "docs",
-                                              "debian",
-                                              "build"};
+  static const std::set<std::string> known = {"CMakeLists.txt",  "CMakePresets.json",
+                                              "README.md",       "CHANGELOG.md",
+                                              "CONTRIBUTING.md", "CITATION.cff",
+                                              "LICENSE",         "run",
+                                              "include",         "molecular",
+                                              "robotics",        "python",
+                                              "report",          "tests",
+                                              "bench",           "docs",
+                                              "debian",          "build"};
   std::vector<std::string> strangers;
   for (const std::filesystem::directory_entry& entry : std::filesystem::directory_iterator(root)) {
     const std::string name = entry.path().filename().string();

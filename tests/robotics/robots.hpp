@@ -20,6 +20,7 @@
 #include "hinge/robotics/read_urdf.hpp"
 #include "hinge/robotics/robot.hpp"
 #include "hinge/robotics/tested_pairs.hpp"
+#include "tool/temporary_folder.hpp"
 
 namespace hinge::test {
 
@@ -73,31 +74,6 @@ inline std::vector<double> random_configuration(const robotics::Robot& robot, Sa
     q.push_back(robot.lower()[k] + stream.uniform() * (robot.upper()[k] - robot.lower()[k]));
   return q;
 }
-
-/// A temporary folder; the destructor removes it.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    static int number = 0;
-    path_ = std::filesystem::temp_directory_path() /
-            ("hinge-robot-" + std::to_string(getpid()) + "-" + std::to_string(number++));
-    std::filesystem::create_directories(path_);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path write(const std::string& name, const std::string& bytes) const {
-    std::filesystem::path file = path_ / name;
-    std::filesystem::create_directories(file.parent_path());
-    std::ofstream(file, std::ios::binary) << bytes;
-    return file;
-  }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Returns the message of the LoadError that `load` throws, without the folder's path; empty if it throws none.
 template <class Load>
