@@ -3,6 +3,7 @@
 
 hinge.molecular   proteins, nucleic acids and ligands as mechanisms of torsions; lengths in angstrom
 hinge.robotics    robots from URDF or from code, against themselves and the bodies around them; lengths in metres
+hinge.report()    a page with pictures and tables that opens in any browser
 hinge.Model       points, spheres, capsules or triangles from arrays, and hinge.Checker; lengths in any unit
 
 Angles are in radians everywhere. The compiled part is chosen at import: the best instruction set of the CPU, or the
@@ -50,8 +51,9 @@ from . import molecular, robotics  # noqa: E402
 from ._checker import Checker  # noqa: E402
 from ._model import Model  # noqa: E402
 from ._planning import Motion  # noqa: E402
+from ._report import Report, report  # noqa: E402
 
-for _public in (Checker, Model, Motion):
+for _public in (Checker, Model, Motion, Report, report):
     _public.__module__ = __name__
 del _public, _name
 
@@ -63,7 +65,9 @@ __all__ = [
     "Model",
     "ModelError",
     "Motion",
+    "Report",
     "instruction_set",
     "molecular",
+    "report",
     "robotics",
 ]

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+import os
 from collections.abc import Sequence
 from typing import Any, Literal, Protocol, overload
 
@@ -18,8 +19,10 @@ __all__ = [
     "Model",
     "ModelError",
     "Motion",
+    "Report",
     "instruction_set",
     "molecular",
+    "report",
     "robotics",
 ]
 
@@ -36,6 +39,7 @@ class _Bar(Protocol):
     def n(self) -> float: ...
     def update(self, n: int, /) -> object: ...
 
+_Path = str | os.PathLike[str]
 _Progress = _Callback | _Bar | None
 # Of an array, a type checker does not know the number of dimensions: the answer is one value for one configuration, and
 # an array for several. For lists, it is known.
@@ -215,3 +219,22 @@ class Checker:
     def model(self) -> Model: ...
     @property
     def constant_contacts(self) -> NDArray[np.void]: ...
+
+class Report:
+    html: str
+    def __init__(self, html: str) -> None: ...
+    def save(self, file: _Path) -> None: ...
+
+def report(
+    checker: molecular.Checker | robotics.Checker,
+    q: ArrayLike | Motion | None = None,
+    file: _Path | None = None,
+    *,
+    coordinates: ArrayLike | molecular.Trajectory | None = None,
+    within: float = 0.0,
+    path: bool = False,
+    names: Sequence[str] | None = None,
+    title: str | None = None,
+    matrix: robotics.CollisionMatrix | None = None,
+    threads: int | None = None,
+) -> Report: ...

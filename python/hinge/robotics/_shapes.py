@@ -20,6 +20,11 @@ class Shape:
         self._arguments = arguments
 
     @property
+    def surface(self):
+        """Triangles on the surface, for pictures: shape (n, 3, 3), m. Round parts are drawn within 1 mm."""
+        return self._data.surface
+
+    @property
     def open_edge(self):
         """Text about an edge where the surface is open, or None if it is closed. A solid shape is closed."""
         return self._data.open_edge

@@ -257,6 +257,13 @@ void bind_molecule(py::module_& module) {
       .def("_atom_columns", &atom_columns)
       .def("_torsion_columns", &torsion_columns)
       .def("_bond_columns", &bond_columns)
+      .def("_residue_kinds",
+           [](const MoleculeHandle& m) {
+             std::vector<std::uint8_t> kinds;
+             for (const Residue& residue : m.structure().residues)
+               kinds.push_back(static_cast<std::uint8_t>(residue.kind));
+             return to_array(std::move(kinds));
+           })
       .def("_select", &select, py::arg("words"), py::arg("omega"), py::arg("of_loops"))
       .def("_part_residues", [](const MoleculeHandle& m, const std::string& words) {
         return to_array(std::vector(find_part(m.structure(), words).residues));

@@ -114,10 +114,30 @@ py::dict joint_columns(const RobotHandle& self) {
   return columns;
 }
 
+/// Returns the triangles of a link's shapes in the link's frame.
+std::vector<Triangle> surface_of_link(const Robot& robot, const std::string& name) {
+  std::vector<Triangle> triangles;
+  for (const LinkDescription& link : robot.description().links)
+    if (link.name == name)
+      for (const PlacedShape& part : link.geometry)
+        for (const Triangle& t : surface_of(part.shape))
+          triangles.push_back({part.origin * t.a, part.origin * t.b, part.origin * t.c});
+  return triangles;
+}
+
+py::array_t<double> surface(const RobotHandle& self, const std::string& link) {
+  link_named(*self, link, "link");
+  return to_corners(run_aside([robot = self.robot, link] { return surface_of_link(*robot, link); }));
+}
+
 }  // namespace
 
 void add_robot_tables(RobotClass& robot) {
   robot.def("_link_columns", &link_columns)
+      .def("surface", &surface, py::arg("link"),
+           "surface(self, link)\n--\n\nReturn triangles on the surface of a link's shapes, for pictures.\n\n"
+           "link: a name. Returns shape (n, 3, 3), m, in the link's frame; round shapes are drawn within 1 mm.\n"
+           "Raises ModelError.")
       .def("_joint_columns", &joint_columns)
       .def_property_readonly(
           "joint_names",

@@ -52,6 +52,18 @@ py::array_t<double> to_matrix(const Pose& pose) {
   return to_array(std::move(matrix), {4, 4});
 }
 
+std::vector<Triangle> surface_of(const robotics::Shape& shape) {
+  return tessellate(shape, {Tessellation::Manner::inscribed, 1e-3}).triangles;
+}
+
+py::array_t<double> to_corners(const std::vector<Triangle>& triangles) {
+  std::vector<double> corners;
+  for (const Triangle& t : triangles)
+    for (const Vec3* p : {&t.a, &t.b, &t.c}) corners.insert(corners.end(), p->data(), p->data() + 3);
+  const auto count = static_cast<py::ssize_t>(triangles.size());
+  return to_array(std::move(corners), {count, 3, 3});
+}
+
 namespace {
 
 Vec3 as_vector(py::handle value, const char* name) {
@@ -118,7 +130,7 @@ py::object points_of(const py::object& self) {
 
 std::optional<std::string> open_edge_of(const ShapeHandle& self) {
   return run_if_large(self.shape, [shape = self.shape] {
-    const auto edge = open_edge(tessellate(shape, {Tessellation::Manner::inscribed, 1e-3}).triangles);
+    const auto edge = open_edge(surface_of(shape));
     return edge ? std::optional(edge->text()) : std::nullopt;
   });
 }
@@ -166,6 +178,11 @@ void bind_shapes(py::module_& module) {
                   })
       .def_property_readonly("triangles", &triangles_of)
       .def_property_readonly("points", &points_of)
+      .def_property_readonly(
+          "surface",
+          [](const ShapeHandle& self) {
+            return to_corners(run_if_large(self.shape, [shape = self.shape] { return surface_of(shape); }));
+          })
       .def_property_readonly("open_edge", &open_edge_of);
   module.def("compose",
              [](const py::object& a, const py::object& b) { return to_matrix(as_pose(a, "a") * as_pose(b, "b")); });
