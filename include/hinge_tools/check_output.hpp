@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "hinge/core/error.hpp"
@@ -35,6 +36,19 @@ inline void check_output(const std::string& option, const std::filesystem::path&
     if (::fstat(descriptor, &other) == 0 && is_same_file(output, other))
       refuse(std::string("is the file of standard ") + (descriptor == STDOUT_FILENO ? "output" : "error") +
              ", expected a different file to write");
+}
+
+/// check_output() for the page of --report. out: the file of --out, or empty. Throws ModelError also if the name does
+/// not end with .html, or if both options name one file.
+inline void check_report(const std::filesystem::path& report, const std::filesystem::path& out,
+                         const std::vector<std::filesystem::path>& inputs) {
+  if (report.empty()) return;
+  const std::string given = "--report " + report.string();
+  if (report.extension() != ".html") throw ModelError(given + ": expected a file name with .html");
+  std::error_code error;
+  if (!out.empty() && std::filesystem::weakly_canonical(report, error) == std::filesystem::weakly_canonical(out, error))
+    throw ModelError(given + ": is the file of --out, expected a different file");
+  check_output("--report", report, inputs);
 }
 
 }  // namespace hinge::tool

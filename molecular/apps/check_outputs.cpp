@@ -54,11 +54,9 @@ void check_outputs(const Options& options, bool is_folder) {
       if (is_inside(file, options.read.dictionary))
         throw hinge::ModelError("--view: " + file.string() + " is in the monomer dictionary, expected another --out");
     }
-  if (!options.report.empty()) {
-    if (std::filesystem::path(options.report).extension() != ".html")
-      throw hinge::ModelError("--report " + options.report + ": expected a file name with .html");
-    hinge::tool::check_output("--report", options.report, input_files(options));
-  }
+  hinge::tool::check_report(options.report, options.out, input_files(options));
+  if (is_inside(options.report, options.read.dictionary))
+    throw hinge::ModelError("--report " + options.report + ": is in the monomer dictionary, expected a different file");
   const std::filesystem::path out = options.out;
   if (out.empty()) return;
   if (!is_folder) {

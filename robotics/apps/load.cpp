@@ -30,10 +30,7 @@ void check_outputs(const Options& options) {
   inputs.insert(inputs.end(), options.skip_pairs.begin(), options.skip_pairs.end());
   for (const std::string& body : options.environment) inputs.push_back(parse_body(body).file);
   hinge::tool::check_output("--out", options.out, inputs);
-  if (options.report.empty()) return;
-  if (std::filesystem::path(options.report).extension() != ".html")
-    throw hinge::ModelError("--report " + options.report + ": expected a file name with .html");
-  hinge::tool::check_output("--report", options.report, inputs);
+  hinge::tool::check_report(options.report, options.out, inputs);
 }
 
 namespace {
@@ -120,6 +117,7 @@ std::shared_ptr<const Robot> load_robot(const Options& options, std::vector<std:
     for (const PlacedShape& placed : link.geometry)
       if (const auto* mesh = std::get_if<MeshShape>(&placed.shape)) meshes.emplace_back(mesh->file);
   hinge::tool::check_output("--out", options.out, meshes);
+  hinge::tool::check_output("--report", options.report, meshes);
   if (options.contained)
     for (std::string& note : fill_closed_meshes(description)) notes.push_back(std::move(note));
   try {

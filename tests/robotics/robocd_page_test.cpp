@@ -193,6 +193,10 @@ TEST_F(RobocdPage, RefusesFilesThatAreNoPage) {
   EXPECT_EQ(text.status, 2);
   EXPECT_NE(text.out.find("--report page.txt: expected a file name with .html"), std::string::npos) << text.out;
   EXPECT_EQ(run_robocd("check" + folder.urdf() + " --zero --report /nowhere/page.html 2>&1").status, 3);
+  const auto same = run_robocd("check" + folder.urdf() + " --zero --out '" + page + "'" + report + "2>&1");
+  EXPECT_EQ(same.status, 2);
+  EXPECT_NE(same.out.find(": is the file of --out, expected a different file"), std::string::npos) << same.out;
+  EXPECT_FALSE(std::filesystem::exists(page));
 }
 
 }  // namespace robocd_page_test
