@@ -40,8 +40,7 @@ constexpr Colour link_colour{120, 150, 190}, start_colour{214, 224, 236}, body_c
     hit_colour{220, 60, 50};
 
 void draw_shape(Picture& picture, const Shape& shape, const hinge::Pose& pose, const Colour& colour) {
-  for (const hinge::Triangle& t : tessellate(shape, {Tessellation::Manner::inscribed, 1e-3}).triangles)
-    picture.triangle(pose * t.a, pose * t.b, pose * t.c, colour);
+  for (const hinge::Triangle& t : drawn_triangles(shape, pose)) picture.triangle(t.a, t.b, t.c, colour);
 }
 
 /// Draws the links at a configuration. Links whose names are in `hit` get another colour.

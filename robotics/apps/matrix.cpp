@@ -51,10 +51,7 @@ CollisionMatrix find(const Robot& robot, const MatrixOptions& options) {
 
 /// Writes the page of --report: the matrix, and the robot in the default configuration.
 void write_page(RobotPage& page, const Robot& robot, const CollisionMatrix& matrix, const std::string& verdict) {
-  std::vector<double> q(robot.independent_joints().size(), 0.0);
-  for (std::size_t k = 0; k < q.size(); ++k)
-    if (robot.lower()[k] > 0.0 || robot.upper()[k] < 0.0) q[k] = 0.5 * (robot.lower()[k] + robot.upper()[k]);
-  page.add_next("default configuration", q);
+  page.add_next("default configuration", default_configuration(robot));
   std::vector<std::string> words;
   for (const PairKind kind : {PairKind::adjacent, PairKind::always, PairKind::in_default, PairKind::sometimes,
                               PairKind::never, PairKind::unseen})

@@ -6,10 +6,11 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <map>
 #include <utility>
 
 #include "hinge/core/id.hpp"
+#include "hinge/kinematics/dof_selection.hpp"
+#include "hinge/kinematics/rigid_groups.hpp"
 #include "hinge/robotics/tessellate.hpp"
 #include "hinge_tools/counted.hpp"
 #include "page_mesh.hpp"
@@ -28,31 +29,15 @@ constexpr std::size_t most_rows = 1000;         // pairs of one configuration
 
 using Triangles = std::vector<hinge::Triangle>;
 
-void append(Triangles& all, const Shape& shape, const hinge::Pose& pose) {
-  for (const hinge::Triangle& t : tessellate(shape, {Tessellation::Manner::inscribed, 1e-3}).triangles)
-    all.push_back({pose * t.a, pose * t.b, pose * t.c});
-}
-
 /// Returns the triangles of each link of the model except the world, in the link's frame.
 std::vector<Triangles> triangles_of_links(const Robot& robot) {
   std::vector<Triangles> all(robot.link_count() - 1);
   for (const LinkDescription& link : robot.description().links) {
     const std::size_t place = hinge::index(*robot.find_link(link.name)) - 1;
-    for (const PlacedShape& part : link.geometry) append(all[place], part.shape, part.origin);
+    for (const PlacedShape& part : link.geometry)
+      for (const hinge::Triangle& t : drawn_triangles(part.shape, part.origin)) all[place].push_back(t);
   }
   return all;
-}
-
-/// Returns 1 for each link that a joint moves, 0 for the others.
-std::vector<std::uint8_t> moving_links(const Robot& robot) {
-  std::vector<std::uint8_t> moves(robot.link_count(), 0);
-  std::map<std::string, const JointDescription*> joint_of;
-  for (const JointDescription& joint : robot.description().joints) joint_of[joint.child] = &joint;
-  for (std::size_t k = 1; k < moves.size(); ++k)
-    for (auto at = joint_of.find(robot.link_name(hinge::id<hinge::LinkId>(k))); at != joint_of.end();
-         at = joint_of.find(at->second->parent))
-      if (at->second->type != JointType::fixed) moves[k] = 1;
-  return moves;
 }
 
 std::vector<float> numbers_of(const hinge::Pose& pose) {
@@ -195,16 +180,20 @@ void RobotPage::write(const char* state, const std::string& verdict) {
 
   std::vector<Triangles> links = triangles_of_links(robot), bodies;
   std::vector<std::string> notes;  // of meshes, printed when they were read first
-  for (const Body& body : job_.bodies) append(bodies.emplace_back(), shape_of(body, notes), {});
+  for (const Body& body : job_.bodies) bodies.push_back(drawn_triangles(shape_of(body, notes)));
   std::size_t all = 0;
   for (const auto* list : {&links, &bodies})
     for (const Triangles& triangles : *list) all += triangles.size();
-  const std::vector<std::uint8_t> moves = moving_links(robot);
+  const hinge::KinematicTree& tree = robot.model().tree();
+  const hinge::RigidGroups groups(tree, hinge::DofSelection::all(tree));
+  const auto moves = [&](std::size_t link) {
+    return groups.group_of(hinge::id<hinge::LinkId>(link)) != hinge::GroupId{};
+  };
   Json out{{"links", Json::array()}, {"bodies", Json::array()}, {"joints", Json::array()}};
   for (std::size_t k = 0; k < links.size(); ++k) {
     Json link = mesh_json(links[k], all);
     link["name"] = robot.link_name(hinge::id<hinge::LinkId>(k + 1));
-    link["moves"] = moves[k + 1];
+    link["moves"] = moves(k + 1) ? 1 : 0;
     out["links"].push_back(std::move(link));
   }
   for (std::size_t k = 0; k < bodies.size(); ++k) {

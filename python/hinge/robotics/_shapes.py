@@ -21,7 +21,7 @@ class Shape:
 
     @property
     def surface(self):
-        """Triangles on the surface, for pictures: shape (n, 3, 3), m. Round parts are drawn within 1 mm."""
+        """Triangles on the surface, for pictures: shape (n, 3, 3), m. A sphere has 320, a cylinder has 32 sides."""
         return self._data.surface
 
     @property

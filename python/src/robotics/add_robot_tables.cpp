@@ -9,6 +9,7 @@
 #include "hinge/kinematics/dof_selection.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 #include "hinge/robotics/containment.hpp"
+#include "hinge/robotics/tessellate.hpp"
 #include "robot_handle.hpp"
 
 namespace hinge::python {
@@ -120,8 +121,7 @@ std::vector<Triangle> surface_of_link(const Robot& robot, const std::string& nam
   for (const LinkDescription& link : robot.description().links)
     if (link.name == name)
       for (const PlacedShape& part : link.geometry)
-        for (const Triangle& t : surface_of(part.shape))
-          triangles.push_back({part.origin * t.a, part.origin * t.b, part.origin * t.c});
+        for (const Triangle& t : drawn_triangles(part.shape, part.origin)) triangles.push_back(t);
   return triangles;
 }
 
@@ -136,7 +136,8 @@ void add_robot_tables(RobotClass& robot) {
   robot.def("_link_columns", &link_columns)
       .def("surface", &surface, py::arg("link"),
            "surface(self, link)\n--\n\nReturn triangles on the surface of a link's shapes, for pictures.\n\n"
-           "link: a name. Returns shape (n, 3, 3), m, in the link's frame; round shapes are drawn within 1 mm.\n"
+           "link: a name. Returns shape (n, 3, 3), m, in the link's frame; a sphere has 320 triangles, a cylinder 32 "
+           "sides.\n"
            "Raises ModelError.")
       .def("_joint_columns", &joint_columns)
       .def_property_readonly(

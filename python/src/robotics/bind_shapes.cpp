@@ -52,10 +52,6 @@ py::array_t<double> to_matrix(const Pose& pose) {
   return to_array(std::move(matrix), {4, 4});
 }
 
-std::vector<Triangle> surface_of(const robotics::Shape& shape) {
-  return tessellate(shape, {Tessellation::Manner::inscribed, 1e-3}).triangles;
-}
-
 py::array_t<double> to_corners(const std::vector<Triangle>& triangles) {
   std::vector<double> corners;
   for (const Triangle& t : triangles)
@@ -130,7 +126,7 @@ py::object points_of(const py::object& self) {
 
 std::optional<std::string> open_edge_of(const ShapeHandle& self) {
   return run_if_large(self.shape, [shape = self.shape] {
-    const auto edge = open_edge(surface_of(shape));
+    const auto edge = open_edge(drawn_triangles(shape));
     return edge ? std::optional(edge->text()) : std::nullopt;
   });
 }
@@ -181,7 +177,7 @@ void bind_shapes(py::module_& module) {
       .def_property_readonly(
           "surface",
           [](const ShapeHandle& self) {
-            return to_corners(run_if_large(self.shape, [shape = self.shape] { return surface_of(shape); }));
+            return to_corners(run_if_large(self.shape, [shape = self.shape] { return drawn_triangles(shape); }));
           })
       .def_property_readonly("open_edge", &open_edge_of);
   module.def("compose",

@@ -65,9 +65,6 @@ void write_matrix(const Pose& pose, double* matrix) noexcept;
 /// Returns the matrix of a pose, shape (4, 4).
 pybind11::array_t<double> to_matrix(const Pose& pose);
 
-/// Returns triangles on the surface of a shape, for pictures; round parts are within 1 mm.
-std::vector<Triangle> surface_of(const robotics::Shape& shape);
-
 /// Returns corners of triangles, shape (n, 3, 3).
 pybind11::array_t<double> to_corners(const std::vector<Triangle>& triangles);
 

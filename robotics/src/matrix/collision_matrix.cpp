@@ -45,15 +45,6 @@ std::vector<MatrixEntry> all_pairs(const Robot& robot, const LinkPairs& tested) 
   return entries;
 }
 
-std::vector<double> default_configuration(const Robot& robot) {
-  std::vector<double> q;
-  for (std::size_t k = 0; k < robot.lower().size(); ++k) {
-    const double low = robot.lower()[k], high = robot.upper()[k];
-    q.push_back(low <= 0.0 && 0.0 <= high ? 0.0 : low + (high - low) / 2);
-  }
-  return q;
-}
-
 /// Counts the hits of every tested pair and sets the kinds that samples can determine.
 void sample(const Robot& robot, const LinkPairs& tested, const MatrixOptions& options, const Progress& progress,
             std::vector<MatrixEntry>& entries) {
@@ -136,6 +127,15 @@ void prove(const Robot& robot, const MatrixOptions& options, const Progress& pro
 }
 
 }  // namespace
+
+std::vector<double> default_configuration(const Robot& robot) {
+  std::vector<double> q;
+  for (std::size_t k = 0; k < robot.lower().size(); ++k) {
+    const double low = robot.lower()[k], high = robot.upper()[k];
+    q.push_back(low <= 0.0 && 0.0 <= high ? 0.0 : low + (high - low) / 2);
+  }
+  return q;
+}
 
 CollisionMatrix find_collision_matrix(const Robot& robot, const MatrixOptions& options, const Progress& progress) {
   if (!is_finite(options.clearance) || options.clearance < 0.0)

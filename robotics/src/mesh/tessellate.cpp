@@ -244,4 +244,10 @@ Surface tessellate(const Shape& shape, const Tessellation& tessellation) {
   return {std::visit(InTriangles{inscribed, tolerance}, shape), 0.0};
 }
 
+std::vector<Triangle> drawn_triangles(const Shape& shape, const Pose& pose) {
+  std::vector<Triangle> triangles = tessellate(shape, {Tessellation::Manner::inscribed}).triangles;
+  for (Triangle& t : triangles) t = {pose * t.a, pose * t.b, pose * t.c};
+  return triangles;
+}
+
 }  // namespace hinge::robotics

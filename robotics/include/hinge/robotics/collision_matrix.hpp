@@ -71,6 +71,10 @@ struct MatrixProgress {
 HINGE_API CollisionMatrix find_collision_matrix(const Robot& robot, const MatrixOptions& options = {},
                                                 const std::function<void(const MatrixProgress&)>& progress = {});
 
+/// Returns the configuration that PairKind::in_default is about: 0, or the middle of the limits of a joint that cannot
+/// be at 0. One value per independent joint, rad or m.
+HINGE_API std::vector<double> default_configuration(const Robot& robot);
+
 /// The treatment of unseen pairs: still tested (the safe choice), or disabled like the others.
 enum class UnseenPairs : std::uint8_t { tested, disabled };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hinge/core/api.hpp"
+#include "hinge/core/pose.hpp"
 #include "hinge/primitive/triangle.hpp"
 #include "hinge/robotics/shape.hpp"
 
@@ -39,5 +40,8 @@ struct Surface {
 /// triangle without area) or a flat solid (each triangle once). Throws ModelError if a size is negative, a scale is 0,
 /// the tolerance is not above 0, any of them is not finite, or the tolerance needs more than 10^6 triangles.
 HINGE_API Surface tessellate(const Shape& shape, const Tessellation& tessellation = {});
+
+/// Returns triangles on the surface of a shape at a pose, for pictures: manner `inscribed`. Throws as tessellate().
+HINGE_API std::vector<Triangle> drawn_triangles(const Shape& shape, const Pose& pose = {});
 
 }  // namespace hinge::robotics
