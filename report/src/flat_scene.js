@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The picture without WebGL: lines in SVG, seen along one of three directions.
 import {html, svg} from './dom.js';
-import {main_axes, sharp_edges, trace_lines} from './geometry.js';
+import {main_axes, nearest_pair, sharp_edges, trace_lines} from './geometry.js';
 import {placed, pose_of, positions_of} from './report.js';
 import {choice} from './view.js';
 
@@ -137,15 +137,8 @@ export function make_flat_scene(box, report, {store, on_change}) {
     set_dark() {},
     anchors: drawing.anchors,
     project,
-    pick(px, py, nearest) {
-      let best = null, least = nearest;
-      for (const pair of report.frames[store.state.frame].pairs) {
-        const [u, v] = project(middle(pair));
-        const gap = Math.hypot(u - px, v - py);
-        if (gap < least) [best, least] = [pair, gap];
-      }
-      return best;
-    },
+    pick: (px, py, within) => nearest_pair(report.frames[store.state.frame].pairs, (pair) => project(middle(pair)), px,
+                                           py, within),
     hover: () => null,
     camera: () => [view.side, ...view.middle, view.half],
     controls: [choice('Side', ['Front', 'Side', 'Top'], 0, (k) => {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Geometry that scenes have in common: main axes of points, edges of meshes, the bonds to draw.
+// Geometry that scenes have in common: main axes of points, edges of meshes, the bonds to draw, the pair at a pixel.
 
 /** Returns the main axes of points (x, y, z in a row): three unit vectors, the longest extent first, right-handed. */
 export function main_axes(points) {
@@ -42,6 +42,17 @@ export function quaternion_of([a, b, c]) {
   }
   const s = 2 * Math.sqrt(1 + c[2] - a[0] - b[1]);
   return [(a[2] + c[0]) / s, (b[2] + c[1]) / s, s / 4, (b[0] - a[1]) / s];
+}
+
+/** Returns the pair that is nearest to a pixel and nearer than `within` pixels, or null. place(pair) returns its pixel. */
+export function nearest_pair(pairs, place, px, py, within) {
+  let best = null, least = within;
+  for (const pair of pairs) {
+    const [x, y] = place(pair);
+    const gap = Math.hypot(x - px, y - py);
+    if (gap < least) [best, least] = [pair, gap];
+  }
+  return best;
 }
 
 /** Returns the atoms of the trace: CA of amino acids, P of nucleotides. */

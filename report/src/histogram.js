@@ -3,7 +3,7 @@
 import {axis_name, bottom_axis, cell_cursor, chart_words, left_axis, scale, ticks} from './axes.js';
 import {card, html, on_width, svg} from './dom.js';
 import {length_unit} from './table.js';
-import {counted, decimals_of, fixed, nice_step, pair_words, whole} from './words.js';
+import {counted, decimals_of, fixed, nice_step, pair_words} from './words.js';
 
 const height = 180, left = 44, right = 12, top = 22, bottom = 38;
 
@@ -59,22 +59,4 @@ export function make_histogram(store, report) {
   return card('histogram', report.is_robot ? 'Distances' : 'Overlaps', box, words.line,
               report.is_robot ? null : html('p', {class: 'quiet hint'},
                 'Overlap is the sum of the two radii minus the distance. Choose a bar to list the pairs from there on.'));
-}
-
-/** Returns the number of pairs that each residue of a molecule takes part in, over the shown frames. */
-export function pairs_by_residue(report) {
-  const counts = new Map();
-  for (const frame of report.frames)
-    for (const pair of frame.pairs) {
-      if (!pair.collides) continue;
-      const [a, b] = [report.molecule.of_atom[pair.a], report.molecule.of_atom[pair.b]];
-      counts.set(a, (counts.get(a) ?? 0) + 1);
-      if (b !== a) counts.set(b, (counts.get(b) ?? 0) + 1);
-    }
-  return counts;
-}
-
-/** Returns the words of a number of pairs that a cell of a chart stands for. */
-export function cell_words(label, count) {
-  return `${label}: ${count === 0 ? 'no pair' : `${whole(count)} ${pair_words[count === 1 ? 0 : 1]}`}`;
 }

@@ -4,7 +4,7 @@ import {GLDraw} from '3dmol/src/GLDraw.ts';
 import {GLViewer} from '3dmol/src/GLViewer.ts';
 import {Color} from '3dmol/src/colors.ts';
 import {html, wants_stillness} from './dom.js';
-import {main_axes, quaternion_of, trace_of} from './geometry.js';
+import {main_axes, nearest_pair, quaternion_of, trace_of} from './geometry.js';
 import {clash_color, make_painter} from './molecule_style.js';
 import {make_atoms} from './molecule_atoms.js';
 import {positions_of} from './report.js';
@@ -137,19 +137,12 @@ export function make_molecule_scene(box, report, {store, dark, on_change}) {
     set_dark(now) { viewer.setBackgroundColor(now ? '#141a22' : '#ffffff'); },
     anchors: (pair) => [point(pair.a), point(pair.b)],
     project: (p) => seen(p).slice(0, 2),
-    pick(px, py, nearest) {
-      let best = null, least = nearest;
-      for (const pair of report.frames[store.state.frame].pairs) {
-        const [x, y] = seen(middle(pair));
-        const gap = Math.hypot(x - px, y - py);
-        if (gap < least) [best, least] = [pair, gap];
-      }
-      return best;
-    },
+    pick: (px, py, within) => nearest_pair(report.frames[store.state.frame].pairs, (pair) => seen(middle(pair)), px, py,
+                                           within),
     hover(px, py) {
       let best = -1, least = Infinity;
       atoms.forEach((atom, i) => {
-        if (!painter.is_visible(atom, look)) return;
+        if (!painter.is_visible(atom)) return;
         const [x, y, away] = seen(atom);
         if (Math.hypot(x - px, y - py) < 7 && away < least) [best, least] = [i, away];
       });

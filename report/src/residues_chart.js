@@ -2,11 +2,28 @@
 // The strip of residues: how many colliding pairs each one takes part in, chain by chain.
 import {cell_cursor, chart_words} from './axes.js';
 import {card, html, on_width, svg} from './dom.js';
-import {cell_words, pairs_by_residue} from './histogram.js';
 import {exact_filter} from './store.js';
-import {counted, shortened, whole} from './words.js';
+import {counted, pair_words, shortened, whole} from './words.js';
 
 const row_height = 20, cell_height = 15, left = 74, most_lines = 60;
+
+/** Returns the number of pairs that each residue of a molecule takes part in, over the shown frames. */
+function pairs_by_residue(report) {
+  const counts = new Map();
+  for (const frame of report.frames)
+    for (const pair of frame.pairs) {
+      if (!pair.collides) continue;
+      const [a, b] = [report.molecule.of_atom[pair.a], report.molecule.of_atom[pair.b]];
+      counts.set(a, (counts.get(a) ?? 0) + 1);
+      if (b !== a) counts.set(b, (counts.get(b) ?? 0) + 1);
+    }
+  return counts;
+}
+
+/** Returns the words of a number of pairs that a cell of a chart stands for. */
+function cell_words(label, count) {
+  return `${label}: ${count === 0 ? 'no pair' : counted(count, pair_words)}`;
+}
 
 /** Returns residues by chain. Waters and ligands appear only if they take part in a pair. */
 function chains_of(molecule, counts) {

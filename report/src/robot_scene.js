@@ -7,7 +7,7 @@ import {
 } from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 import {html, wants_stillness} from './dom.js';
-import {creased} from './geometry.js';
+import {creased, nearest_pair} from './geometry.js';
 import {pose_of} from './report.js';
 import {toggle} from './view.js';
 
@@ -254,15 +254,9 @@ export function make_robot_scene(box, report, {store, dark, on_change}) {
     set_dark,
     anchors,
     project,
-    pick(px, py, nearest) {
+    pick(px, py, within) {
       const {pairs} = report.frames[store.state.frame];
-      let best = null, least = nearest;
-      for (const pair of pairs) {
-        if (!pair.points) continue;
-        const [x, y] = project(middle(pair));
-        const gap = Math.hypot(x - px, y - py);
-        if (gap < least) [best, least] = [pair, gap];
-      }
+      const best = nearest_pair(pairs.filter((pair) => pair.points), (pair) => project(middle(pair)), px, py, within);
       if (best) return best;
       const part = part_at(px, py);
       return pairs.find((pair) => pair.a === part || pair.b === part) ?? null;

@@ -85,7 +85,7 @@ function make_labels(scene, report, store, overlay) {
   return {place, show_tip};
 }
 
-function pair_words(report, state) {
+function picture_words(report, state) {
   const list = report.frames[state.frame]?.pairs ?? [];
   const count = list.filter((pair) => pair.collides).length;
   return `Picture of ${report.frames[state.frame].name}. Colliding pairs in it: ${count}.`;
@@ -123,7 +123,7 @@ export function make_view(store, report, make_3d) {
     }, labels.show_tip);
     const show = (state, changes) => {
       if (!('frame' in changes) && !('selected' in changes)) return;
-      stage.setAttribute('aria-label', pair_words(report, state));
+      stage.setAttribute('aria-label', picture_words(report, state));
       scene.show(state);
       if (changes.selected) scene.focus(changes.selected, Boolean(changes.by));
       labels.place();

@@ -174,6 +174,17 @@ describe('pages of the tools', {skip}, () => {
     });
   });
 
+  test('a path that collides opens at its first shown collision', async () => {
+    const path = report('colliding', 'robocd', 'path', urdf, '--srdf', srdf, '--from', 'state:arm/home', '--to',
+                        'state:arm/reach', '--env', `shelf=${shelf}`);
+    await checked(path.file, {}, async (page) => {
+      const [shown, collides] = await page.evaluate(() =>
+        [hingeReport.state.frame, hingeReport.report.frames.map((frame) => frame.collides)]);
+      assert.ok(shown > 0);
+      assert.equal(shown, collides.indexOf(true));
+    });
+  });
+
   test('a matrix of links', async () => {
     const matrix = report('matrix', 'robocd', 'matrix', urdf, '--samples', '200');
     await checked(matrix.file, {}, async (page) => {
