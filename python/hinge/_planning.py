@@ -43,12 +43,16 @@ class Motion:
             raise TypeError(f"step: a {type(step).__name__}, expected a number")
         if not (0 < step and math.isfinite(step)):
             raise ValueError(f"step: {step}, expected a finite number above 0")
-        rows = [self.waypoints[:1]]
-        for a, b in zip(self.waypoints, self.waypoints[1:]):
-            count = max(1, math.ceil(np.abs(b - a).max() / step))
-            between = a + np.arange(1, count)[:, None] / count * (b - a)
-            rows += [between, b[None]]
-        return np.concatenate(rows)
+        return states_along(self.waypoints, lambda a, b: math.ceil(np.abs(b - a).max() / step))
+
+
+def states_along(waypoints, count):
+    """Configurations along a motion, with all waypoints. count(a, b): number of steps from a waypoint to the next."""
+    rows = [waypoints[:1]]
+    for a, b in zip(waypoints, waypoints[1:]):
+        steps = max(1, count(a, b))
+        rows += [a + np.arange(1, steps)[:, None] / steps * (b - a), b[None]]
+    return np.concatenate(rows)
 
 
 def seconds_of(seconds):

@@ -7,13 +7,13 @@ import json
 import numbers
 import os
 import pathlib
-import tempfile
+import threading
 from html import escape
 
 import numpy as np
 
 from . import _core
-from ._planning import Motion
+from ._planning import Motion, states_along
 
 _MOST_FRAMES = 50  # as ReportChoice of the tools
 _MOST_CHARTED = 200_000
@@ -36,19 +36,14 @@ class Report:
         file: a path that ends with .html. Raises ValueError for other names, and OSError if it cannot be written.
         """
         file = pathlib.Path(os.fsdecode(file))
-        if file.suffix.lower() not in (".html", ".htm"):
+        if file.suffix != ".html":
             raise ValueError(f"file: {str(file)!r}, expected a name that ends with .html")
-        handle, temporary = tempfile.mkstemp(prefix=f".{file.name}.", dir=file.parent)
+        temporary = file.with_name(f".{file.name}.{os.getpid()}.{threading.get_ident()}")
         try:
-            with open(handle, "w", encoding="utf-8") as out:
-                out.write(self.html)
-            mask = os.umask(0)
-            os.umask(mask)
-            os.chmod(temporary, 0o666 & ~mask)
-            os.replace(temporary, file)
-        except BaseException:
-            os.unlink(temporary)
-            raise
+            temporary.write_text(self.html, encoding="utf-8")
+            temporary.replace(file)
+        finally:
+            temporary.unlink(missing_ok=True)
 
     def _repr_html_(self):
         return (
@@ -103,14 +98,15 @@ def report(
         )
     if q is not None and coordinates is not None:
         raise TypeError("q and coordinates: both given, expected one of them")
-    given = coordinates if q is None else q
-    if isinstance(given, (list, tuple, np.ndarray, molecular.Trajectory)) and len(given) == 0:
-        raise ValueError(f"{'coordinates' if q is None else 'q'}: empty, expected at least one to show")
     verdict = None
     if isinstance(q, Motion):
         path, verdict = True, _verdict_of_motion(q, Page.length_unit)
-        q = _states(q.waypoints)
+        q = states_along(q.waypoints, lambda a, b: _STATES_OF_A_MOTION // (len(q.waypoints) - 1))
+    if coordinates is None:
+        q = np.atleast_2d(np.zeros(checker.dof) if q is None else np.asarray(q, np.float64))
     page = Page(checker, q, coordinates, float(within), threads)
+    if page.count == 0:
+        raise ValueError(f"{'q' if coordinates is None else 'coordinates'}: empty, expected at least one to show")
     choice = _choose(page, bool(path))
     word = page.frame_word
     if names is not None and len(names) != page.count:
@@ -171,15 +167,6 @@ def _verdict_of_motion(motion, unit):
         return {"state": "free", "text": f"a motion was found, {motion.length:.3f} {unit} long, proved free"}
     text = f"no motion was found; the nearest that was reached is {motion.remaining:.3f} {unit} from the end"
     return {"state": "undecided", "text": text}
-
-
-def _states(waypoints):
-    """About 200 states along a motion, with all waypoints."""
-    steps = max(1, _STATES_OF_A_MOTION // max(1, len(waypoints) - 1))
-    rows = [waypoints[:1]]
-    for a, b in zip(waypoints, waypoints[1:]):
-        rows += [a + np.arange(1, steps)[:, None] / steps * (b - a), b[None]]
-    return np.concatenate(rows)
 
 
 def _choose(page, is_path):

@@ -183,6 +183,8 @@ def test_files_are_complete_or_absent(tmp_path):
     assert [f.name for f in tmp_path.iterdir()] == ["a.html"]
     with pytest.raises(ValueError, match="ends with .html"):
         page.save(tmp_path / "a.txt")
+    with pytest.raises(ValueError, match="ends with .html"):
+        page.save(tmp_path / "a.htm")
     with pytest.raises(OSError):
         page.save(tmp_path / "nowhere" / "a.html")
     assert page._repr_html_().startswith("<iframe") and "MB" in repr(page)

@@ -22,15 +22,11 @@ class MoleculePage:
         self._checker, self._within, self._threads = checker, within, threads
         self._molecule = checker.molecule
         self.title = self._molecule.name
-        self._x = coordinates
-        if coordinates is None:
-            self._q = np.atleast_2d(np.zeros(checker.dof) if q is None else np.asarray(q, np.float64))
-            self.count = len(self._q)
-        else:
-            if not isinstance(coordinates, Trajectory):
-                self._x = np.asarray(coordinates, np.float64)
-                self._x = self._x[None] if self._x.ndim == 2 else self._x
-            self.count = len(self._x)
+        self._q, self._x = q, coordinates
+        if coordinates is not None and not isinstance(coordinates, Trajectory):
+            self._x = np.asarray(coordinates, np.float64)
+            self._x = self._x[None] if self._x.ndim == 2 else self._x
+        self.count = len(q if coordinates is None else self._x)
 
     def _pairs(self, first, last, within):
         if self._x is None:

@@ -32,8 +32,7 @@ class RobotPage:
         self._checker, self._within, self._threads = checker, within, threads
         self._robot, self._environment = checker.robot, checker.environment
         self.title = self._robot.name or "robot"
-        self._q = np.atleast_2d(np.zeros(checker.dof) if q is None else np.asarray(q, np.float64))
-        self.count = len(self._q)
+        self._q, self.count = q, len(q)
         bodies = list(self._environment.names) if self._environment is not None else []
         holders = {name: self._environment.attached_to(name) for name in bodies}
         # A body that a link of this robot holds is drawn as one more link.
@@ -99,7 +98,8 @@ class RobotPage:
         total = sum(map(len, [*links, *held_surfaces, *surfaces]))
         columns = self._robot.joints
         is_prismatic = dict(zip(columns["name"].tolist(), columns["type"] == "prismatic"))
-        moves = _moving(self._robot)
+        groups = self._robot.links["group"]  # the root is fixed to the world
+        moves = dict(zip(self._robot.link_names, groups != groups[0]))
         robot = {
             "links": [
                 {**_mesh(surface, total), "name": name, "moves": int(moves[name])}
@@ -165,16 +165,6 @@ class RobotPage:
                 ]
             )
         return rows, len(found) - len(rows)
-
-
-def _moving(robot):
-    """Whether a joint moves the link, by name."""
-    moves = {}
-    joint_of = {str(joint["child"]): joint for joint in robot.joints}
-    for name, parent in zip(robot.link_names, robot.links["parent"]):  # parents come first
-        joint = joint_of.get(name)
-        moves[name] = moves.get(str(parent), False) or (joint is not None and joint["type"] != "fixed")
-    return moves
 
 
 def _mesh(triangles, total):
