@@ -2,11 +2,8 @@
 // Robots for tests: the ten shared robots, if present, and temporary folders.
 #pragma once
 
-#include <unistd.h>
-
 #include <cstddef>
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <sstream>
 #include <string>
