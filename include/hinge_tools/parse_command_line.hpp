@@ -21,6 +21,7 @@
 #include "hinge_tools/nearest_word.hpp"
 #include "hinge_tools/option_text.hpp"
 #include "hinge_tools/run_tool.hpp"
+#include "hinge_tools/settings_file.hpp"
 
 namespace hinge::tool {
 
@@ -85,6 +86,41 @@ inline std::string reason(const CLI::ParseError& error) {
                    (near.empty() ? "." : "; did you mean '" + near + "'?") + " See '" + full + " --help'");
 }
 
+inline bool knows(const CLI::App& command, const std::string& name) {
+  const std::vector<std::string> known = option_names_of(command);
+  return std::ranges::find(known, name) != known.end();
+}
+
+/// Returns the arguments with the options of the files of --settings behind them. An option that only other commands of
+/// the tool have is left out with a note. Throws LoadError for an option that no command has, ModelError for one that
+/// the arguments give, too.
+inline std::vector<std::string> with_settings(const CLI::App& tool, const CLI::App& command,
+                                              std::vector<std::string> arguments) {
+  constexpr std::string_view option = "--settings";
+  if (!knows(command, std::string(option))) return arguments;
+  const auto name_of = [](const std::string& argument) { return argument.substr(0, argument.find('=')); };
+  const std::vector<std::string> given = arguments;
+  for (std::size_t k = 0; k < given.size(); ++k) {
+    if (name_of(given[k]) != option || (given[k] == option && k + 1 == given.size())) continue;
+    const std::string file = given[k] == option ? given[k + 1] : given[k].substr(option.size() + 1);
+    for (const SettingsLine& line : read_settings(file)) {
+      const std::string &name = line.words[0], where = file + ":" + std::to_string(line.line);
+      if (!knows(command, name)) {
+        const auto commands = commands_of(tool);
+        if (std::ranges::none_of(commands, [&](const CLI::App* other) { return knows(*other, name); }))
+          throw LoadError(where + ": unknown option '" + name + "' of '" + tool.get_name() + "'");
+        std::fprintf(stderr, "note: %s: '%s %s' has no option %s, so it is left out\n", where.c_str(),
+                     tool.get_name().c_str(), command.get_name().c_str(), name.c_str());
+        continue;
+      }
+      if (std::ranges::any_of(given, [&](const std::string& argument) { return name_of(argument) == name; }))
+        throw ModelError(name + " is given on the command line and in " + where + ", expected one of the two");
+      arguments.insert(arguments.end(), line.words.begin(), line.words.end());
+    }
+  }
+  return arguments;
+}
+
 }  // namespace command_line
 
 /// Parses the arguments (without the name of the program) for a tool that add_general_options() prepared. Returns
@@ -122,6 +158,7 @@ inline std::optional<Exit> parse_command_line(CLI::App& tool, std::vector<std::s
   const std::vector<std::string> known = command_line::names(tool);
   if (word != arguments.end() && std::ranges::find(known, *word) == known.end())
     command_line::refuse_command(tool, *word);
+  if (word != arguments.end()) arguments = command_line::with_settings(tool, *tool.get_subcommand(*word), arguments);
   try {
     std::ranges::reverse(arguments);  // the parser takes them in reverse order
     tool.parse(std::move(arguments));

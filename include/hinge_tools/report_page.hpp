@@ -3,16 +3,12 @@
 // of the data.
 #pragma once
 
-#include <sha2.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cerrno>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -23,7 +19,9 @@
 #include "hinge/core/error.hpp"
 #include "hinge/version.hpp"
 #include "hinge_tools/complete_file.hpp"
+#include "hinge_tools/digest.hpp"
 #include "hinge_tools/json_text.hpp"
+#include "hinge_tools/settings_file.hpp"
 
 namespace hinge::tool {
 
@@ -32,6 +30,9 @@ namespace hinge::tool {
 std::span<const std::string_view> molecule_page();
 /// The same for robots.
 std::span<const std::string_view> robot_page();
+
+/// The same for measured choices.
+std::span<const std::string_view> dial_page();
 
 /// What a report says in words.
 struct ReportWords {
@@ -78,17 +79,6 @@ std::string packed(const std::vector<Number>& numbers) {
   return base64(bytes);
 }
 
-/// Returns the SHA-256 digest of a file in hexadecimal digits, as sha256sum prints it; empty for what is not a regular
-/// file, because a pipe can be read only once. Throws LoadError if the file cannot be read.
-inline std::string sha256_of(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return {};
-  std::array<char, SHA256_DIGEST_STRING_LENGTH> digest{};
-  if (SHA256File(path.c_str(), digest.data()) == nullptr)
-    throw LoadError(path + ": cannot be read: " + std::strerror(errno));
-  return digest.data();
-}
-
 /// Returns the part of the data that molecules and robots share.
 template <class Json>
 Json report_head(const ReportWords& words, const char* kind) {
@@ -125,19 +115,8 @@ void write_report_page(CompleteFile& file, std::span<const std::string_view> pag
 
 /// Returns the command line as one would type it in a shell.
 inline std::string command_text(const char* tool, int argc, char** argv) {
-  constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=./,:@%^";
   std::string text = tool;
-  for (int k = 1; k < argc; ++k) {
-    const std::string_view word = argv[k];
-    text += ' ';
-    if (!word.empty() && word.find_first_not_of(plain) == std::string_view::npos) {
-      text += word;
-      continue;
-    }
-    text += '\'';
-    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    text += '\'';
-  }
+  for (int k = 1; k < argc; ++k) text += ' ' + shell_quoted(argv[k]);
   return text;
 }
 
