@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes dist/molecule.html and dist/robot.html: program, style and licences in one file each. The tools put their data
+// Makes dist/molecule.html, dist/robot.html and dist/dial.html: program, style and licences in one file each. The tools put their data
 // at @HINGE_REPORT_DATA@. Also writes THIRD-PARTY.txt. Argument: the folder to write to (default: this one).
 import {createHash} from 'node:crypto';
 import {mkdirSync, readdirSync, readFileSync, writeFileSync} from 'node:fs';
@@ -62,7 +62,7 @@ function fill(template, values) {
 const style = (await transform(read('src', 'page.css'), {loader: 'css', minify: true, charset: 'ascii'})).code.trim();
 const all_inputs = new Set();
 mkdirSync(join(out, 'dist'), {recursive: true});
-for (const page of ['molecule', 'robot']) {
+for (const page of ['molecule', 'robot', 'dial']) {
   const {script, inputs} = await bundle(page);
   inputs.forEach((input) => all_inputs.add(input));
   const text = fill(read('src', 'page.html'), {

@@ -5,32 +5,19 @@ import {make_facts, make_footer, make_header} from './header.js';
 import {make_frames_bar} from './frames_bar.js';
 import {make_frames_chart} from './frames_chart.js';
 import {make_histogram} from './histogram.js';
+import {no_data, read_data, ready} from './page_data.js';
 import {read_report} from './report.js';
 import {make_store} from './store.js';
 import {make_table} from './table.js';
 import {make_view} from './view.js';
 import {capital} from './words.js';
 
-function read_data() {
-  try {
-    const raw = JSON.parse(document.getElementById('hinge-data').textContent);
-    return raw.format === 'hinge-report' && raw.format_version === 1 ? raw : null;
-  } catch {
-    return null;
-  }
-}
-
-function ready() {
-  requestAnimationFrame(() => { document.documentElement.dataset.ready = 'true'; });
-}
-
 /** Fills the page. make_scene draws in 3D; make_chart returns the card that only molecules or only robots have. */
 export function start(make_scene, make_chart) {
   const page = document.getElementById('page');
   const raw = read_data();
   if (!raw) {
-    page.append(html('p', {class: 'empty'}, 'This page holds no data that it can read. ' +
-                                            'Make it again with the tool that wrote it.'));
+    page.append(no_data());
     return ready();
   }
   const report = read_report(raw);

@@ -17,12 +17,13 @@ async function copy(text, element, copied) {
   }
 }
 
-function command_line(raw) {
-  const code = html('code', {tabindex: '0'}, raw.command);
-  const copier = button('Copy', () => copy(raw.command, code, (word) => {
+/** Returns a line of code with a button that copies it. */
+export function copied_line(text, title) {
+  const code = html('code', {tabindex: '0'}, text);
+  const copier = button('Copy', () => copy(text, code, (word) => {
     copier.textContent = word;
     setTimeout(() => { copier.textContent = 'Copy'; }, 1500);
-  }), {title: 'Copy the command'});
+  }), {title});
   copier.setAttribute('aria-live', 'polite');
   return html('div', {class: 'command'}, code, copier);
 }
@@ -39,7 +40,7 @@ export function make_header(raw) {
         html('p', {class: 'source'}, html('strong', {title: raw.title}, raw.title),
              html('span', {}, [raw.tool, raw.version].filter(Boolean).join(' ')),
              notes > 0 ? html('a', {href: '#notes'}, counted(notes, ['note', 'notes'])) : null))),
-    raw.command ? command_line(raw) : null);
+    raw.command ? copied_line(raw.command, 'Copy the command') : null);
 }
 
 function make_notes(notes) {
