@@ -2,6 +2,7 @@
 // The question asked for every configuration, and the answer of a worker.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,6 +26,9 @@ struct Answer {
   std::vector<hinge::robotics::LinkContainment> contained;
   std::vector<hinge::robotics::BodyContainment> contained_bodies;
 };
+
+/// Configurations that one call of check_batch() tests.
+inline constexpr std::size_t block_size = 64;
 
 /// The data of one thread. Copies share constant data.
 struct Worker {

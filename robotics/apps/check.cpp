@@ -46,7 +46,6 @@ struct Summary {
   }
 };
 
-constexpr std::size_t block_size = 64;   // configurations that one call of check_batch() tests
 constexpr std::size_t shown_pairs = 10;  // of a summary; longer lists are not read
 
 void print_json_start(const Options& options, const Job& job, const Mode& mode) {
@@ -94,7 +93,7 @@ Exit run_check(const Options& options) {
   Worker worker = make_worker(options, job);
   const bool sampled = options.count > 0;
   if (!sampled)
-    for (const std::string& note : notes_on_limits(configurations, *job.robot)) job.notes.push_back(note);
+    for (const std::string& note : notes_on_limits(configurations, options, *job.robot)) job.notes.push_back(note);
   for (const std::string& note : configurations.notes) job.notes.push_back(note);
   for (const std::string& note : notes_on_bodies(options, worker)) job.notes.push_back(note);
   print_notes(job);

@@ -74,7 +74,8 @@ Configurations find_configurations(const Options& options, const Job& job) {
   return {1, [q = join_states("--state", options.states, options, job)](std::size_t) { return q; }};
 }
 
-std::vector<std::string> notes_on_limits(const Configurations& configurations, const Robot& robot) {
+std::vector<std::string> notes_on_limits(const Configurations& configurations, const Options& options,
+                                         const Robot& robot) {
   std::size_t outside = 0;
   std::string first;
   for (std::size_t k = 0; k < configurations.count; ++k) {
@@ -91,6 +92,8 @@ std::vector<std::string> notes_on_limits(const Configurations& configurations, c
     outside += inside ? 0 : 1;
   }
   if (outside == 0) return {};
+  if (!options.proved_apart.empty())
+    throw hinge::LoadError("--proved-apart leaves out pairs that are apart within the joint limits only: " + first);
   return {fmt::format("{} of {} configurations are outside the joint limits: {}", outside, configurations.count,
                       outside > 1 ? "first, " + first : first)};
 }

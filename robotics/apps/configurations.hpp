@@ -32,8 +32,10 @@ std::vector<double> join_states(const char* option, const std::vector<std::strin
                                 const Job& job);
 
 /// Returns a sentence with the number of configurations outside the joint limits and the first of them, or nothing if
-/// all are inside. Such configurations are checked nevertheless.
-std::vector<std::string> notes_on_limits(const Configurations& configurations, const hinge::robotics::Robot& robot);
+/// all are inside. Such configurations are checked nevertheless, except with --proved-apart: its pairs are proved apart
+/// within the limits only, so then they are a LoadError.
+std::vector<std::string> notes_on_limits(const Configurations& configurations, const Options& options,
+                                         const hinge::robotics::Robot& robot);
 
 /// Writes the first line and a row of a file for --csv-in. q: one value per independent joint.
 void write_header(std::ostream& out, const hinge::robotics::Robot& robot);

@@ -34,11 +34,12 @@ HelpTexts help_texts() {
   texts.commands["relax"] = {{"Units", "Pairs", "Exit status"},
                              {"robocd relax" + arm + srdf + " --from 0,2.8,2.6,0,0,0",
                               "robocd relax" + arm + " --from 0,0.6,1.2,0,0.4,0 --env robotics/data/shelf.obj"}};
-  texts.commands["plan"] = {
-      {"Units", "Pairs", "Exit status"},
-      {"robocd plan" + arm + srdf + " --from state:arm/home --to state:arm/reach",
-       "robocd plan" + arm + srdf +
-           " --env robotics/data/shelf.obj --from state:arm/home --to state:arm/reach --out m.csv"}};
+  texts.commands["plan"] = {{"Units", "Pairs", "Exit status"},
+                            {"robocd plan" + arm + " --from zero --to 0,0.5,0,0,0,0",
+                             "robocd plan" + arm + " --from zero --to 1,0,0,0,0,0 --step 0.1 --out m.csv"}};
+  texts.commands["dial"] = {{"Units", "Pairs"},
+                            {"robocd dial" + arm + " --time 2 --apply arm.settings",
+                             "robocd dial" + arm + " --time 2 --extremes --report dial.html"}};
   texts.commands["matrix"] = {{"Units", "Pairs"},
                               {"robocd matrix" + arm + " --samples 1000",
                                "robocd matrix" + arm + " --samples 1000 --disable-unseen --out matrix.srdf"}};

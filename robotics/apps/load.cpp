@@ -11,11 +11,14 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/robotics/read_urdf.hpp"
 #include "hinge/robotics/solid_meshes.hpp"
 #include "hinge/robotics/tessellate.hpp"
 #include "hinge/robotics/tested_pairs.hpp"
+#include "hinge/robotics/tiers.hpp"
 #include "hinge_tools/check_output.hpp"
+#include "hinge_tools/digest.hpp"
 #include "options.hpp"
 #include "path_end.hpp"
 
@@ -28,9 +31,11 @@ void check_outputs(const Options& options) {
   for (const std::string& end : {options.from, options.to})
     if (end.starts_with('@')) inputs.push_back(file_of_end(end).first);
   inputs.insert(inputs.end(), options.skip_pairs.begin(), options.skip_pairs.end());
+  inputs.insert(inputs.end(), options.settings.begin(), options.settings.end());
   for (const std::string& body : options.environment) inputs.push_back(parse_body(body).file);
   hinge::tool::check_output("--out", options.out, inputs);
   hinge::tool::check_report(options.report, options.out, inputs);
+  hinge::tool::check_output("--apply", options.apply, inputs);
 }
 
 namespace {
@@ -86,6 +91,42 @@ void read_allowed(const Options& options, Job& job) {
   }
 }
 
+/// Reads the words of --tier. Throws ModelError for a bad word, and for a link or "all links" named twice.
+Tiers read_tiers(const Options& options) {
+  Tiers tiers;
+  bool has_all = false;
+  for (const std::string& word : options.tiers) {
+    const std::size_t equals = word.rfind('=');
+    try {
+      const bool is_new = equals == std::string::npos
+                              ? !std::exchange(has_all, true)
+                              : tiers.links.emplace(word.substr(0, equals), tier_named(word.substr(equals + 1))).second;
+      if (equals == std::string::npos) tiers.all = tier_named(word);
+      if (!is_new)
+        throw hinge::ModelError(equals == std::string::npos ? "a second tier for all links, expected LINK=TIER"
+                                                            : "the link has a tier already");
+    } catch (const hinge::ModelError& error) {
+      throw hinge::ModelError("--tier '" + word + "': " + error.what());
+    }
+  }
+  return tiers;
+}
+
+/// Leaves out the pairs of --proved-apart. Throws ModelError for an unknown link, LoadError for another model.
+void read_proved(const Options& options, Job& job) {
+  if (!options.made_for.empty() && options.made_for != model_digest(options, *job.robot))
+    throw hinge::LoadError(
+        "--made-for: the settings were made for another URDF file, mesh, --clearance, --contained or --primitives; "
+        "'robocd dial --apply FILE' makes new ones");
+  for (const auto& [a, b] : options.proved_apart) {
+    const auto first = job.robot->find_link(a), second = job.robot->find_link(b);
+    if (!first || !second)
+      throw hinge::ModelError("--proved-apart " + a + " " + b + ": robot '" + job.robot->name() + "' has no link '" +
+                              (first ? b : a) + "'");
+    job.disabled.insert(*first, *second);
+  }
+}
+
 /// A floating robot may be anywhere, so with bodies of the world the user must choose its base.
 void check_floating_base(const Options& options, const RobotDescription& robot) {
   const std::string joint = options.urdf + ": joint '" + robot.floating_base + "' is a floating base";
@@ -98,6 +139,17 @@ void check_floating_base(const Options& options, const RobotDescription& robot) 
 }
 
 }  // namespace
+
+std::string model_digest(const Options& options, const Robot& robot) {
+  std::string text = "robot " + hinge::tool::sha256_of(options.urdf) + '\n';
+  for (const LinkDescription& link : robot.description().links)
+    for (const PlacedShape& placed : link.geometry)
+      if (const auto* mesh = std::get_if<MeshShape>(&placed.shape); mesh != nullptr && !mesh->file.empty())
+        text += "mesh " + hinge::tool::sha256_of(mesh->file) + '\n';
+  text += "clearance " + hinge::number_text(options.clearance) + " contained " + (options.contained ? "1" : "0") +
+          " primitives " + (options.reference_primitives ? "reference" : "exact") + '\n';
+  return hinge::tool::sha256_of_text(text);
+}
 
 std::shared_ptr<const Robot> load_robot(const Options& options, std::vector<std::string>& notes) {
   const std::filesystem::path path = options.urdf;
@@ -120,6 +172,14 @@ std::shared_ptr<const Robot> load_robot(const Options& options, std::vector<std:
   hinge::tool::check_output("--report", options.report, meshes);
   if (options.contained)
     for (std::string& note : fill_closed_meshes(description)) notes.push_back(std::move(note));
+  if (!options.tiers.empty()) {
+    try {
+      description = with_tiers(std::move(description), read_tiers(options));
+    } catch (const hinge::ModelError& error) {
+      throw hinge::ModelError(std::string(error.what()).starts_with("--") ? error.what()
+                                                                          : "--tier: " + std::string(error.what()));
+    }
+  }
   try {
     return std::make_shared<const Robot>(std::move(description), tessellation);
   } catch (const hinge::ModelError& error) {  // the fault is in the file, not in the command line
@@ -137,6 +197,7 @@ Job load(const Options& options) {
   job.disabled = job.srdf.disabled;
   job.notes.insert(job.notes.end(), job.srdf.notes.begin(), job.srdf.notes.end());
   read_allowed(options, job);
+  read_proved(options, job);
   job.tested = tested_pairs(*job.robot, job.disabled);
   return job;
 }

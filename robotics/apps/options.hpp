@@ -32,6 +32,10 @@ struct Options {
   bool reference_primitives = false;         // tessellate as in the published reference data
   std::vector<std::string> package_folders;  // for package://
   bool skip_missing_meshes = false;          // continue with an incomplete model
+  std::vector<std::string> tiers;            // "TIER" for all links, "LINK=TIER" for one
+  std::vector<std::pair<std::string, std::string>> proved_apart;  // links that never meet within the joint limits
+  std::string made_for;               // digest of the model that proved_apart was found for; empty: not given
+  std::vector<std::string> settings;  // files whose options the parser has added
   Output output = Output::table;
   std::optional<std::uint64_t> max_pairs;  // check, path: pairs printed per configuration, 0: all; empty: see
                                            // hinge::tool::pairs_to_print
@@ -64,7 +68,13 @@ struct Options {
   // matrix
   hinge::robotics::MatrixOptions matrix;  // its clearance is replaced by `clearance` above
   bool disable_unseen = false;
-  std::string report;        // check, path, relax, plan, matrix: HTML page to write; empty: none
+  // dial: configurations as for check, and
+  double dial_seconds = 60.0;
+  std::optional<std::uint64_t> dial_count;          // empty: as many as the time allows
+  double false_accepts = 0.0, false_rejects = 1.0;  // percent, largest that a recommendation may have
+  bool extremes = false;
+  std::string apply;         // settings file to write; empty: none
+  std::string report;        // check, path, relax, plan, matrix, dial: HTML page to write; empty: none
   std::string command_line;  // as typed, for the page
   // check, relax, plan: CSV file of the configurations, empty: none; matrix: SRDF file, empty: standard output; demo:
   // SVG file
@@ -95,6 +105,9 @@ std::shared_ptr<const hinge::robotics::Robot> load_robot(const Options& options,
 /// not fit the robot or each other.
 Job load(const Options& options);
 
+/// Returns a digest of the URDF file, its meshes, and the options on which proofs about pairs of links depend.
+std::string model_digest(const Options& options, const hinge::robotics::Robot& robot);
+
 /// Prints job.notes on standard error.
 void print_notes(const Job& job);
 
@@ -110,6 +123,7 @@ Exit run_matrix(const Options& options);
 Exit run_path(const Options& options);
 Exit run_relax(const Options& options);
 Exit run_plan(const Options& options);
+Exit run_dial(const Options& options);
 Exit run_demo(const Options& options);
 
 }  // namespace robocd

@@ -157,7 +157,7 @@ Exit run_path(const Options& options) {
   asked.waypoints = read_waypoints(options, job);
   Worker worker = make_worker(options, job);
   const Configurations all{asked.waypoints.size(), [&](std::size_t k) { return asked.waypoints[k]; }};
-  for (const std::string& note : notes_on_limits(all, *job.robot)) job.notes.push_back(note);
+  for (const std::string& note : notes_on_limits(all, options, *job.robot)) job.notes.push_back(note);
   for (const std::string& note : notes_on_bodies(options, worker)) job.notes.push_back(note);
   print_notes(job);
 

@@ -89,7 +89,7 @@ Exit run_plan(const Options& options) {
   const std::vector<double> to = read_path_end("--to", options.to, options, job);
   Worker worker = make_worker(options, job);
   const Configurations given{2, [&](std::size_t k) { return k == 0 ? from : to; }};
-  for (const std::string& note : notes_on_limits(given, *job.robot)) job.notes.push_back(note);
+  for (const std::string& note : notes_on_limits(given, options, *job.robot)) job.notes.push_back(note);
   for (const std::string& note : notes_on_bodies(options, worker)) job.notes.push_back(note);
   print_notes(job);
   hinge::tool::CompleteFile file(options.out);

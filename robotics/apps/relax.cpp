@@ -47,7 +47,7 @@ Exit run_relax(const Options& options) {
   const std::vector<double> start = read_path_end("--from", options.from, options, job);
   Worker worker = make_worker(options, job);
   const Configurations given{1, [&](std::size_t) { return std::vector<double>(start); }};
-  for (const std::string& note : notes_on_limits(given, *job.robot)) job.notes.push_back(note);
+  for (const std::string& note : notes_on_limits(given, options, *job.robot)) job.notes.push_back(note);
   for (const std::string& note : notes_on_bodies(options, worker)) job.notes.push_back(note);
   print_notes(job);
   hinge::tool::CompleteFile file(options.out);

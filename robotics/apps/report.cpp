@@ -97,10 +97,12 @@ Json pair_json(const Finding& f, const char* second_key) {
   return json;
 }
 
-std::string robot_text(const Robot& robot) {
-  return fmt::format("{}, {} with geometry, {} ({} degenerate){}", counted(robot.link_count() - 1, "link"),
+std::string robot_text(const Options& options, const Robot& robot) {
+  std::string tiers;
+  for (const std::string& word : options.tiers) tiers += (tiers.empty() ? "; tiers: " : ", ") + word;
+  return fmt::format("{}, {} with geometry, {} ({} degenerate){}{}", counted(robot.link_count() - 1, "link"),
                      links_with_geometry(robot), counted(robot.model().size(), "triangle"), robot.degenerate_count(),
-                     incomplete(robot));
+                     tiers, incomplete(robot));
 }
 
 std::string tested_text(const Job& job) {
@@ -127,6 +129,7 @@ Json robot_json(const Options& options, const Job& job) {
               {"rigid_groups", rigid_groups(robot)},
               {"disabled_pairs", job.disabled.size()},
               {"tested_pairs", job.tested.size()},
+              {"tiers", options.tiers},
               {"primitives", options.reference_primitives ? "reference" : "exact"},
               {"incomplete_links", robot.description().incomplete}};
 }
@@ -222,7 +225,8 @@ std::vector<std::pair<std::string, std::string>> named_pairs(const Worker& worke
 
 std::vector<std::pair<std::string, std::string>> question_words(const Options& options, const Job& job) {
   const Robot& robot = *job.robot;
-  std::vector<std::pair<std::string, std::string>> words{{"Robot", robot_text(robot)}, {"Tested", tested_text(job)}};
+  std::vector<std::pair<std::string, std::string>> words{{"Robot", robot_text(options, robot)},
+                                                         {"Tested", tested_text(job)}};
   words.emplace_back("A pair collides if", options.clearance > 0.0
                                                ? fmt::format("it touches or is closer than {} m", options.clearance)
                                                : std::string("it touches"));
@@ -235,7 +239,7 @@ std::vector<std::pair<std::string, std::string>> question_words(const Options& o
 }
 
 std::string heading(const Options& options, const Job& job) {
-  return fmt::format("{}: robot '{}', {}\n{}\n", options.urdf, job.robot->name(), robot_text(*job.robot),
+  return fmt::format("{}: robot '{}', {}\n{}\n", options.urdf, job.robot->name(), robot_text(options, *job.robot),
                      tested_text(job));
 }
 

@@ -71,6 +71,13 @@ Exit run(int argc, char** argv) {
   robocd::add_plan_options(*plan, o);
   plan->callback([&] { command = robocd::run_plan; });
 
+  CLI::App* dial =
+      app.add_subcommand("dial", "measure what each choice costs and gets wrong on this robot, and recommend one");
+  robocd::add_robot_options(*dial, o);
+  robocd::add_pair_options(*dial, o);
+  robocd::add_dial_options(*dial, o);
+  dial->callback([&] { command = robocd::run_dial; });
+
   CLI::App* demo =
       app.add_subcommand("demo", "demonstrate the library on one robot: time, verify, prove a motion, draw");
   robocd::add_robot_options(*demo, o);

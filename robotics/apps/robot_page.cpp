@@ -72,6 +72,19 @@ Json mesh_json(const Triangles& triangles, std::size_t all) {
 
 }  // namespace
 
+hinge::tool::ReportWords page_words(const Options& options, const Job& job) {
+  hinge::tool::ReportWords words;
+  words.title = job.robot->name().empty() ? options.urdf : job.robot->name();
+  words.command = options.command_line;
+  words.tool = words.command.substr(0, words.command.find(' ', words.command.find(' ') + 1));
+  words.question = question_words(options, job);
+  words.files = {options.urdf};
+  if (!options.srdf.empty()) words.files.push_back(options.srdf);
+  words.files.insert(words.files.end(), options.settings.begin(), options.settings.end());
+  words.notes = job.notes;
+  return words;
+}
+
 RobotPage::RobotPage(const Options& options, const Job& job, Worker& worker, const Mode& mode, bool is_path)
     : options_(options),
       job_(job),
@@ -160,16 +173,9 @@ void RobotPage::set_matrix(const CollisionMatrix& matrix, const std::vector<std:
 void RobotPage::write(const char* state, const std::string& verdict) {
   if (!wanted()) return;
   const Robot& robot = *job_.robot;
-  hinge::tool::ReportWords words;
-  words.title = robot.name().empty() ? options_.urdf : robot.name();
-  words.command = options_.command_line;
-  words.tool = words.command.substr(0, words.command.find(' ', words.command.find(' ') + 1));
+  hinge::tool::ReportWords words = page_words(options_, job_);
   words.state = state;
   words.verdict = verdict + incomplete(robot);
-  words.question = question_words(options_, job_);
-  words.files = {options_.urdf};
-  if (!options_.srdf.empty()) words.files.push_back(options_.srdf);
-  words.notes = job_.notes;
   words.is_path = is_path_;
   words.numbers_from = is_path_ ? 1 : 0;
   words.frame_word = {"configuration", "configurations"};

@@ -18,6 +18,9 @@
 
 namespace robocd {
 
+/// Returns what a page says about the command, the question and the files; without a verdict.
+hinge::tool::ReportWords page_words(const Options& options, const Job& job);
+
 /// Collects what the page shows. Does nothing without --report. Refers to the options, the job and the worker.
 class RobotPage {
  public:

@@ -105,9 +105,17 @@ void add_search_options(CLI::App& command, Options& o, std::uint64_t& tries, con
 
 }  // namespace
 
+void add_closeness_options(CLI::App& command, Options& o) {
+  add_clearance_option(command, o);
+  add_contained_option(command, o);
+}
+
 void add_robot_options(CLI::App& command, Options& o) {
   command.option_defaults()->group(title::input);
   command.add_option("URDF", o.urdf, "robot description with meshes in STL, OBJ, DAE or PLY")->required();
+  repeatable(command.add_option("--settings", o.settings,
+                                "file of more options, one per line, as dial --apply writes it (repeatable)"),
+             "FILE");
   repeatable(command.add_option("--package-path", o.package_folders,
                                 "folder of packages for package://, searched before ROS_PACKAGE_PATH and "
                                 "AMENT_PREFIX_PATH (repeatable)"),
@@ -124,6 +132,11 @@ void add_robot_options(CLI::App& command, Options& o) {
       "exact (default): exact spheres and capsules, cylinders enclosed to 1 mm; reference: inscribed meshes of 32 "
       "sides "
       "per cylinder and 320 triangles per sphere");
+  repeatable(command.add_option("--tier", o.tiers,
+                                "shapes of all links, or of one link: mesh (default: as in the URDF), hull, capsule or "
+                                "spheres; all but mesh enclose the link, so no contact of surfaces is missed "
+                                "(repeatable)"),
+             "[LINK=]TIER");
 }
 
 void add_pair_options(CLI::App& command, Options& o) {
@@ -133,6 +146,15 @@ void add_pair_options(CLI::App& command, Options& o) {
                                 "text file of more disabled pairs; each line names two links, or a link and a body of "
                                 "--env (repeatable)"),
              "FILE");
+  repeatable(command.add_option("--proved-apart", o.proved_apart,
+                                "leave out this pair of links, which never meets within the joint limits; "
+                                "configurations outside the limits are refused (repeatable)"),
+             "LINK LINK");
+  command
+      .add_option("--made-for", o.made_for,
+                  "digest of the model for which --proved-apart was found, as dial --apply writes it; another model is "
+                  "refused")
+      ->type_name("DIGEST");
 }
 
 void add_json_option(CLI::App& command, Options& o) {
@@ -163,8 +185,7 @@ void add_check_options(CLI::App& command, Options& o) {
       command, o.mode, "metres",
       "any: yes or no; all: list colliding pairs; within:D: list pairs closer than the clearance + D metres; "
       "closest: the pair with the smallest distance");
-  add_clearance_option(command, o);
-  add_contained_option(command, o);
+  add_closeness_options(command, o);
   add_environment_option(command, o);
   command.option_defaults()->group(title::performance);
   command.add_option("--engine", o.engine, "simd, lazy (the paper's) or brute (every pair)")
@@ -193,8 +214,7 @@ void add_matrix_options(CLI::App& command, Options& o) {
   add_number(command, "--cells", o.matrix.cells, numbers,
              "largest number of boxes of joint values that a proof may use per pair; 0: no proofs");
   command.option_defaults()->group(title::question);
-  add_clearance_option(command, o);
-  add_contained_option(command, o);
+  add_closeness_options(command, o);
   command.option_defaults()->group(title::output);
   command.add_flag("--disable-unseen", o.disable_unseen,
                    "also disable pairs that were not seen in collision, although this is not a proof");

@@ -10,8 +10,10 @@ namespace robocd {
 
 /// Adds URDF and the options about reading it.
 void add_robot_options(CLI::App& command, Options& o);
-/// Adds --srdf and --skip-pairs.
+/// Adds the options about tested pairs.
 void add_pair_options(CLI::App& command, Options& o);
+/// Adds --clearance and --contained.
+void add_closeness_options(CLI::App& command, Options& o);
 /// Adds --json.
 void add_json_option(CLI::App& command, Options& o);
 /// Adds the bodies around the robot.
@@ -22,5 +24,6 @@ void add_matrix_options(CLI::App& command, Options& o);
 void add_path_options(CLI::App& command, Options& o);
 void add_relax_options(CLI::App& command, Options& o);
 void add_plan_options(CLI::App& command, Options& o);
+void add_dial_options(CLI::App& command, Options& o);
 
 }  // namespace robocd

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Implements find_extremes().
+#include "dial_extremes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "float_triangle.hpp"
+#include "hinge/core/error.hpp"
+#include "hinge/core/id.hpp"
+#include "hinge/robotics/link_margins.hpp"
+#include "hinge/robotics/random_configuration.hpp"
+#include "hinge/robotics/robot_checker.hpp"
+#include "hinge/robotics/tiers.hpp"
+#include "hinge_tools/dial.hpp"
+
+namespace robocd {
+
+using namespace hinge::robotics;
+
+RobotDescription scaled(RobotDescription robot, double scale) {
+  std::map<std::string, bool> slides;
+  for (const JointDescription& joint : robot.joints) slides[joint.name] = joint.type == JointType::prismatic;
+  for (LinkDescription& link : robot.links)
+    for (PlacedShape& placed : link.geometry) {
+      placed.origin.translation *= scale;
+      if (auto* box = std::get_if<BoxShape>(&placed.shape)) box->size *= scale;
+      if (auto* sphere = std::get_if<SphereShape>(&placed.shape)) sphere->radius *= scale;
+      if (auto* cylinder = std::get_if<CylinderShape>(&placed.shape)) {
+        cylinder->radius *= scale;
+        cylinder->length *= scale;
+      }
+      if (auto* capsule = std::get_if<CapsuleShape>(&placed.shape)) {
+        capsule->radius *= scale;
+        capsule->length *= scale;
+      }
+      if (auto* mesh = std::get_if<MeshShape>(&placed.shape)) mesh->scale *= scale;
+      if (auto* cloud = std::get_if<PointCloudShape>(&placed.shape)) {
+        auto points = *cloud->points;
+        for (hinge::Vec3& point : points) point *= scale;
+        *cloud = {std::make_shared<const std::vector<hinge::Vec3>>(std::move(points)), cloud->radius * scale};
+      }
+    }
+  for (JointDescription& joint : robot.joints) {
+    joint.origin.translation *= scale;
+    const bool slide = joint.type == JointType::prismatic;
+    if (slide) {
+      joint.lower *= scale;
+      joint.upper *= scale;
+    }
+    if (!joint.mimic) continue;
+    if (slide) joint.mimic->offset *= scale;
+    if (slide && !slides[joint.mimic->joint]) joint.mimic->multiplier *= scale;
+    if (!slide && slides[joint.mimic->joint]) joint.mimic->multiplier /= scale;
+  }
+  return robot;
+}
+
+namespace {
+
+constexpr std::array<Tier, 3> tried_tiers = {Tier::hull, Tier::capsule, Tier::spheres};
+constexpr std::size_t most_near_pairs = 200;  // of nearly touching configurations, and of random ones
+constexpr double case_seconds = 2.0;          // for each row of the table
+constexpr double search_seconds = 5.0;        // for configurations that nearly touch
+
+using Configuration = std::vector<double>;
+
+/// The robot at one scale, exact and with tiers.
+struct Copy {
+  double scale = 1.0;
+  RobotChecker exact;
+  std::vector<std::optional<RobotChecker>> tiered;  // empty: the shapes cannot be fitted at this scale
+};
+
+Copy make_copy(const Options& options, const Job& job, double scale) {
+  Tessellation tessellation = job.robot->tessellation();
+  tessellation.tolerance *= scale;
+  const RobotDescription description = scaled(job.robot->description(), scale);
+  const auto checker = [&](RobotDescription of) {
+    const auto robot = std::make_shared<const Robot>(std::move(of), tessellation);
+    return RobotChecker(robot, job.tested, LinkMargins(*robot, options.clearance * scale));
+  };
+  Copy copy{scale, checker(description), {}};
+  for (const Tier tier : tried_tiers) {
+    Tiers all;
+    all.all = tier;
+    all.tolerance *= scale;
+    try {
+      copy.tiered.emplace_back(checker(with_tiers(description, all)));
+    } catch (const hinge::ModelError&) {
+      copy.tiered.emplace_back();
+    }
+  }
+  return copy;
+}
+
+/// Returns the values at another scale: those of prismatic joints are lengths.
+Configuration at_scale(const Robot& robot, Configuration q, double scale) {
+  for (std::size_t j = 0; j < q.size(); ++j)
+    if (robot.description().joints[robot.independent_joints()[j]].type == JointType::prismatic) q[j] *= scale;
+  return q;
+}
+
+bool collides(RobotChecker& checker, const Configuration& q) {
+  checker.update(q);
+  return checker.collides();
+}
+
+Configuration between(const Configuration& from, const Configuration& to, double t) {
+  Configuration q(from.size());
+  for (std::size_t j = 0; j < q.size(); ++j) q[j] = from[j] + t * (to[j] - from[j]);
+  return q;
+}
+
+/// Returns a free and a colliding configuration on the line between two of them, with neighbouring values of t or
+/// without a representable configuration between them.
+std::pair<Configuration, Configuration> nearly_touching(RobotChecker& checker, const Configuration& free,
+                                                        const Configuration& colliding) {
+  double low = 0.0, high = 1.0;
+  while (true) {
+    const double middle = low + (high - low) / 2.0;
+    if (middle <= low || middle >= high) break;
+    (collides(checker, between(free, colliding, middle)) ? high : low) = middle;
+  }
+  return {between(free, colliding, low), between(free, colliding, high)};
+}
+
+/// Triangles of the robot in the world, in single precision.
+struct FloatRobot {
+  std::vector<FloatTriangle> triangles;
+  std::map<hinge::LinkId, std::vector<std::size_t>> of_link;
+};
+
+FloatRobot place(RobotChecker& checker) {
+  FloatRobot placed;
+  const auto& model = checker.robot().model();
+  std::map<hinge::LinkId, hinge::Pose> poses;
+  for (std::size_t i = 0; i < model.size(); ++i) {
+    const hinge::LinkId link = model.links()[i];
+    if (!poses.contains(link)) poses[link] = checker.link_pose(link);
+    const hinge::Triangle t = model.primitives()[i].placed(poses[link]);
+    placed.triangles.push_back({to_float(t.a), to_float(t.b), to_float(t.c)});
+    placed.of_link[link].push_back(i);
+  }
+  return placed;
+}
+
+/// Returns the decision in single precision about the surfaces. Pairs of links further apart than `margin` are free
+/// without a test, because no rounding bridges it.
+bool collides_in_float(RobotChecker& checker, double margin) {
+  const auto near = checker.distances(margin);
+  if (near.empty()) return false;
+  const FloatRobot placed = place(checker);
+  const auto m = static_cast<float>(margin);
+  for (const ClosestLinks& pair : near) {
+    const auto box_of = [&](hinge::LinkId link) {
+      std::array<FloatPoint, 2> box = {FloatPoint{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+      for (const std::size_t i : placed.of_link.at(link))
+        for (const FloatPoint& x : placed.triangles[i])
+          for (std::size_t k = 0; k < 3; ++k) {
+            box[0][k] = std::min(box[0][k], x[k]);
+            box[1][k] = std::max(box[1][k], x[k]);
+          }
+      return box;
+    };
+    const auto inside = [&](std::size_t i, const std::array<FloatPoint, 2>& box, float reach) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto [low, high] =
+            std::minmax({placed.triangles[i][0][k], placed.triangles[i][1][k], placed.triangles[i][2][k]});
+        if (low > box[1][k] + reach || high < box[0][k] - reach) return false;
+      }
+      return true;
+    };
+    const auto first_box = box_of(pair.link1), second_box = box_of(pair.link2);
+    std::vector<std::size_t> others;
+    const LinkMargins& margins = checker.margins();
+    const auto radius = [&](std::size_t i) { return margins.radius(hinge::id<hinge::PrimitiveId>(i)); };
+    double largest = 0.0;
+    for (const std::size_t j : placed.of_link.at(pair.link2)) largest = std::max(largest, radius(j));
+    for (const std::size_t i : placed.of_link.at(pair.link1)) largest = std::max(largest, radius(i));
+    const auto reach = static_cast<float>(2.0 * largest + margins.clearance(pair.link1, pair.link2)) + 2.0F * m;
+    for (const std::size_t j : placed.of_link.at(pair.link2))
+      if (inside(j, first_box, reach)) others.push_back(j);
+    for (const std::size_t i : placed.of_link.at(pair.link1)) {
+      if (!inside(i, second_box, reach)) continue;
+      for (const std::size_t j : others) {
+        const double sum = radius(i) + radius(j) + margins.clearance(pair.link1, pair.link2);
+        if (closer_in_float(placed.triangles[i], placed.triangles[j], static_cast<float>(sum))) return true;
+      }
+    }
+  }
+  return false;
+}
+
+struct Wrong {
+  std::size_t missed = 0, added = 0;
+
+  void count(bool truth, bool given) {
+    missed += truth && !given ? 1U : 0U;
+    added += !truth && given ? 1U : 0U;
+  }
+  std::string text() const { return missed + added == 0 ? "right" : fmt::format("{} missed, {} false", missed, added); }
+};
+
+}  // namespace
+
+hinge::tool::DialExtremes find_extremes(const Options& options, const Job& job) {
+  hinge::tool::DialExtremes table;
+  table.columns = {"case", "asked", "collide", "exact", "hull", "capsule", "spheres", "single precision"};
+  Copy plain = make_copy(options, job, 1.0);
+  const Robot& robot = *job.robot;
+  std::vector<Configuration> random, near, free, colliding;
+  const auto search = hinge::tool::dial::Clock::now();
+  const auto wanted = [&] { return random.size() < 2 * most_near_pairs || near.size() < 2 * most_near_pairs; };
+  for (std::uint64_t k = 0; wanted() && hinge::tool::dial::seconds_since(search) < search_seconds; ++k) {
+    Configuration q(robot.independent_joints().size());
+    random_configuration(robot, options.seed, k, q);
+    (collides(plain.exact, q) ? colliding : free).push_back(q);
+    if (random.size() < 2 * most_near_pairs) random.push_back(std::move(q));
+    const std::size_t made = near.size() / 2;
+    if (made < most_near_pairs && made < std::min(free.size(), colliding.size())) {
+      auto [before, after] = nearly_touching(plain.exact, free[made], colliding[made]);
+      near.push_back(std::move(before));
+      near.push_back(std::move(after));
+    }
+  }
+  if (near.empty())
+    table.notes.push_back(colliding.empty()
+                              ? "no random configuration collides, so none that nearly touches was found"
+                              : "every random configuration collides, so none that nearly touches was found");
+  std::vector<bool> verdicts;  // of `near`, at scale 1 without displacement
+  for (const Configuration& q : near) verdicts.push_back(collides(plain.exact, q));
+
+  const auto add = [&](const std::string& name, Copy& copy, const std::vector<Configuration>& asked, bool compares,
+                       double displaced) {
+    const hinge::tool::dial::Clock::time_point start = hinge::tool::dial::Clock::now();
+    std::array<Wrong, 3> of_tier;
+    Wrong of_float;
+    std::size_t count = 0, hits = 0, changed = 0;
+    hinge::Pose base;
+    base.translation = hinge::Vec3(displaced, displaced, displaced);
+    if (displaced != 0.0) {
+      copy.exact.set_base(base);
+      for (auto& checker : copy.tiered)
+        if (checker) checker->set_base(base);
+    }
+    const double margin = (displaced + 4.0 * copy.scale) * 0x1p-20;
+    for (; count < asked.size() && hinge::tool::dial::seconds_since(start) < case_seconds; ++count) {
+      const Configuration q = at_scale(robot, asked[count], copy.scale);
+      const bool truth = collides(copy.exact, q);
+      hits += truth ? 1U : 0U;
+      changed += compares && truth != verdicts[count] ? 1U : 0U;
+      for (std::size_t t = 0; t < tried_tiers.size(); ++t)
+        if (copy.tiered[t]) of_tier[t].count(truth, collides(*copy.tiered[t], q));
+      of_float.count(!copy.exact.triangle_pairs().empty(), collides_in_float(copy.exact, margin));
+    }
+    const std::string exact = !compares ? "" : changed == 0 ? "same" : fmt::format("{} changed", changed);
+    std::vector<std::string> row{name, fmt::format("{}", count), fmt::format("{}", hits), exact};
+    for (std::size_t t = 0; t < tried_tiers.size(); ++t)
+      row.push_back(copy.tiered[t] ? of_tier[t].text() : "cannot be fitted");
+    row.push_back(of_float.text());
+    table.rows.push_back(std::move(row));
+  };
+  add("random", plain, random, false, 0.0);
+  if (near.empty()) return table;
+  add("nearly touching", plain, near, true, 0.0);
+  for (const int power : {-20, -10, 10, 20}) {
+    Copy copy = make_copy(options, job, std::ldexp(1.0, power));
+    add(fmt::format("nearly touching, scaled by 2^{}", power), copy, near, true, 0.0);
+  }
+  for (const auto& [displaced, name] : {std::pair{1.0, "1 m"}, {1e3, "1 km"}, {1e6, "1000 km"}})
+    add(fmt::format("nearly touching, displaced by {}", name), plain, near, true, displaced);
+  table.notes.emplace_back(
+      "nearly touching: a free and a colliding configuration, with no number between their places on a straight line");
+  table.notes.emplace_back("exact: verdicts that differ from those without scale and displacement");
+  table.notes.emplace_back("missed, false: compared with the exact verdict of the same case");
+  table.notes.emplace_back(
+      "single precision: triangles in the world as floats, decisions without error bounds, about surfaces only");
+  if (!job.bodies.empty()) table.notes.emplace_back("bodies of --env are left out");
+  return table;
+}
+
+}  // namespace robocd
