@@ -212,6 +212,16 @@ Exit run(int argc, char** argv) {
     command = biocd::run_plan;
   });
 
+  CLI::App* dial =
+      app.add_subcommand("dial", "measure what each choice costs and gets wrong on this molecule, and recommend one");
+  biocd::add_model_options(*dial, o);
+  biocd::add_dial_options(*dial, o);
+  dial->callback([&] {
+    o.keep_closures = o.keep_closures.value_or(true);
+    o.draws = true;
+    command = biocd::run_dial;
+  });
+
   CLI::App* demo = app.add_subcommand("demo", "demonstrate the library on one protein: sample, time, verify, draw");
   demo->option_defaults()->group(title::input);
   demo->add_option("FILE", o.file, "PDB or mmCIF file, plain or .gz")->required();

@@ -18,7 +18,8 @@ namespace {
 
 std::vector<std::filesystem::path> input_files(const Options& options) {
   std::vector<std::filesystem::path> files{options.file};
-  for (const auto* list : {&options.with, &options.trajectories, &options.rigid_from, &options.shards})
+  for (const auto* list :
+       {&options.with, &options.trajectories, &options.rigid_from, &options.shards, &options.settings})
     files.insert(files.end(), list->begin(), list->end());
   files.insert(files.end(), options.read.components.begin(), options.read.components.end());
   for (const std::string& end : {options.from, options.to})
@@ -57,6 +58,7 @@ void check_outputs(const Options& options, bool is_folder) {
   hinge::tool::check_report(options.report, options.out, input_files(options));
   if (is_inside(options.report, options.read.dictionary))
     throw hinge::ModelError("--report " + options.report + ": is in the monomer dictionary, expected a different file");
+  hinge::tool::check_output("--apply", options.apply, input_files(options));
   const std::filesystem::path out = options.out;
   if (out.empty()) return;
   if (!is_folder) {

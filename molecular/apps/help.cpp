@@ -61,6 +61,9 @@ HelpTexts help_texts() {
   texts.commands["plan"] = {both,
                             {"biocd plan" + file + " --free A:74-76:psi --exempt-reference --to -120,-120,90",
                              "biocd plan" + file + " --free A:74-76:psi --exempt-reference --to 90,90,90 --out m.pdb"}};
+  texts.commands["dial"] = {{"Selections"},
+                            {"biocd dial" + file + " --exempt-reference --time 2 --apply 1ubq.settings",
+                             "biocd dial" + file + " --free A:70-76 --time 2 --extremes --report dial.html"}};
   texts.commands["merge"] = {{"Exit status"},
                              {"biocd sample" + file + " -n 10 --csv --shard 1/2 > 1.csv",
                               "biocd sample" + file + " -n 10 --csv --shard 2/2 > 2.csv", "biocd merge 1.csv 2.csv"}};

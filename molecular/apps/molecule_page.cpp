@@ -167,20 +167,26 @@ std::size_t colliding(const std::vector<Contact>& pairs) {
 
 }  // namespace
 
+hinge::tool::ReportWords page_words(const Options& options, const Job& job) {
+  hinge::tool::ReportWords words;
+  words.title = options.file;
+  words.tool = options.command_line.substr(0, options.command_line.find(' ', options.command_line.find(' ') + 1));
+  words.command = options.command_line;
+  words.question = question_words(options, job);
+  words.files = {options.file};
+  for (const auto* more : {&options.with, &options.trajectories, &options.settings})
+    words.files.insert(words.files.end(), more->begin(), more->end());
+  words.notes = all_notes(job);
+  return words;
+}
+
 MoleculePage::MoleculePage(const Options& options, const Job& job, bool is_path, bool counts_pairs)
     : options_(options),
       job_(job),
       file_(options.report),
       choice_(counts_pairs, is_path ? hinge::tool::ReportChoice::all : hinge::tool::ReportChoice::usual) {
   if (!wanted()) return;
-  words_.title = options.file;
-  words_.tool = options.command_line.substr(0, options.command_line.find(' ', options.command_line.find(' ') + 1));
-  words_.command = options.command_line;
-  words_.question = question_words(options, job);
-  words_.files = {options.file};
-  for (const auto* more : {&options.with, &options.trajectories})
-    words_.files.insert(words_.files.end(), more->begin(), more->end());
-  words_.notes = all_notes(job);
+  words_ = page_words(options, job);
   words_.is_path = is_path;
   words_.numbers_from = is_path ? 1 : 0;
   words_.frame_word = {"conformation", "conformations"};

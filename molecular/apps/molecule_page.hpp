@@ -24,6 +24,9 @@ struct PageFrame {
   std::vector<hinge::molecular::Contact> pairs;  ///< pairs to list and mark
 };
 
+/// Returns what a page says about the command, the question and the files; without a verdict.
+hinge::tool::ReportWords page_words(const Options& options, const Job& job);
+
 /// Collects what the page shows. Does nothing without --report. Refers to the options and the job.
 class MoleculePage {
  public:

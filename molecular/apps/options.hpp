@@ -93,6 +93,14 @@ struct Options {
   double frame_step = 5.0;                      ///< plan: largest turn between two written conformations, degrees
   std::optional<double> sampled_degrees;        ///< path: largest distance between sampled states; nothing: certify
   double min_step = hinge::smallest_path_step;  ///< path: intervals up to this share of the path are not split
+  double dial_seconds = 60.0;                   ///< dial: time to measure
+  std::optional<std::uint64_t> dial_count;      ///< dial: number of conformations; nothing: what the time allows
+  bool uniform = false;                         ///< dial: the full range instead of sigma_degrees
+  bool extremes = false;                        ///< dial: also try extremes
+  double false_accepts = 0.0;                   ///< dial: percent, largest that a recommendation may have
+  double false_rejects = 1.0;                   ///< dial: the same
+  std::string apply;                            ///< dial: settings file to write; empty: none
+  std::vector<std::string> settings;            ///< files whose options the parser has added
 };
 
 /// Returns the sampling that the options ask for.
@@ -136,6 +144,7 @@ Exit run_relax(const Options& options);
 Exit run_merge(const Options& options);
 Exit run_path(const Options& options);
 Exit run_plan(const Options& options);
+Exit run_dial(const Options& options);
 Exit run_demo(const Options& options);
 
 /// Prints which rule keeps or drops the pair of options.explain.

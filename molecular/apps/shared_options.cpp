@@ -33,6 +33,9 @@ void add_input_options(CLI::App& command, Options& o) {
   repeatable(command.add_option("--with", o.with,
                                 "one more file in addition to FILE; all of it is kept except waters (repeatable)"),
              "FILE");
+  repeatable(command.add_option("--settings", o.settings,
+                                "file of more options, one per line, as dial --apply writes it (repeatable)"),
+             "FILE");
   add_number(command, "--model", o.read.model, NumberRange<int>{-99999999, 99999999}, "number of the model to use");
 }
 

@@ -27,6 +27,8 @@ void add_view_option(CLI::App& command, Options& o);
 void add_report_option(CLI::App& command, Options& o);
 /// Adds the further options that check and sample share: output format, mode, --out, shards, threads.
 void add_check_options(CLI::App& command, Options& o);
+/// Adds all options of dial but those of the model.
+void add_dial_options(CLI::App& command, Options& o);
 /// Adds --closures.
 void add_closures_option(CLI::App& command, Options& o);
 /// Adds the options of path: output format, both ends and the method.

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Implements find_extremes().
+#include "dial_extremes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "hinge/core/id.hpp"
+#include "hinge/core/vec3.hpp"
+
+namespace biocd {
+
+using namespace hinge::molecular;
+using hinge::Vec3;
+
+namespace {
+
+constexpr std::size_t most_near_pairs = 200;  // of nearly touching conformations, and of random ones
+constexpr double case_seconds = 2.0;          // for each row of the table
+
+using Configuration = std::vector<double>;
+using Positions = std::vector<Vec3>;
+
+bool collides(Checker& checker, const Configuration& q) { return checker.check(q, Mode{Mode::Kind::any}).collides; }
+
+Configuration between(const Configuration& from, const Configuration& to, double t) {
+  Configuration q(from.size());
+  for (std::size_t j = 0; j < q.size(); ++j) q[j] = from[j] + t * (to[j] - from[j]);
+  return q;
+}
+
+/// Returns the last free and the first colliding conformation of a bisection between the two, down to neighbouring
+/// numbers.
+std::pair<Configuration, Configuration> nearly_touching(Checker& checker, const Configuration& free,
+                                                        const Configuration& colliding) {
+  double low = 0.0, high = 1.0;
+  while (true) {
+    const double middle = low + (high - low) / 2.0;
+    if (middle <= low || middle >= high) break;
+    (collides(checker, between(free, colliding, middle)) ? high : low) = middle;
+  }
+  return {between(free, colliding, low), between(free, colliding, high)};
+}
+
+/// Returns the decision in single precision: all numbers are rounded to float, and no error is bounded. Pairs further
+/// above their threshold than `margin` are free without a test. Pairs of constant distance are left out.
+bool collides_in_float(Checker& checker, const Positions& positions, double margin) {
+  Mode near{Mode::Kind::within};
+  near.margin = margin;
+  const Verdict found = checker.check_coordinates(positions, near);
+  return std::ranges::any_of(found.pairs, [&](const Contact& pair) {
+    const std::size_t i = hinge::index(pair.hit.first), j = hinge::index(pair.hit.second);
+    if (checker.constant(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j))) return false;
+    float squared = 0.0F;
+    for (int k = 0; k < 3; ++k) {
+      const float d = static_cast<float>(positions[i][k]) - static_cast<float>(positions[j][k]);
+      squared += d * d;
+    }
+    const auto threshold = static_cast<float>(pair.hit.threshold);
+    return squared < threshold * threshold;
+  });
+}
+
+/// Returns the exact verdict for coordinates, without pairs of constant distance.
+bool collides_at(Checker& checker, const Positions& positions) {
+  const Verdict found = checker.check_coordinates(positions, Mode{Mode::Kind::all});
+  return std::ranges::any_of(found.pairs, [&](const Contact& pair) {
+    return !checker.constant(static_cast<std::uint32_t>(hinge::index(pair.hit.first)),
+                             static_cast<std::uint32_t>(hinge::index(pair.hit.second)));
+  });
+}
+
+/// A way to rewrite coordinates.
+struct Rewriting {
+  std::string name;
+  std::function<double(double)> of;
+  double largest = 0.0;  // angstrom, of a coordinate that it makes
+  bool is_file = false;  // as a file does it
+};
+
+std::vector<Rewriting> rewritings() {
+  const auto decimals = [](double unit) { return [unit](double x) { return std::round(x / unit) * unit; }; };
+  const auto single = [](double x) { return static_cast<double>(static_cast<float>(x)); };
+  const auto moved = [](double by) { return [by](double x) { return x + by; }; };
+  const auto moved_single = [](double by) {
+    return [by](double x) { return static_cast<double>(static_cast<float>(x + by)); };
+  };
+  return {{"written with 3 decimals (PDB)", decimals(1e-3), 1e3, true},
+          {"written with 2 decimals (XTC)", decimals(1e-2), 1e3, true},
+          {"written as floats (DCD)", single, 1e3, true},
+          {"displaced by 1000 angstrom, floats", moved_single(1e3), 2e3, false},
+          {"displaced by 10^6 angstrom, floats", moved_single(1e6), 1e6, false},
+          {"displaced by 10^6 angstrom", moved(1e6), 1e6, false},
+          {"displaced by 10^9 angstrom", moved(1e9), 1e9, false}};
+}
+
+}  // namespace
+
+hinge::tool::DialExtremes find_extremes(const Job& job, const Sampling& sampling) {
+  hinge::tool::DialExtremes table;
+  table.columns = {"case", "asked", "collide", "exact", "single precision"};
+  Checker checker = job.checker;
+  Conformations conformations(job, sampling);
+  std::vector<Configuration> random, near;
+  const Configuration reference(checker.dof_count(), 0.0);
+  const bool starts_free = !collides(checker, reference);
+  for (std::uint64_t k = 0;
+       k < 100 * most_near_pairs && (random.size() < 2 * most_near_pairs || near.size() < 2 * most_near_pairs); ++k) {
+    conformations.prepare(k, 1);
+    const auto drawn = conformations.at(k);
+    if (drawn.empty()) continue;
+    Configuration q(drawn.begin(), drawn.end());
+    if (starts_free && near.size() < 2 * most_near_pairs && collides(checker, q)) {
+      auto [before, after] = nearly_touching(checker, reference, q);
+      near.push_back(std::move(before));
+      near.push_back(std::move(after));
+    }
+    if (random.size() < 2 * most_near_pairs) random.push_back(std::move(q));
+  }
+  const auto add = [&](const std::string& name, const std::vector<Configuration>& asked, const Rewriting* change) {
+    const auto start = hinge::tool::dial::Clock::now();
+    std::size_t count = 0, hits = 0, changed = 0, missed = 0, added = 0;
+    const double margin = 1e-3 + (change != nullptr ? change->largest : 1e3) * 0x1p-20;
+    for (; count < asked.size() && hinge::tool::dial::seconds_since(start) < case_seconds; ++count) {
+      const bool plain = collides(checker, asked[count]);
+      Positions positions = checker.positions();
+      if (change != nullptr)
+        for (Vec3& x : positions)
+          for (int k = 0; k < 3; ++k) x[k] = change->of(x[k]);
+      const bool truth = change != nullptr ? collides_at(checker, positions) : plain;
+      const bool given = collides_in_float(checker, positions, margin);
+      hits += truth ? 1U : 0U;
+      changed += truth != plain ? 1U : 0U;
+      missed += truth && !given ? 1U : 0U;
+      added += !truth && given ? 1U : 0U;
+    }
+    table.rows.push_back({name, fmt::format("{}", count), fmt::format("{}", hits),
+                          changed == 0 ? "same" : fmt::format("{} changed", changed),
+                          missed + added == 0 ? "right" : fmt::format("{} missed, {} false", missed, added)});
+  };
+  add("random", random, nullptr);
+  for (const Rewriting& change : rewritings())
+    if (change.is_file) add("random, " + change.name, random, &change);
+  if (near.empty()) {
+    table.notes.emplace_back(starts_free ? "no conformation collides, so none that nearly touches was found"
+                                         : "the reference collides, so no conformation that nearly touches was found");
+  } else {
+    add("nearly touching", near, nullptr);
+    for (const Rewriting& change : rewritings()) add("nearly touching, " + change.name, near, &change);
+    table.notes.emplace_back(
+        "nearly touching: the last free and the first colliding conformation of a bisection from the reference, with "
+        "neighbouring numbers");
+  }
+  table.notes.emplace_back("exact: verdicts that the change of coordinates changes");
+  table.notes.emplace_back(
+      "single precision: coordinates and thresholds as floats, compared with the exact verdict for the same "
+      "coordinates");
+  return table;
+}
+
+}  // namespace biocd

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Implements MoleculeDial.
+#include "molecule_dial.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "dial_extremes.hpp"
+#include "dial_scene.hpp"
+#include "hinge/core/error.hpp"
+#include "hinge/molecular/clash_rules.hpp"
+#include "hinge/molecular/radii.hpp"
+#include "hinge/molecular/selection.hpp"
+#include "hinge_tools/settings_file.hpp"
+#include "scene.hpp"
+
+namespace biocd {
+
+using namespace hinge::molecular;
+using hinge::tool::DialChoice;
+using hinge::tool::DialEffort;
+using hinge::tool::DialReport;
+using hinge::tool::DialResult;
+using hinge::tool::DialRow;
+using hinge::tool::DialSection;
+using hinge::tool::Sound;
+
+namespace {
+
+constexpr double smallest_gain = 1.03;  // a choice must win this much to be recommended
+constexpr double conformations_share = 0.55, paths_share = 0.2, check_share = 0.25;  // of --time
+constexpr std::size_t most_candidates = 3;    // for the recommendation, tried in turn
+constexpr double usual_sigma = 5.0 * degree;  // rad, for a reference that collides
+constexpr const char* reference_name = "the given options";
+
+std::string one_line_of(std::string lines) {
+  std::ranges::replace(lines, '\n', ' ');
+  return lines;
+}
+
+}  // namespace
+
+MoleculeDial::MoleculeDial(const Options& options, const Job& job) : options_(options), job_(job) {
+  report_.seed = options.seed;
+  report_.seconds = options.dial_seconds;
+  report_.limits = {options.false_accepts / 100.0, options.false_rejects / 100.0};
+}
+
+DialReport MoleculeDial::run() {
+  std::string how = "uniform over the full turn";
+  if (!options_.uniform) {
+    sigma_ =
+        options_.sigma_degrees ? std::optional(*options_.sigma_degrees * degree) : balanced_sigma(job_, options_.seed);
+    if (!sigma_) {
+      section_notes_.emplace_back(
+          "the reference collides, so sigma was not chosen for it; --exempt-reference leaves "
+          "its pairs out");
+      sigma_ = usual_sigma;
+    }
+    how = fmt::format("about the reference, sigma {:.3g} degrees", *sigma_ / degree);
+  }
+  report_.requirements = study_scene(job_);
+  conformations_ = std::make_shared<Conformations>(job_, sampling(options_.seed));
+  section_.title = "Conformations";
+  section_.unit = {"conformation", "conformations"};
+  section_.population = fmt::format("{}, seed {}", how, options_.seed);
+  section_.length_unit = "angstrom";
+  add("rules", reference_name, reference());
+  add_engines();
+  add_all_rules();
+  add_hydrogens();
+  add_fewer_torsions();
+  report_.sections.push_back(
+      measure(std::move(section_), {options_.dial_seconds * conformations_share, options_.dial_count}));
+  for (std::string& note : section_notes_) report_.sections.back().notes.push_back(std::move(note));
+  if (job_.kept.closures.empty() && options_.loop.empty())
+    report_.sections.push_back(measure(path_section(job_, sampling(options_.seed)),
+                                       {options_.dial_seconds * paths_share, options_.dial_count}));
+  else
+    report_.sections.back().notes.emplace_back(
+        "paths: not measured, because a straight path does not keep cycles closed");
+  recommend();
+  if (options_.extremes) report_.extremes = find_extremes(job_, sampling(options_.seed));
+  return std::move(report_);
+}
+
+Sampling MoleculeDial::sampling(std::uint64_t seed) const { return {seed, sigma_}; }
+
+MoleculeDial::Selected MoleculeDial::reference() const {
+  return {make_variant(job_, job_.checker), "", Sound::exact, {}};
+}
+
+std::string MoleculeDial::lines_of(const Selected& selected) const {
+  std::string lines = selected.lines;
+  const auto append = [&](const std::string& line) { lines += (lines.empty() ? "" : "\n") + line; };
+  if (selected.manner.in_blocks) append("--mode any");
+  if (selected.manner.threads > 1) append(fmt::format("--threads {}", selected.manner.threads));
+  return lines;
+}
+
+std::string MoleculeDial::sentence(const Selected& selected, const DialRow& row) const {
+  std::string what = one_line_of(selected.lines);
+  const auto append = [&](const std::string& part) { what += (what.empty() ? "" : "; ") + part; };
+  if (selected.manner.in_blocks) append("sixteen conformations at a time");
+  if (selected.manner.threads > 1) append(fmt::format("{} threads", selected.manner.threads));
+  what += fmt::format(": {:.2f} times faster, ", row.speed.value);
+  what += selected.sound == Sound::exact
+              ? "exact"
+              : fmt::format("{} false accepts, {} false rejects", hinge::tool::rate_text(row.accept_rate()),
+                            hinge::tool::rate_text(row.reject_rate()));
+  return what + "; no other choice is faster with " + hinge::tool::limits_text(report_.limits);
+}
+
+void MoleculeDial::add(const char* kind, std::string name, const Selected& selected) {
+  selected_.emplace(name, selected);
+  section_.choices.push_back(make_choice(kind, std::move(name), one_line_of(lines_of(selected)), selected.sound,
+                                         selected.variant, conformations_, selected.manner));
+}
+
+void MoleculeDial::add_rules(const char* kind, std::string name, std::string lines, CheckOptions check) {
+  try {
+    check.scope = read_scope(options_, job_.molecule->structure());
+    Checker checker(job_.molecule, job_.checker.selection(), check);
+    add(kind, std::move(name), {make_variant(job_, std::move(checker)), std::move(lines), Sound::unknown, {}});
+  } catch (const hinge::ModelError& error) {
+    section_notes_.push_back(fmt::format("{}: left out: {}", name, error.what()));
+  }
+}
+
+void MoleculeDial::add_engines() {
+  for (const char* engine : {"simd", "lazy", "brute"}) {
+    if (options_.check.engine == engine) continue;
+    CheckOptions check = options_.check;
+    check.engine = engine;
+    check.scope = read_scope(options_, job_.molecule->structure());
+    Selected other = reference();
+    other.variant.checker = Checker(job_.molecule, job_.checker.selection(), check);
+    section_.choices.push_back(make_choice("engine", fmt::format("engine {}", engine),
+                                           fmt::format("--engine {}", engine), Sound::exact, other.variant,
+                                           conformations_));
+    section_.choices.back().distance = {};
+  }
+  Selected blocks = reference();
+  blocks.manner.in_blocks = true;
+  add("block", "sixteen at a time", blocks);
+  for (unsigned threads = 2; threads <= std::thread::hardware_concurrency(); threads *= 2) {
+    Selected shared = reference();
+    shared.manner.threads = threads;
+    add("threads", fmt::format("{} threads", threads), shared);
+  }
+}
+
+void MoleculeDial::add_all_rules() {
+  const Thresholds& used = job_.checker.thresholds();
+  const bool biocd_rules = used.rules->name == std::string_view("biocd");
+  const CheckOptions given = options_.check;
+  if (biocd_rules) {
+    for (const RadiiSet& set : radii_sets()) {
+      if (set.name == used.radii) continue;
+      CheckOptions check = given;
+      check.thresholds.radii = std::string(set.name);
+      add_rules("radii", fmt::format("radii {}", set.name), fmt::format("--radii {}", set.name), check);
+    }
+    for (const double rho : {0.7, 0.75, 0.8, 0.85, 0.9}) {
+      if (used.rho && std::abs(*used.rho - rho) < 1e-9) continue;
+      CheckOptions check = given;
+      check.thresholds.rho = rho;
+      add_rules("rho", fmt::format("rho {}", rho), fmt::format("--rho {}", rho), check);
+    }
+    CheckOptions check = given;
+    check.thresholds.hydrogen_bonds = !used.hydrogen_bonds;
+    const char* word = used.hydrogen_bonds ? "off" : "on";
+    add_rules("hydrogen bonds", fmt::format("hydrogen-bond rule {}", word), fmt::format("--hbond {}", word), check);
+  }
+  for (const ClashRules& rules : all_clash_rules()) {
+    if (rules.name == used.rules->name) continue;
+    CheckOptions check = given;
+    check.thresholds = {};
+    check.thresholds.rules = std::string(rules.name);
+    check.min_bonds.reset();
+    add_rules("rules", fmt::format("rules {}", rules.name), fmt::format("--rules {}", rules.name), check);
+  }
+}
+
+void MoleculeDial::add_hydrogens() {
+  const Structure& s = job_.molecule->structure();
+  const bool has_hydrogens = std::ranges::any_of(s.atoms, [](const auto& atom) { return atom.element == "H"; });
+  if (!has_hydrogens || !job_.kept.closures.empty()) return;
+  for (const char* radii : {"bondi", "probe-united"}) {
+    const std::string name = fmt::format("without hydrogens, radii {}", radii);
+    Options other = options_;
+    other.read.keep_hydrogens = false;
+    other.check.thresholds = {};
+    other.check.thresholds.radii = radii;
+    other.check.min_bonds.reset();
+    try {
+      const Job job = load(other);
+      add("hydrogens", name,
+          {make_variant(job_, job.checker), fmt::format("--hydrogens drop\n--radii {}", radii), Sound::unknown, {}});
+    } catch (const hinge::ModelError& error) {
+      section_notes_.push_back(fmt::format("{}: left out: {}", name, error.what()));
+    }
+  }
+}
+
+void MoleculeDial::add_fewer_torsions() {
+  if (!options_.loop.empty() || !job_.kept.closures.empty()) return;
+  const Molecule& molecule = *job_.molecule;
+  std::vector<std::size_t> given;
+  for (const hinge::DofId dof : job_.checker.selection().dofs())
+    if (const std::size_t t = molecule.torsion_of(dof); t != Molecule::no_torsion) given.push_back(t);
+  std::ranges::sort(given);
+  for (const char* words : {"backbone", "chi", "loops", "count:35", "count:10"}) {
+    std::vector<std::size_t> kept;
+    try {
+      std::ranges::set_intersection(given, select_torsions(molecule, words, options_.omega), std::back_inserter(kept));
+    } catch (const hinge::ModelError&) {  // such as loops without HELIX and SHEET records
+      continue;
+    }
+    if (kept.empty() || kept.size() == given.size()) continue;
+    CheckOptions check = options_.check;
+    check.scope = read_scope(options_, molecule.structure());
+    Checker checker(job_.molecule, molecule.select_placed(kept), check);
+    const std::string expression =
+        options_.free == "all" ? std::string(words) : fmt::format("({}) and {}", options_.free, words);
+    add("torsions", fmt::format("only {} free, {} torsions", words, kept.size()),
+        {make_variant(job_, std::move(checker)),
+         "--free " + hinge::tool::shell_quoted(expression),
+         Sound::unknown,
+         {}});
+  }
+}
+
+void MoleculeDial::recommend() {
+  std::vector<std::pair<double, Selected>> models;  // by speed
+  Manner best;
+  std::array<double, 2> fastest{0.0, 0.0};
+  for (const DialRow& row : report_.sections.front().rows) {
+    const auto found = selected_.find(row.name);
+    if (found == selected_.end() || row.speed.low < smallest_gain || !keeps(row, report_.limits)) continue;
+    const Manner& manner = found->second.manner;
+    if (row.kind == "block") best.in_blocks = true;
+    if (row.kind == "threads" && row.speed.value > fastest[0]) {
+      fastest[0] = row.speed.value;
+      best.threads = manner.threads;
+    }
+    if (row.kind != "block" && row.kind != "threads") models.emplace_back(row.speed.value, found->second);
+  }
+  std::ranges::sort(models, [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<Selected> candidates;
+  for (const auto& [speed, model] : models) {
+    candidates.push_back(model);
+    candidates.back().manner = best;
+  }
+  if (best.in_blocks || best.threads > 1) {
+    candidates.push_back(reference());
+    candidates.back().manner = best;
+  }
+  if (best.in_blocks && best.threads > 1) {
+    candidates.push_back(reference());
+    candidates.back().manner.threads = best.threads;
+  }
+  candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(std::min(most_candidates, candidates.size())),
+                   candidates.end());
+  for (const Selected& candidate : candidates)
+    if (try_advice(candidate, check_share / static_cast<double>(candidates.size()))) return;
+  report_.advice.text = fmt::format("keep {}, one conformation at a time: no other choice is faster with {}",
+                                    reference_name, hinge::tool::limits_text(report_.limits));
+}
+
+bool MoleculeDial::try_advice(const Selected& selected, double share) {
+  const auto fresh = std::make_shared<Conformations>(job_, sampling(options_.seed + 1));
+  DialSection section;
+  section.title = "Check";
+  section.unit = {"conformation", "conformations"};
+  section.choices.push_back(make_choice("rules", reference_name, "", Sound::exact, reference().variant, fresh));
+  section.choices.push_back(make_choice("recommended", "recommended", one_line_of(lines_of(selected)), selected.sound,
+                                        selected.variant, fresh, selected.manner));
+  for (DialChoice& choice : section.choices) choice.distance = {};
+  const DialResult result = measure(std::move(section), {options_.dial_seconds * share, options_.dial_count});
+  const DialRow& row = result.rows.back();
+  if (!keeps(row, report_.limits) || row.speed.low <= 1.0) return false;
+  report_.advice.check = row;
+  report_.advice.check_population = fmt::format("seed {}", options_.seed + 1);
+  report_.advice.holds = true;
+  report_.advice.options = one_line_of(lines_of(selected));
+  report_.advice.text = sentence(selected, row);
+  settings_ = {lines_of(selected)};
+  return true;
+}
+
+}  // namespace biocd
