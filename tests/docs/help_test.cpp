@@ -24,8 +24,9 @@ struct Case {
   std::vector<std::string> commands;
 };
 
-const std::vector<Case> cases{{"biocd", {"info", "check", "sample", "walk", "relax", "merge", "path", "plan", "demo"}},
-                              {"robocd", {"info", "check", "matrix", "path", "relax"}}};
+const std::vector<Case> cases{
+    {"biocd", {"info", "check", "sample", "walk", "relax", "merge", "path", "plan", "dial", "demo"}},
+    {"robocd", {"info", "check", "matrix", "path", "relax", "plan", "dial"}}};
 
 Said run(const std::string& tool, const std::string& arguments) { return run_tool((tools / tool).string(), arguments); }
 
@@ -117,7 +118,7 @@ std::string offered(const std::string& tool, const std::string& words, const fs:
 TEST(Completion, OffersCommandsOptionsValuesAndFiles) {
   const fs::path folder = make_folder("completion");
   const auto biocd = [&](const std::string& words) { return offered("biocd", "biocd " + words, folder); };
-  EXPECT_EQ(biocd("''"), "info check sample walk relax merge path plan demo\n");
+  EXPECT_EQ(biocd("''"), "info check sample walk relax merge path plan dial demo\n");
   EXPECT_EQ(biocd("sa"), "sample\n");
   EXPECT_EQ(biocd("check --hb"), "--hbond --hbond-allowance\n");
   EXPECT_EQ(biocd("check --hbond o"), "on off\n");
@@ -127,7 +128,7 @@ TEST(Completion, OffersCommandsOptionsValuesAndFiles) {
   EXPECT_EQ(biocd("check --with mol"), "molecular\n");
   EXPECT_EQ(biocd("check --free ''"), "\n");
   EXPECT_EQ(biocd("--completion ''"), "bash zsh fish\n");
-  EXPECT_EQ(offered("robocd", "robocd check --ma", folder), "--max-pairs\n");
+  EXPECT_EQ(offered("robocd", "robocd check --ma", folder), "--made-for --max-pairs\n");
   EXPECT_EQ(offered("robocd", "robocd check --z", folder), "--zero\n");
   fs::remove_all(folder);
 }
