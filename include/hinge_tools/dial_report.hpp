@@ -38,9 +38,8 @@ struct DialExtremes {
 struct DialAdvice {
   std::string text;              ///< one sentence, with the reason
   std::string options;           ///< to be pasted; empty: none are needed
-  std::optional<DialRow> check;  ///< the same choice on fresh questions
+  std::optional<DialRow> check;  ///< the same choice on fresh questions, see confirm()
   std::string check_population;  ///< the fresh questions, in words
-  bool holds = false;            ///< the check keeps the limits, and is not slower than the reference
 };
 
 /// All results of one run.
@@ -106,6 +105,13 @@ inline std::string rate_text(const std::optional<Estimate>& rate) {
 inline std::string limits_text(const DialLimits& limits) {
   return "at most " + percent_text(limits.false_accepts) + " false accepts and " + percent_text(limits.false_rejects) +
          " false rejects";
+}
+
+/// Returns options, one with its values per line, as one would paste them.
+inline std::string options_text(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += (text.empty() ? "" : " ") + line;
+  return text;
 }
 
 /// Returns the table of a section.
@@ -180,8 +186,7 @@ inline std::string report_text(const DialReport& report) {
   if (const auto& check = report.advice.check)
     text += "  checked, " + report.advice.check_population + ": " + fixed_text(check->speed.value, 2) +
             " times faster, " + counted(check->false_accepts, "false accept") + " in " + number_text(check->colliding) +
-            ", " + counted(check->false_rejects, "false reject") + " in " + number_text(check->free) +
-            (report.advice.holds ? ": holds\n" : ": does not hold\n");
+            ", " + counted(check->false_rejects, "false reject") + " in " + number_text(check->free) + ": holds\n";
   return text;
 }
 
@@ -237,7 +242,7 @@ Json dial_json(const DialReport& report) {
   if (const auto& check = report.advice.check) {
     Json measured = row_json(*check);
     measured["population"] = report.advice.check_population;
-    measured["holds"] = report.advice.holds;
+    measured["holds"] = true;  // a choice that fails its check is not recommended
     json["recommendation"]["check"] = std::move(measured);
   }
   json["extremes"] = nullptr;

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <concepts>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -33,6 +34,9 @@ struct NumberRange {
            number_text(most);
   }
 };
+
+/// The range of a number of things, and of a seed.
+inline constexpr NumberRange<std::uint64_t> count_range{1, std::uint64_t{1} << 53}, seed_range{0, UINT64_MAX};
 
 /// option: for messages, for example "--seed". Throws ModelError with option and text if the text is not a decimal
 /// number or is out of range. An integral Number takes neither a point nor an exponent.

@@ -31,11 +31,10 @@ using biocd::Exit;
 using biocd::lengths_above_0;
 using biocd::Options;
 using hinge::tool::add_number;
+using hinge::tool::count_range;
 using hinge::tool::NumberRange;
+using hinge::tool::seed_range;
 namespace title = hinge::tool::title;
-
-constexpr NumberRange<std::uint64_t> counts{1, std::uint64_t{1} << 53};
-constexpr NumberRange<std::uint64_t> seeds{0, UINT64_MAX};
 
 /// Returns the arguments with a value after each --hetero: the parser needs one, and a bare --hetero means --hetero
 /// ligands.
@@ -98,8 +97,9 @@ Exit run(int argc, char** argv) {
                    "order of `dofs` in --json")
       ->type_name("FILE");
   sample->option_defaults()->group(title::sampling);
-  add_number(*sample, "-n,--count", o.count, counts, "number of conformations");
-  add_number(*sample, "--seed", o.seed, seeds, "seed; conformation k depends only on (seed, k)")->type_name("SEED");
+  add_number(*sample, "-n,--count", o.count, count_range, "number of conformations");
+  add_number(*sample, "--seed", o.seed, seed_range, "seed; conformation k depends only on (seed, k)")
+      ->type_name("SEED");
   add_number(*sample, "--sigma", o.sigma_degrees, lengths_above_0,
              "standard deviation of a Gaussian about the reference (default: uniform over the full range)")
       ->type_name("DEGREES");
@@ -114,7 +114,7 @@ Exit run(int argc, char** argv) {
       },
       "with --collision-free: distribution of the torsions of proteins, by statistics of phi and psi and by rotamers "
       "of side chains, or uniform (default: ramachandran; with --sigma a Gaussian)");
-  add_number(*sample, "--tries", o.most_tries, counts,
+  add_number(*sample, "--tries", o.most_tries, count_range,
              "largest number of starts for each conformation, with closed cycles (default: 100) or --collision-free "
              "(default: 1000)");
   add_number(*sample, "--time", o.seconds, lengths_above_0, "with --collision-free: begin no start after this time")
@@ -134,17 +134,17 @@ Exit run(int argc, char** argv) {
   biocd::add_model_options(*walk, o);
   biocd::add_output_options(*walk, o);
   biocd::add_out_option(*walk, o);
-  add_number(*walk, "--every", o.every, counts, "number of steps between two written conformations");
+  add_number(*walk, "--every", o.every, count_range, "number of steps between two written conformations");
   biocd::add_view_option(*walk, o);
   biocd::add_report_option(*walk, o);
   biocd::add_explain_option(*walk, o);
   hinge::tool::add_exit_zero(*walk, o.exit_zero);
   walk->option_defaults()->group(title::moves);
-  add_number(*walk, "--steps", o.steps, counts, "number of moves to try");
+  add_number(*walk, "--steps", o.steps, count_range, "number of moves to try");
   add_number(*walk, "--step-size", o.step_degrees, lengths_above_0, "standard deviation of a torsion's change")
       ->type_name("DEGREES");
-  add_number(*walk, "--changes", o.changes, counts, "number of torsions that a move changes");
-  add_number(*walk, "--seed", o.seed, seeds, "seed; a walk depends only on the seed, the file and the options")
+  add_number(*walk, "--changes", o.changes, count_range, "number of torsions that a move changes");
+  add_number(*walk, "--seed", o.seed, seed_range, "seed; a walk depends only on the seed, the file and the options")
       ->type_name("SEED");
   biocd::add_closures_option(*walk, o);
   walk->callback([&] {
@@ -164,10 +164,10 @@ Exit run(int argc, char** argv) {
   hinge::tool::add_exit_zero(*relax, o.exit_zero);
   relax->option_defaults()->group(title::moves);
   biocd::add_closures_option(*relax, o);
-  add_number(*relax, "--tries", o.most_tries, counts,
+  add_number(*relax, "--tries", o.most_tries, count_range,
              "largest number of random restarts, if descent does not mend all clashes (default: 1000)");
   add_number(*relax, "--time", o.seconds, lengths_above_0, "end the search after this time")->type_name("SECONDS");
-  add_number(*relax, "--seed", o.seed, seeds, "seed of the restarts")->type_name("SEED");
+  add_number(*relax, "--seed", o.seed, seed_range, "seed of the restarts")->type_name("SEED");
   relax->callback([&, relaxed] {
     o.keep_closures = o.keep_closures.value_or(true);
     if (relaxed->count() == 0) o.free = o.loop.empty() ? "chi" : "(" + o.loop + ") and chi";
@@ -203,9 +203,9 @@ Exit run(int argc, char** argv) {
   hinge::tool::add_exit_zero(*plan, o.exit_zero);
   plan->option_defaults()->group(title::moves);
   biocd::add_closures_option(*plan, o);
-  add_number(*plan, "--tries", o.most_tries, counts, "largest number of motions to test (default: 100000)");
+  add_number(*plan, "--tries", o.most_tries, count_range, "largest number of motions to test (default: 100000)");
   add_number(*plan, "--time", o.seconds, lengths_above_0, "end the search after this time")->type_name("SECONDS");
-  add_number(*plan, "--seed", o.seed, seeds, "seed of the random conformations")->type_name("SEED");
+  add_number(*plan, "--seed", o.seed, seed_range, "seed of the random conformations")->type_name("SEED");
   plan->callback([&] {
     o.keep_closures = o.keep_closures.value_or(true);
     if (o.from.empty()) o.from = "reference";
@@ -228,8 +228,8 @@ Exit run(int argc, char** argv) {
   demo->option_defaults()->group(title::output);
   demo->add_option("--out", o.out, "folder for the plot and the viewer scripts")->required()->type_name("FOLDER");
   demo->option_defaults()->group(title::sampling);
-  add_number(*demo, "-n,--count", o.count, counts, "number of conformations per row");
-  add_number(*demo, "--seed", o.seed, seeds, "seed of the conformations")->type_name("SEED");
+  add_number(*demo, "-n,--count", o.count, count_range, "number of conformations per row");
+  add_number(*demo, "--seed", o.seed, seed_range, "seed of the conformations")->type_name("SEED");
   demo->callback([&] { command = biocd::run_demo; });
 
   if (const auto status = hinge::tool::parse_command_line(app, with_hetero_words(argc, argv), texts)) return *status;

@@ -58,7 +58,7 @@ void check_outputs(const Options& options, bool is_folder) {
   hinge::tool::check_report(options.report, options.out, input_files(options));
   if (is_inside(options.report, options.read.dictionary))
     throw hinge::ModelError("--report " + options.report + ": is in the monomer dictionary, expected a different file");
-  hinge::tool::check_output("--apply", options.apply, input_files(options));
+  hinge::tool::check_output("--apply", options.dial.apply, input_files(options));
   const std::filesystem::path out = options.out;
   if (out.empty()) return;
   if (!is_folder) {

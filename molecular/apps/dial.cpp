@@ -17,7 +17,7 @@ namespace biocd {
 
 Exit run_dial(const Options& options) {
   const Job job = load(options);
-  hinge::tool::CompleteFile page(options.report), settings(options.apply);
+  hinge::tool::CompleteFile page(options.report), settings(options.dial.apply);
   print_notes(job);
   require_free_torsions(options, job);
   if (options.output == Output::table) fmt::print("{}\n", heading(options, job));
@@ -32,7 +32,7 @@ Exit run_dial(const Options& options) {
   }
   write_dial_page<Json>(page, page_words(options, job), report);
   write_settings(settings, "biocd check and sample", options.command_line, report.advice.text, dial.settings());
-  if (settings.wanted() && options.output == Output::table) fmt::print("options written to {}\n", options.apply);
+  if (settings.wanted() && options.output == Output::table) fmt::print("options written to {}\n", options.dial.apply);
   if (page.wanted() && options.output == Output::table) fmt::print("report: {}\n", options.report);
   return Exit::free;
 }

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -13,11 +12,14 @@
 
 #include "hinge/core/id.hpp"
 #include "hinge/core/vec3.hpp"
+#include "hinge_tools/measure.hpp"
+#include "hinge_tools/near_contact.hpp"
 
 namespace biocd {
 
 using namespace hinge::molecular;
 using hinge::Vec3;
+using hinge::tool::nearly_touching;
 
 namespace {
 
@@ -28,25 +30,6 @@ using Configuration = std::vector<double>;
 using Positions = std::vector<Vec3>;
 
 bool collides(Checker& checker, const Configuration& q) { return checker.check(q, Mode{Mode::Kind::any}).collides; }
-
-Configuration between(const Configuration& from, const Configuration& to, double t) {
-  Configuration q(from.size());
-  for (std::size_t j = 0; j < q.size(); ++j) q[j] = from[j] + t * (to[j] - from[j]);
-  return q;
-}
-
-/// Returns the last free and the first colliding conformation of a bisection between the two, down to neighbouring
-/// numbers.
-std::pair<Configuration, Configuration> nearly_touching(Checker& checker, const Configuration& free,
-                                                        const Configuration& colliding) {
-  double low = 0.0, high = 1.0;
-  while (true) {
-    const double middle = low + (high - low) / 2.0;
-    if (middle <= low || middle >= high) break;
-    (collides(checker, between(free, colliding, middle)) ? high : low) = middle;
-  }
-  return {between(free, colliding, low), between(free, colliding, high)};
-}
 
 /// Returns the decision in single precision: all numbers are rounded to float, and no error is bounded. Pairs further
 /// above their threshold than `margin` are free without a test. Pairs of constant distance are left out.
@@ -117,7 +100,8 @@ hinge::tool::DialExtremes find_extremes(const Job& job, const Sampling& sampling
     if (drawn.empty()) continue;
     Configuration q(drawn.begin(), drawn.end());
     if (starts_free && near.size() < 2 * most_near_pairs && collides(checker, q)) {
-      auto [before, after] = nearly_touching(checker, reference, q);
+      auto [before, after] =
+          nearly_touching([&](const Configuration& at) { return collides(checker, at); }, reference, q);
       near.push_back(std::move(before));
       near.push_back(std::move(after));
     }
@@ -125,7 +109,8 @@ hinge::tool::DialExtremes find_extremes(const Job& job, const Sampling& sampling
   }
   const auto add = [&](const std::string& name, const std::vector<Configuration>& asked, const Rewriting* change) {
     const auto start = hinge::tool::dial::Clock::now();
-    std::size_t count = 0, hits = 0, changed = 0, missed = 0, added = 0;
+    std::size_t count = 0, hits = 0, changed = 0;
+    hinge::tool::WrongVerdicts wrong;
     const double margin = 1e-3 + (change != nullptr ? change->largest : 1e3) * 0x1p-20;
     for (; count < asked.size() && hinge::tool::dial::seconds_since(start) < case_seconds; ++count) {
       const bool plain = collides(checker, asked[count]);
@@ -137,12 +122,10 @@ hinge::tool::DialExtremes find_extremes(const Job& job, const Sampling& sampling
       const bool given = collides_in_float(checker, positions, margin);
       hits += truth ? 1U : 0U;
       changed += truth != plain ? 1U : 0U;
-      missed += truth && !given ? 1U : 0U;
-      added += !truth && given ? 1U : 0U;
+      wrong.count(truth, given);
     }
     table.rows.push_back({name, fmt::format("{}", count), fmt::format("{}", hits),
-                          changed == 0 ? "same" : fmt::format("{} changed", changed),
-                          missed + added == 0 ? "right" : fmt::format("{} missed, {} false", missed, added)});
+                          changed == 0 ? "same" : fmt::format("{} changed", changed), wrong.text()});
   };
   add("random", random, nullptr);
   for (const Rewriting& change : rewritings())

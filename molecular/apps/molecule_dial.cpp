@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <thread>
@@ -17,18 +16,16 @@
 #include "hinge/molecular/clash_rules.hpp"
 #include "hinge/molecular/radii.hpp"
 #include "hinge/molecular/selection.hpp"
+#include "hinge_tools/measure.hpp"
 #include "hinge_tools/settings_file.hpp"
 #include "scene.hpp"
 
 namespace biocd {
 
 using namespace hinge::molecular;
-using hinge::tool::DialChoice;
-using hinge::tool::DialEffort;
 using hinge::tool::DialReport;
-using hinge::tool::DialResult;
 using hinge::tool::DialRow;
-using hinge::tool::DialSection;
+using hinge::tool::options_text;
 using hinge::tool::Sound;
 
 namespace {
@@ -39,17 +36,12 @@ constexpr std::size_t most_candidates = 3;    // for the recommendation, tried i
 constexpr double usual_sigma = 5.0 * degree;  // rad, for a reference that collides
 constexpr const char* reference_name = "the given options";
 
-std::string one_line_of(std::string lines) {
-  std::ranges::replace(lines, '\n', ' ');
-  return lines;
-}
-
 }  // namespace
 
 MoleculeDial::MoleculeDial(const Options& options, const Job& job) : options_(options), job_(job) {
   report_.seed = options.seed;
-  report_.seconds = options.dial_seconds;
-  report_.limits = {options.false_accepts / 100.0, options.false_rejects / 100.0};
+  report_.seconds = options.dial.seconds;
+  report_.limits = options.dial.limits();
 }
 
 DialReport MoleculeDial::run() {
@@ -77,35 +69,34 @@ DialReport MoleculeDial::run() {
   add_hydrogens();
   add_fewer_torsions();
   report_.sections.push_back(
-      measure(std::move(section_), {options_.dial_seconds * conformations_share, options_.dial_count}));
+      measure(std::move(section_), {options_.dial.seconds * conformations_share, options_.dial.count}));
   for (std::string& note : section_notes_) report_.sections.back().notes.push_back(std::move(note));
   if (job_.kept.closures.empty() && options_.loop.empty())
     report_.sections.push_back(measure(path_section(job_, sampling(options_.seed)),
-                                       {options_.dial_seconds * paths_share, options_.dial_count}));
+                                       {options_.dial.seconds * paths_share, options_.dial.count}));
   else
     report_.sections.back().notes.emplace_back(
         "paths: not measured, because a straight path does not keep cycles closed");
   recommend();
-  if (options_.extremes) report_.extremes = find_extremes(job_, sampling(options_.seed));
+  if (options_.dial.extremes) report_.extremes = find_extremes(job_, sampling(options_.seed));
   return std::move(report_);
 }
 
 Sampling MoleculeDial::sampling(std::uint64_t seed) const { return {seed, sigma_}; }
 
 MoleculeDial::Selected MoleculeDial::reference() const {
-  return {make_variant(job_, job_.checker), "", Sound::exact, {}};
+  return {make_variant(job_, job_.checker), {}, Sound::exact, {}};
 }
 
-std::string MoleculeDial::lines_of(const Selected& selected) const {
-  std::string lines = selected.lines;
-  const auto append = [&](const std::string& line) { lines += (lines.empty() ? "" : "\n") + line; };
-  if (selected.manner.in_blocks) append("--mode any");
-  if (selected.manner.threads > 1) append(fmt::format("--threads {}", selected.manner.threads));
+std::vector<std::string> MoleculeDial::lines_of(const Selected& selected) const {
+  std::vector<std::string> lines = selected.lines;
+  if (selected.manner.in_blocks) lines.emplace_back("--mode any");
+  if (selected.manner.threads > 1) lines.push_back(fmt::format("--threads {}", selected.manner.threads));
   return lines;
 }
 
 std::string MoleculeDial::sentence(const Selected& selected, const DialRow& row) const {
-  std::string what = one_line_of(selected.lines);
+  std::string what = options_text(selected.lines);
   const auto append = [&](const std::string& part) { what += (what.empty() ? "" : "; ") + part; };
   if (selected.manner.in_blocks) append("sixteen conformations at a time");
   if (selected.manner.threads > 1) append(fmt::format("{} threads", selected.manner.threads));
@@ -114,20 +105,20 @@ std::string MoleculeDial::sentence(const Selected& selected, const DialRow& row)
               ? "exact"
               : fmt::format("{} false accepts, {} false rejects", hinge::tool::rate_text(row.accept_rate()),
                             hinge::tool::rate_text(row.reject_rate()));
-  return what + "; no other choice is faster with " + hinge::tool::limits_text(report_.limits);
+  return what + "; no other measured choice is faster with " + hinge::tool::limits_text(report_.limits);
 }
 
 void MoleculeDial::add(const char* kind, std::string name, const Selected& selected) {
   selected_.emplace(name, selected);
-  section_.choices.push_back(make_choice(kind, std::move(name), one_line_of(lines_of(selected)), selected.sound,
+  section_.choices.push_back(make_choice(kind, std::move(name), options_text(lines_of(selected)), selected.sound,
                                          selected.variant, conformations_, selected.manner));
 }
 
-void MoleculeDial::add_rules(const char* kind, std::string name, std::string lines, CheckOptions check) {
+void MoleculeDial::add_rules(const char* kind, std::string name, std::string line, CheckOptions check) {
   try {
     check.scope = read_scope(options_, job_.molecule->structure());
     Checker checker(job_.molecule, job_.checker.selection(), check);
-    add(kind, std::move(name), {make_variant(job_, std::move(checker)), std::move(lines), Sound::unknown, {}});
+    add(kind, std::move(name), {make_variant(job_, std::move(checker)), {std::move(line)}, Sound::unknown, {}});
   } catch (const hinge::ModelError& error) {
     section_notes_.push_back(fmt::format("{}: left out: {}", name, error.what()));
   }
@@ -202,7 +193,10 @@ void MoleculeDial::add_hydrogens() {
     try {
       const Job job = load(other);
       add("hydrogens", name,
-          {make_variant(job_, job.checker), fmt::format("--hydrogens drop\n--radii {}", radii), Sound::unknown, {}});
+          {make_variant(job_, job.checker),
+           {"--hydrogens drop", fmt::format("--radii {}", radii)},
+           Sound::unknown,
+           {}});
     } catch (const hinge::ModelError& error) {
       section_notes_.push_back(fmt::format("{}: left out: {}", name, error.what()));
     }
@@ -231,7 +225,7 @@ void MoleculeDial::add_fewer_torsions() {
         options_.free == "all" ? std::string(words) : fmt::format("({}) and {}", options_.free, words);
     add("torsions", fmt::format("only {} free, {} torsions", words, kept.size()),
         {make_variant(job_, std::move(checker)),
-         "--free " + hinge::tool::shell_quoted(expression),
+         {"--free " + hinge::tool::shell_quoted(expression)},
          Sound::unknown,
          {}});
   }
@@ -240,14 +234,14 @@ void MoleculeDial::add_fewer_torsions() {
 void MoleculeDial::recommend() {
   std::vector<std::pair<double, Selected>> models;  // by speed
   Manner best;
-  std::array<double, 2> fastest{0.0, 0.0};
+  double fastest_threads = 0.0;
   for (const DialRow& row : report_.sections.front().rows) {
     const auto found = selected_.find(row.name);
     if (found == selected_.end() || row.speed.low < smallest_gain || !keeps(row, report_.limits)) continue;
     const Manner& manner = found->second.manner;
     if (row.kind == "block") best.in_blocks = true;
-    if (row.kind == "threads" && row.speed.value > fastest[0]) {
-      fastest[0] = row.speed.value;
+    if (row.kind == "threads" && row.speed.value > fastest_threads) {
+      fastest_threads = row.speed.value;
       best.threads = manner.threads;
     }
     if (row.kind != "block" && row.kind != "threads") models.emplace_back(row.speed.value, found->second);
@@ -270,28 +264,20 @@ void MoleculeDial::recommend() {
                    candidates.end());
   for (const Selected& candidate : candidates)
     if (try_advice(candidate, check_share / static_cast<double>(candidates.size()))) return;
-  report_.advice.text = fmt::format("keep {}, one conformation at a time: no other choice is faster with {}",
+  report_.advice.text = fmt::format("keep {}, one conformation at a time: no other measured choice is faster with {}",
                                     reference_name, hinge::tool::limits_text(report_.limits));
 }
 
 bool MoleculeDial::try_advice(const Selected& selected, double share) {
   const auto fresh = std::make_shared<Conformations>(job_, sampling(options_.seed + 1));
-  DialSection section;
-  section.title = "Check";
-  section.unit = {"conformation", "conformations"};
-  section.choices.push_back(make_choice("rules", reference_name, "", Sound::exact, reference().variant, fresh));
-  section.choices.push_back(make_choice("recommended", "recommended", one_line_of(lines_of(selected)), selected.sound,
-                                        selected.variant, fresh, selected.manner));
-  for (DialChoice& choice : section.choices) choice.distance = {};
-  const DialResult result = measure(std::move(section), {options_.dial_seconds * share, options_.dial_count});
-  const DialRow& row = result.rows.back();
-  if (!keeps(row, report_.limits) || row.speed.low <= 1.0) return false;
-  report_.advice.check = row;
-  report_.advice.check_population = fmt::format("seed {}", options_.seed + 1);
-  report_.advice.holds = true;
-  report_.advice.options = one_line_of(lines_of(selected));
-  report_.advice.text = sentence(selected, row);
-  settings_ = {lines_of(selected)};
+  const std::vector<std::string> lines = lines_of(selected);
+  const auto row = confirm(make_choice("rules", reference_name, "", Sound::exact, reference().variant, fresh),
+                           make_choice("recommended", "recommended", options_text(lines), selected.sound,
+                                       selected.variant, fresh, selected.manner),
+                           {options_.dial.seconds * share, options_.dial.count}, report_.limits);
+  if (!row) return false;
+  report_.advice = {sentence(selected, *row), options_text(lines), row, fmt::format("seed {}", options_.seed + 1)};
+  settings_ = lines;
   return true;
 }
 

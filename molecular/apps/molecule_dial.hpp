@@ -30,19 +30,19 @@ class MoleculeDial {
   /// A choice of rules, atoms or torsions, and of a manner to ask.
   struct Selected {
     Variant variant;
-    std::string lines;  // options that select the variant, one with its values per line
+    std::vector<std::string> lines;  // options that select the variant, one with its values each
     hinge::tool::Sound sound = hinge::tool::Sound::exact;
     Manner manner{};
   };
 
   hinge::molecular::Sampling sampling(std::uint64_t seed) const;
   Selected reference() const;
-  std::string lines_of(const Selected& selected) const;
+  std::vector<std::string> lines_of(const Selected& selected) const;
   std::string sentence(const Selected& selected, const hinge::tool::DialRow& row) const;
 
   void add(const char* kind, std::string name, const Selected& selected);
-  /// Adds a choice of other rules or radii. lines: its options. Nothing is added if the rules do not fit the molecule.
-  void add_rules(const char* kind, std::string name, std::string lines, hinge::molecular::CheckOptions check);
+  /// Adds a choice of other rules or radii. line: its option. Nothing is added if the rules do not fit the molecule.
+  void add_rules(const char* kind, std::string name, std::string line, hinge::molecular::CheckOptions check);
   void add_engines();
   void add_all_rules();
   void add_hydrogens();

@@ -19,6 +19,7 @@
 #include "hinge/molecular/selection.hpp"
 #include "hinge/molecular/torsion_prior.hpp"
 #include "hinge/path/path_answer.hpp"
+#include "hinge_tools/dial.hpp"
 #include "hinge_tools/run_tool.hpp"
 
 namespace biocd {
@@ -93,13 +94,8 @@ struct Options {
   double frame_step = 5.0;                      ///< plan: largest turn between two written conformations, degrees
   std::optional<double> sampled_degrees;        ///< path: largest distance between sampled states; nothing: certify
   double min_step = hinge::smallest_path_step;  ///< path: intervals up to this share of the path are not split
-  double dial_seconds = 60.0;                   ///< dial: time to measure
-  std::optional<std::uint64_t> dial_count;      ///< dial: number of conformations; nothing: what the time allows
+  hinge::tool::DialOptions dial;                ///< dial
   bool uniform = false;                         ///< dial: the full range instead of sigma_degrees
-  bool extremes = false;                        ///< dial: also try extremes
-  double false_accepts = 0.0;                   ///< dial: percent, largest that a recommendation may have
-  double false_rejects = 1.0;                   ///< dial: the same
-  std::string apply;                            ///< dial: settings file to write; empty: none
   std::vector<std::string> settings;            ///< files whose options the parser has added
 };
 

@@ -22,7 +22,7 @@ using hinge::tool::DialReport;
 Exit run_dial(const Options& options) {
   if (!options.tiers.empty()) throw hinge::ModelError("--tier: dial measures the tiers itself, expected no --tier");
   Job job = load(options);
-  hinge::tool::CompleteFile page(options.report), settings(options.apply);
+  hinge::tool::CompleteFile page(options.report), settings(options.dial.apply);
   RobotDial dial(options, job);
   for (const std::string& note : notes_on_bodies(options, dial.worker())) job.notes.push_back(note);
   print_notes(job);
@@ -42,7 +42,7 @@ Exit run_dial(const Options& options) {
   write_dial_page<Json>(page, page_words(options, job), report);
   write_settings(settings, "robocd check, path, relax and plan", options.command_line, report.advice.text,
                  dial.settings());
-  if (settings.wanted() && options.output == Output::table) fmt::print("options written to {}\n", options.apply);
+  if (settings.wanted() && options.output == Output::table) fmt::print("options written to {}\n", options.dial.apply);
   if (page.wanted() && options.output == Output::table) fmt::print("report: {}\n", options.report);
   print_incomplete(*job.robot);
   return Exit::free;

@@ -161,16 +161,18 @@ DialChoice make_cascade(std::string name, Worker enclosing, Worker exact, std::s
   return choice;
 }
 
-std::vector<Tier> find_mixture(const Options& options, const Job& job, const LinkShapes& shapes, Tier cheap,
-                               Questions& questions, std::size_t count, double share) {
-  Worker exact = make_worker(options, job, job.robot);
-  std::vector<std::uint64_t> free;  // questions that the exact shapes call free
+std::vector<std::uint64_t> free_questions(Worker& exact, Questions& questions, std::size_t count) {
   questions.prepare(0, count);
-  for (std::size_t k = 0; k < count; ++k) {
-    Verdict3 verdict{};
-    answer(exact, questions.at(k), std::span(&verdict, 1));
-    if (verdict == Verdict3::free) free.push_back(k);
-  }
+  std::vector<Verdict3> verdicts(count);
+  answer(exact, questions.at(0, count), verdicts);
+  std::vector<std::uint64_t> free;
+  for (std::size_t k = 0; k < count; ++k)
+    if (verdicts[k] == Verdict3::free) free.push_back(k);
+  return free;
+}
+
+std::vector<Tier> find_mixture(const Options& options, const Job& job, const LinkShapes& shapes, Tier cheap,
+                               const Questions& questions, const std::vector<std::uint64_t>& free, double share) {
   const auto allowed = static_cast<std::size_t>(share * static_cast<double>(free.size()));
   std::vector<Tier> tiers = shapes.all(cheap);
   std::vector<std::uint64_t> wrong = free;  // more exact shapes call no further question colliding

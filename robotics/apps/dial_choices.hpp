@@ -31,6 +31,7 @@ class Questions {
   std::span<const double> at(std::uint64_t k) const { return at(k, 1); }
   /// Returns the number of different configurations.
   std::uint64_t count() const { return all_.count; }
+  const Configurations& all() const { return all_; }
 
  private:
   Configurations all_;
@@ -79,11 +80,15 @@ hinge::tool::DialChoice make_choice(std::string kind, std::string name, std::str
 hinge::tool::DialChoice make_cascade(std::string name, Worker enclosing, Worker exact,
                                      std::shared_ptr<Questions> questions);
 
-/// Finds a tier for each link, `cheap` where it serves and meshes elsewhere, so that no more than `share` of the free
-/// configurations among the first `count` are called colliding. Returns nothing if all links would need meshes.
+/// Returns those of the first `count` questions that the worker calls free.
+std::vector<std::uint64_t> free_questions(Worker& exact, Questions& questions, std::size_t count);
+
+/// Finds a tier for each link, `cheap` where it serves and meshes elsewhere, so that no more than `share` of the
+/// questions `free`, which the exact shapes call free, are called colliding. Returns nothing if all links would need
+/// meshes. The questions are those of the last free_questions().
 std::vector<hinge::robotics::Tier> find_mixture(const Options& options, const Job& job, const LinkShapes& shapes,
-                                                hinge::robotics::Tier cheap, Questions& questions, std::size_t count,
-                                                double share);
+                                                hinge::robotics::Tier cheap, const Questions& questions,
+                                                const std::vector<std::uint64_t>& free, double share);
 
 /// Returns the choices about straight motions: a proof, and samples at several distances.
 hinge::tool::DialSection path_section(const Options& options, const Worker& worker);

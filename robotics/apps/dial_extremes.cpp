@@ -21,11 +21,14 @@
 #include "hinge/robotics/random_configuration.hpp"
 #include "hinge/robotics/robot_checker.hpp"
 #include "hinge/robotics/tiers.hpp"
-#include "hinge_tools/dial.hpp"
+#include "hinge_tools/measure.hpp"
+#include "hinge_tools/near_contact.hpp"
 
 namespace robocd {
 
 using namespace hinge::robotics;
+using hinge::tool::nearly_touching;
+using hinge::tool::WrongVerdicts;
 
 RobotDescription scaled(RobotDescription robot, double scale) {
   std::map<std::string, bool> slides;
@@ -115,101 +118,56 @@ bool collides(RobotChecker& checker, const Configuration& q) {
   return checker.collides();
 }
 
-Configuration between(const Configuration& from, const Configuration& to, double t) {
-  Configuration q(from.size());
-  for (std::size_t j = 0; j < q.size(); ++j) q[j] = from[j] + t * (to[j] - from[j]);
-  return q;
-}
-
-/// Returns a free and a colliding configuration on the line between two of them, with neighbouring values of t or
-/// without a representable configuration between them.
-std::pair<Configuration, Configuration> nearly_touching(RobotChecker& checker, const Configuration& free,
-                                                        const Configuration& colliding) {
-  double low = 0.0, high = 1.0;
-  while (true) {
-    const double middle = low + (high - low) / 2.0;
-    if (middle <= low || middle >= high) break;
-    (collides(checker, between(free, colliding, middle)) ? high : low) = middle;
-  }
-  return {between(free, colliding, low), between(free, colliding, high)};
-}
-
-/// Triangles of the robot in the world, in single precision.
-struct FloatRobot {
+/// The triangles of a link in the world, in single precision.
+struct FloatLink {
   std::vector<FloatTriangle> triangles;
-  std::map<hinge::LinkId, std::vector<std::size_t>> of_link;
+  std::vector<double> radii;  // m, by triangle
+  FloatBox box;
 };
 
-FloatRobot place(RobotChecker& checker) {
-  FloatRobot placed;
+FloatLink place(RobotChecker& checker, hinge::LinkId link) {
+  FloatLink placed;
   const auto& model = checker.robot().model();
-  std::map<hinge::LinkId, hinge::Pose> poses;
+  const hinge::Pose pose = checker.link_pose(link);
   for (std::size_t i = 0; i < model.size(); ++i) {
-    const hinge::LinkId link = model.links()[i];
-    if (!poses.contains(link)) poses[link] = checker.link_pose(link);
-    const hinge::Triangle t = model.primitives()[i].placed(poses[link]);
+    if (model.links()[i] != link) continue;
+    const hinge::Triangle t = model.primitives()[i].placed(pose);
     placed.triangles.push_back({to_float(t.a), to_float(t.b), to_float(t.c)});
-    placed.of_link[link].push_back(i);
+    placed.radii.push_back(checker.margins().radius(hinge::id<hinge::PrimitiveId>(i)));
+    placed.box.add(box_of(placed.triangles.back()));
   }
   return placed;
+}
+
+/// Returns the triangles that are no further from the box than `reach`.
+std::vector<std::size_t> near_box(const FloatLink& link, const FloatBox& box, float reach) {
+  std::vector<std::size_t> near;
+  for (std::size_t i = 0; i < link.triangles.size(); ++i)
+    if (!box_of(link.triangles[i]).apart(box, reach)) near.push_back(i);
+  return near;
 }
 
 /// Returns the decision in single precision about the surfaces. Pairs of links further apart than `margin` are free
 /// without a test, because no rounding bridges it.
 bool collides_in_float(RobotChecker& checker, double margin) {
-  const auto near = checker.distances(margin);
-  if (near.empty()) return false;
-  const FloatRobot placed = place(checker);
-  const auto m = static_cast<float>(margin);
-  for (const ClosestLinks& pair : near) {
-    const auto box_of = [&](hinge::LinkId link) {
-      std::array<FloatPoint, 2> box = {FloatPoint{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-      for (const std::size_t i : placed.of_link.at(link))
-        for (const FloatPoint& x : placed.triangles[i])
-          for (std::size_t k = 0; k < 3; ++k) {
-            box[0][k] = std::min(box[0][k], x[k]);
-            box[1][k] = std::max(box[1][k], x[k]);
-          }
-      return box;
-    };
-    const auto inside = [&](std::size_t i, const std::array<FloatPoint, 2>& box, float reach) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto [low, high] =
-            std::minmax({placed.triangles[i][0][k], placed.triangles[i][1][k], placed.triangles[i][2][k]});
-        if (low > box[1][k] + reach || high < box[0][k] - reach) return false;
-      }
-      return true;
-    };
-    const auto first_box = box_of(pair.link1), second_box = box_of(pair.link2);
-    std::vector<std::size_t> others;
-    const LinkMargins& margins = checker.margins();
-    const auto radius = [&](std::size_t i) { return margins.radius(hinge::id<hinge::PrimitiveId>(i)); };
-    double largest = 0.0;
-    for (const std::size_t j : placed.of_link.at(pair.link2)) largest = std::max(largest, radius(j));
-    for (const std::size_t i : placed.of_link.at(pair.link1)) largest = std::max(largest, radius(i));
-    const auto reach = static_cast<float>(2.0 * largest + margins.clearance(pair.link1, pair.link2)) + 2.0F * m;
-    for (const std::size_t j : placed.of_link.at(pair.link2))
-      if (inside(j, first_box, reach)) others.push_back(j);
-    for (const std::size_t i : placed.of_link.at(pair.link1)) {
-      if (!inside(i, second_box, reach)) continue;
-      for (const std::size_t j : others) {
-        const double sum = radius(i) + radius(j) + margins.clearance(pair.link1, pair.link2);
-        if (closer_in_float(placed.triangles[i], placed.triangles[j], static_cast<float>(sum))) return true;
-      }
-    }
+  std::map<hinge::LinkId, FloatLink> links;
+  const auto placed = [&](hinge::LinkId link) -> const FloatLink& {
+    const auto found = links.find(link);
+    return found != links.end() ? found->second : links.emplace(link, place(checker, link)).first->second;
+  };
+  for (const ClosestLinks& pair : checker.distances(margin)) {
+    const FloatLink &a = placed(pair.link1), &b = placed(pair.link2);
+    const double clearance = checker.margins().clearance(pair.link1, pair.link2);
+    const double radii = std::ranges::max(a.radii) + std::ranges::max(b.radii);
+    const auto reach = static_cast<float>(radii + clearance + 2.0 * margin);
+    const std::vector<std::size_t> others = near_box(b, a.box, reach);
+    for (const std::size_t i : near_box(a, b.box, reach))
+      for (const std::size_t j : others)
+        if (closer_in_float(a.triangles[i], b.triangles[j], static_cast<float>(a.radii[i] + b.radii[j] + clearance)))
+          return true;
   }
   return false;
 }
-
-struct Wrong {
-  std::size_t missed = 0, added = 0;
-
-  void count(bool truth, bool given) {
-    missed += truth && !given ? 1U : 0U;
-    added += !truth && given ? 1U : 0U;
-  }
-  std::string text() const { return missed + added == 0 ? "right" : fmt::format("{} missed, {} false", missed, added); }
-};
 
 }  // namespace
 
@@ -228,7 +186,8 @@ hinge::tool::DialExtremes find_extremes(const Options& options, const Job& job) 
     if (random.size() < 2 * most_near_pairs) random.push_back(std::move(q));
     const std::size_t made = near.size() / 2;
     if (made < most_near_pairs && made < std::min(free.size(), colliding.size())) {
-      auto [before, after] = nearly_touching(plain.exact, free[made], colliding[made]);
+      auto [before, after] = nearly_touching([&](const Configuration& at) { return collides(plain.exact, at); },
+                                             free[made], colliding[made]);
       near.push_back(std::move(before));
       near.push_back(std::move(after));
     }
@@ -243,8 +202,8 @@ hinge::tool::DialExtremes find_extremes(const Options& options, const Job& job) 
   const auto add = [&](const std::string& name, Copy& copy, const std::vector<Configuration>& asked, bool compares,
                        double displaced) {
     const hinge::tool::dial::Clock::time_point start = hinge::tool::dial::Clock::now();
-    std::array<Wrong, 3> of_tier;
-    Wrong of_float;
+    std::array<WrongVerdicts, 3> of_tier;
+    WrongVerdicts of_float;
     std::size_t count = 0, hits = 0, changed = 0;
     hinge::Pose base;
     base.translation = hinge::Vec3(displaced, displaced, displaced);

@@ -83,7 +83,8 @@ RobotScene study_scene(const Options& options, const Job& job) {
   how.seed = options.seed;
   how.clearance = options.clearance;
   how.settled = job.disabled;
-  std::string words;
+  scene.made_for = "--made-for " + model_digest(options, robot);
+  std::string words = scene.made_for;
   std::vector<std::string> items;
   if (!robot.independent_joints().empty())
     for (const MatrixEntry& entry : find_collision_matrix(robot, how).entries) {
@@ -92,8 +93,7 @@ RobotScene study_scene(const Options& options, const Job& job) {
       scene.apart.emplace_back(a, b);
       scene.tested.erase(entry.link1, entry.link2);
       items.push_back(a + ", " + b);
-      words += (words.empty() ? "" : " ") +
-               fmt::format("--proved-apart {} {}", hinge::tool::shell_quoted(a), hinge::tool::shell_quoted(b));
+      words += fmt::format(" --proved-apart {} {}", hinge::tool::shell_quoted(a), hinge::tool::shell_quoted(b));
     }
   const std::string of = fmt::format("{} of {}", items.size(), counted(job.tested.size(), "tested pair"));
   if (!items.empty())

@@ -15,6 +15,7 @@ namespace robocd {
 struct RobotScene {
   std::vector<hinge::tool::DialRequirement> requirements;
   std::vector<std::pair<std::string, std::string>> apart;  // tested pairs that are proved apart within the joint limits
+  std::string made_for;                                    // the option --made-for of these proofs
   hinge::robotics::LinkPairs tested;                       // the tested pairs without these
 };
 

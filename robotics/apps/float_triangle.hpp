@@ -16,6 +16,30 @@ namespace robocd {
 using FloatPoint = std::array<float, 3>;
 using FloatTriangle = std::array<FloatPoint, 3>;
 
+/// An axis-parallel box; empty at first.
+struct FloatBox {
+  FloatPoint lower{INFINITY, INFINITY, INFINITY}, upper{-INFINITY, -INFINITY, -INFINITY};
+
+  void add(const FloatBox& other) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      lower[k] = std::min(lower[k], other.lower[k]);
+      upper[k] = std::max(upper[k], other.upper[k]);
+    }
+  }
+  /// Returns true if the boxes are further apart than `reach` along an axis.
+  bool apart(const FloatBox& other, float reach) const {
+    bool any = false;
+    for (std::size_t k = 0; k < 3; ++k) any |= lower[k] > other.upper[k] + reach || other.lower[k] > upper[k] + reach;
+    return any;
+  }
+};
+
+inline FloatBox box_of(const FloatTriangle& t) {
+  FloatBox box;
+  for (const FloatPoint& x : t) box.add({x, x});
+  return box;
+}
+
 inline FloatPoint to_float(const hinge::Vec3& x) {
   return {static_cast<float>(x[0]), static_cast<float>(x[1]), static_cast<float>(x[2])};
 }

@@ -35,7 +35,7 @@ void check_outputs(const Options& options) {
   for (const std::string& body : options.environment) inputs.push_back(parse_body(body).file);
   hinge::tool::check_output("--out", options.out, inputs);
   hinge::tool::check_report(options.report, options.out, inputs);
-  hinge::tool::check_output("--apply", options.apply, inputs);
+  hinge::tool::check_output("--apply", options.dial.apply, inputs);
 }
 
 namespace {

@@ -15,6 +15,7 @@
 #include "hinge/robotics/link_pairs.hpp"
 #include "hinge/robotics/read_srdf.hpp"
 #include "hinge/robotics/robot.hpp"
+#include "hinge_tools/dial.hpp"
 #include "hinge_tools/run_tool.hpp"
 
 namespace robocd {
@@ -68,12 +69,7 @@ struct Options {
   // matrix
   hinge::robotics::MatrixOptions matrix;  // its clearance is replaced by `clearance` above
   bool disable_unseen = false;
-  // dial: configurations as for check, and
-  double dial_seconds = 60.0;
-  std::optional<std::uint64_t> dial_count;          // empty: as many as the time allows
-  double false_accepts = 0.0, false_rejects = 1.0;  // percent, largest that a recommendation may have
-  bool extremes = false;
-  std::string apply;         // settings file to write; empty: none
+  hinge::tool::DialOptions dial;
   std::string report;        // check, path, relax, plan, matrix, dial: HTML page to write; empty: none
   std::string command_line;  // as typed, for the page
   // check, relax, plan: CSV file of the configurations, empty: none; matrix: SRDF file, empty: standard output; demo:

@@ -10,19 +10,21 @@
 
 #include "configurations.hpp"
 #include "dial_extremes.hpp"
+#include "hinge/core/error.hpp"
 #include "hinge_tools/counted.hpp"
+#include "hinge_tools/measure.hpp"
 #include "hinge_tools/settings_file.hpp"
 
 namespace robocd {
 
 using namespace hinge::robotics;
 using hinge::tool::counted;
-using hinge::tool::DialChoice;
 using hinge::tool::DialEffort;
 using hinge::tool::DialReport;
 using hinge::tool::DialResult;
 using hinge::tool::DialRow;
 using hinge::tool::DialSection;
+using hinge::tool::options_text;
 using hinge::tool::shell_quoted;
 using hinge::tool::Sound;
 
@@ -63,8 +65,8 @@ std::string mixture_name(const LinkShapes& shapes, const std::vector<Tier>& tier
 RobotDial::RobotDial(const Options& options, Job& job)
     : options_(options), job_(job), worker_(make_worker(options, job)), shapes_(*job.robot) {
   report_.seed = options.seed;
-  report_.seconds = options.dial_seconds;
-  report_.limits = {options.false_accepts / 100.0, options.false_rejects / 100.0};
+  report_.seconds = options.dial.seconds;
+  report_.limits = options.dial.limits();
 }
 
 DialReport RobotDial::run() {
@@ -72,6 +74,8 @@ DialReport RobotDial::run() {
   report_.requirements = scene_.requirements;
   section_notes_ = shapes_.notes();
   questions_ = questions(options_.seed);
+  if (!options_.csv_in.empty() && questions_->count() < 2)
+    throw hinge::ModelError("--csv-in " + options_.csv_in + ": holds one configuration, expected two or more");
   leave_out_proofs_outside_limits();
   section_.title = "Configurations";
   section_.unit = {"configuration", "configurations"};
@@ -86,17 +90,17 @@ DialReport RobotDial::run() {
   for (std::string& note : section_notes_) report_.sections.back().notes.push_back(std::move(note));
   note_sufficient_tiers();
   if (!job_.robot->independent_joints().empty()) {
-    const DialEffort motions{options_.dial_seconds * motions_share, options_.dial_count};
+    const DialEffort motions{options_.dial.seconds * motions_share, options_.dial.count};
     report_.sections.push_back(measure(path_section(options_, worker_), motions));
   }
   recommend();
-  if (options_.extremes) report_.extremes = find_extremes(options_, job_);
+  if (options_.dial.extremes) report_.extremes = find_extremes(options_, job_);
   return std::move(report_);
 }
 
 void RobotDial::leave_out_proofs_outside_limits() {
   if (options_.csv_in.empty()) return;
-  const std::vector<std::string> outside = notes_on_limits(find_configurations(options_, job_), options_, *job_.robot);
+  const std::vector<std::string> outside = notes_on_limits(questions_->all(), options_, *job_.robot);
   if (outside.empty() || scene_.apart.empty()) return;
   section_notes_.push_back("pairs proved apart: left out, because the proofs hold within the limits only: " +
                            outside[0]);
@@ -104,17 +108,20 @@ void RobotDial::leave_out_proofs_outside_limits() {
 }
 
 DialEffort RobotDial::effort(double share) const {
-  DialEffort effort{options_.dial_seconds * share, options_.dial_count};
+  DialEffort effort{options_.dial.seconds * share, options_.dial.count};
   if (!options_.csv_in.empty()) effort.most = (questions_->count() + 1) / 2;  // the other half is for the check
   return effort;
+}
+
+Sound RobotDial::sound_of(const Selected& selected) const {
+  return is_exact(selected) ? Sound::exact : Sound::no_false_accept;
 }
 
 std::shared_ptr<Questions> RobotDial::questions(std::uint64_t drawn_from) const {
   Options drawn = options_;
   drawn.seed = drawn_from;
   drawn.count = drawn.csv_in.empty() ? UINT64_MAX : 0;
-  Job copy = job_;
-  return std::make_shared<Questions>(find_configurations(drawn, copy));
+  return std::make_shared<Questions>(find_configurations(drawn, job_));
 }
 
 Worker RobotDial::worker_of(const Selected& selected) const {
@@ -137,12 +144,6 @@ std::vector<std::string> RobotDial::lines_of(const Selected& selected) const {
   return lines;
 }
 
-std::string RobotDial::options_of(const Selected& selected) const {
-  std::string text;
-  for (const std::string& word : lines_of(selected)) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
-
 std::string RobotDial::sentence(const Selected& selected, const DialRow& row) const {
   std::string what;
   const auto append = [&](const std::string& part) { what += (what.empty() ? "" : "; ") + part; };
@@ -157,13 +158,12 @@ std::string RobotDial::sentence(const Selected& selected, const DialRow& row) co
   what += is_exact(selected) ? "exact"
                              : fmt::format("no contact of surfaces is missed, {} false rejects",
                                            hinge::tool::rate_text(row.reject_rate()));
-  return what + "; no other choice is faster with " + hinge::tool::limits_text(report_.limits);
+  return what + "; no other measured choice is faster with " + hinge::tool::limits_text(report_.limits);
 }
 
 void RobotDial::add(const char* kind, std::string name, const Selected& selected) {
   selected_.emplace(name, selected);
-  section_.choices.push_back(make_choice(kind, std::move(name), options_of(selected),
-                                         is_exact(selected) ? Sound::exact : Sound::no_false_accept,
+  section_.choices.push_back(make_choice(kind, std::move(name), options_text(lines_of(selected)), sound_of(selected),
                                          worker_of(selected), questions_, selected.threads));
 }
 
@@ -185,10 +185,11 @@ void RobotDial::add_engines() {
 void RobotDial::add_tiers() {
   for (const Tier tier : shapes_.fitted())
     add("shapes", fmt::format("{} for all links", name(tier)), {shapes_.all(tier), false, 1});
+  const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(mixture_count, effort(1.0).most));
+  const std::vector<std::uint64_t> free = free_questions(worker_, *questions_, count);
   for (const Tier tier : shapes_.fitted()) {
-    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(mixture_count, effort(1.0).most));
     const std::vector<Tier> mixed =
-        find_mixture(options_, job_, shapes_, tier, *questions_, count, report_.limits.false_rejects / 2.0);
+        find_mixture(options_, job_, shapes_, tier, *questions_, free, report_.limits.false_rejects / 2.0);
     if (!mixed.empty() && std::ranges::count(mixed, Tier::mesh) > 0)
       add("mixed shapes", mixture_name(shapes_, mixed, tier), {mixed, false, 1});
   }
@@ -241,37 +242,28 @@ void RobotDial::recommend() {
   for (const Selected& candidate : candidates)
     if (try_advice(candidate, check_share / static_cast<double>(candidates.size()))) return;
   report_.advice.text =
-      fmt::format("keep the shapes of the URDF, engine simd and one thread: no other choice is faster with {}",
+      fmt::format("keep the shapes of the URDF, engine simd and one thread: no other measured choice is faster with {}",
                   hinge::tool::limits_text(report_.limits));
-  settings_.clear();
 }
 
 bool RobotDial::try_advice(const Selected& selected, double share) {
-  const auto fresh = questions(options_.seed + 1);
-  DialSection section;
-  section.title = "Check";
-  section.unit = {"configuration", "configurations"};
-  section.choices.push_back(
-      make_choice("shapes", reference_name, "", Sound::exact, make_worker(options_, job_), fresh));
-  section.choices.push_back(make_choice("recommended", "recommended", options_of(selected),
-                                        is_exact(selected) ? Sound::exact : Sound::no_false_accept, worker_of(selected),
-                                        fresh, selected.threads));
-  for (DialChoice& choice : section.choices) choice.distance = {};
+  const bool from_file = !options_.csv_in.empty();
+  const auto fresh = from_file ? questions_ : questions(options_.seed + 1);
   DialEffort checked = effort(share);
-  if (!options_.csv_in.empty()) checked.first = checked.most;
-  const DialResult result = measure(std::move(section), checked);
-  const DialRow& row = result.rows.back();
-  hinge::tool::DialAdvice advice;
-  advice.check = row;
-  advice.check_population =
-      options_.csv_in.empty() ? fmt::format("seed {}", options_.seed + 1) : "the second half of " + options_.csv_in;
-  advice.holds = keeps(row, report_.limits) && row.speed.low > 1.0 && row.false_accepts == 0;
-  advice.options = options_of(selected);
-  advice.text = sentence(selected, row);
-  if (!advice.holds) return false;
-  report_.advice = std::move(advice);
-  settings_ = lines_of(selected);
-  if (selected.leaves_out) settings_.insert(settings_.begin(), "--made-for " + model_digest(options_, *job_.robot));
+  if (from_file) {
+    checked.first = checked.most;
+    checked.most = fresh->count() - checked.first;
+  }
+  const std::vector<std::string> lines = lines_of(selected);
+  const auto row = confirm(make_choice("shapes", reference_name, "", Sound::exact, make_worker(options_, job_), fresh),
+                           make_choice("recommended", "recommended", options_text(lines), sound_of(selected),
+                                       worker_of(selected), fresh, selected.threads),
+                           checked, report_.limits);
+  if (!row) return false;
+  report_.advice = {sentence(selected, *row), options_text(lines), row,
+                    from_file ? "the second half of " + options_.csv_in : fmt::format("seed {}", options_.seed + 1)};
+  settings_ = lines;
+  if (selected.leaves_out) settings_.insert(settings_.begin(), scene_.made_for);
   return true;
 }
 

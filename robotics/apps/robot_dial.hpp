@@ -42,8 +42,8 @@ class RobotDial {
   hinge::tool::DialEffort effort(double share) const;
   Worker worker_of(const Selected& selected) const;
   bool is_exact(const Selected& selected) const;
+  hinge::tool::Sound sound_of(const Selected& selected) const;
   std::vector<std::string> lines_of(const Selected& selected) const;
-  std::string options_of(const Selected& selected) const;
   std::string sentence(const Selected& selected, const hinge::tool::DialRow& row) const;
 
   /// Configurations of a file may be outside the limits, where proofs about pairs do not hold.

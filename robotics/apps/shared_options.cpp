@@ -18,8 +18,10 @@ namespace robocd {
 
 using hinge::tool::add_choice;
 using hinge::tool::add_number;
+using hinge::tool::count_range;
 using hinge::tool::NumberRange;
 using hinge::tool::repeatable;
+using hinge::tool::seed_range;
 using Reals = NumberRange<double>;
 namespace title = hinge::tool::title;
 
@@ -31,9 +33,6 @@ void add_report_option(CLI::App& command, Options& o) {
                   "write an HTML page with the robot, its configurations and their collisions, for any browser")
       ->type_name("FILE.html");
 }
-
-constexpr NumberRange<std::uint64_t> counts{1, std::uint64_t{1} << 53};
-constexpr NumberRange<std::uint64_t> seeds{0, UINT64_MAX};
 
 void add_srdf_option(CLI::App& command, Options& o, const char* help) {
   command.option_defaults()->group(title::input);
@@ -57,7 +56,7 @@ void add_clearance_option(CLI::App& command, Options& o) {
 void add_configuration_options(CLI::App& command, Options& o) {
   command.option_defaults()->group(title::configurations);
   CLI::Option_group* source = command.add_option_group("configurations", "exactly one of these options");
-  CLI::Option* random = add_number(*source, "--random", o.count, counts,
+  CLI::Option* random = add_number(*source, "--random", o.count, count_range,
                                    "number of random configurations, uniform within the joint limits")
                             ->default_str("");
   source
@@ -71,7 +70,7 @@ void add_configuration_options(CLI::App& command, Options& o) {
   source->add_flag("--zero", o.zero, "the configuration with every joint at zero");
   source->require_option(1);
   command.option_defaults()->group(title::sampling);
-  add_number(command, "--seed", o.seed, seeds, "seed; random configuration k depends only on (seed, k)")
+  add_number(command, "--seed", o.seed, seed_range, "seed; random configuration k depends only on (seed, k)")
       ->needs(random)
       ->type_name("SEED");
 }
@@ -96,11 +95,11 @@ void add_question_options(CLI::App& command, Options& o) {
 /// Adds the limits and the seed of a search.
 void add_search_options(CLI::App& command, Options& o, std::uint64_t& tries, const char* help) {
   command.option_defaults()->group(title::sampling);
-  add_number(command, "--tries", tries, counts, help);
+  add_number(command, "--tries", tries, count_range, help);
   add_number(command, "--time", o.seconds, Reals{0.0, hinge::tool::largest_length, true},
              "test nothing after this time")
       ->type_name("SECONDS");
-  add_number(command, "--seed", o.seed, seeds, "seed of the search")->type_name("SEED");
+  add_number(command, "--seed", o.seed, seed_range, "seed of the search")->type_name("SEED");
 }
 
 }  // namespace
@@ -210,7 +209,7 @@ void add_matrix_options(CLI::App& command, Options& o) {
   add_srdf_option(command, o, "SRDF file to extend: its contents are kept, and pairs that it disables are not proved");
   command.option_defaults()->group(title::proofs);
   add_number(command, "--samples", o.matrix.samples, numbers, "number of random configurations to test");
-  add_number(command, "--seed", o.matrix.seed, seeds, "seed of the random configurations")->type_name("SEED");
+  add_number(command, "--seed", o.matrix.seed, seed_range, "seed of the random configurations")->type_name("SEED");
   add_number(command, "--cells", o.matrix.cells, numbers,
              "largest number of boxes of joint values that a proof may use per pair; 0: no proofs");
   command.option_defaults()->group(title::question);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tests the measurement of choices and its statistics with choices whose errors are known.
-#include "hinge_tools/dial.hpp"
+#include "hinge_tools/measure.hpp"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <thread>
@@ -144,6 +145,28 @@ TEST(Dial, UndecidedAnswersAreNotCounted) {
   EXPECT_EQ(result.rows[1].count, 40U);
   EXPECT_EQ(result.rows[1].colliding + result.rows[1].free, 0U);
   EXPECT_FALSE(result.rows[1].accept_rate());
+}
+
+TEST(Dial, DistancesThatDoNotExistAreNotCompared) {
+  DialSection s = section();
+  s.choices.resize(2);
+  const auto none = [](std::uint64_t k) { return k % 2 == 0 ? 1.0 : std::numeric_limits<double>::infinity(); };
+  s.choices[0].distance = s.choices[1].distance = none;
+  const DialResult result = measure(std::move(s), {.seconds = 0.2, .count = 40});
+  EXPECT_EQ(result.rows[1].distances, 20U);
+  EXPECT_EQ(result.rows[1].mean_distance_error.value, 0.0);
+  EXPECT_EQ(result.rows[1].largest_distance_error, 0.0);
+}
+
+TEST(Dial, ConfirmsAChoiceThatIsFasterAndKeepsTheLimits) {
+  const DialSection s = section();
+  const DialEffort effort{.seconds = 0.5};
+  const auto row = confirm(s.choices[0], s.choices[3], effort, {0.0, 0.05});
+  ASSERT_TRUE(row);
+  EXPECT_EQ(row->name, "encloses");
+  EXPECT_EQ(row->distances, 0U);
+  EXPECT_FALSE(confirm(s.choices[0], s.choices[1], effort, {0.0, 0.05}));  // slower
+  EXPECT_FALSE(confirm(s.choices[0], s.choices[2], effort, {0.0, 0.05}));  // misses some
 }
 
 }  // namespace dial_test

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Configurations that nearly touch, and counts of wrong verdicts about them.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hinge/core/number_text.hpp"
+
+namespace hinge::tool {
+
+/// Returns the configuration at t on the straight line between two others.
+inline std::vector<double> between(const std::vector<double>& from, const std::vector<double>& to, double t) {
+  std::vector<double> q(from.size());
+  for (std::size_t j = 0; j < q.size(); ++j) q[j] = from[j] + t * (to[j] - from[j]);
+  return q;
+}
+
+/// Returns a free and a colliding configuration on the line between two of them, at neighbouring values of t.
+/// collides(q): the verdict.
+template <class Collides>
+std::pair<std::vector<double>, std::vector<double>> nearly_touching(const Collides& collides,
+                                                                    const std::vector<double>& free,
+                                                                    const std::vector<double>& colliding) {
+  double low = 0.0, high = 1.0;
+  for (double middle = 0.5; middle > low && middle < high; middle = low + (high - low) / 2.0)
+    (collides(between(free, colliding, middle)) ? high : low) = middle;
+  return {between(free, colliding, low), between(free, colliding, high)};
+}
+
+/// Counts wrong verdicts.
+struct WrongVerdicts {
+  std::size_t missed = 0;  ///< colliding, but called free
+  std::size_t added = 0;   ///< free, but called colliding
+
+  void count(bool truth, bool given) {
+    missed += truth && !given ? 1U : 0U;
+    added += !truth && given ? 1U : 0U;
+  }
+  /// Returns "right" or "3 missed, 5 false".
+  std::string text() const {
+    if (missed + added == 0) return "right";
+    return number_text(missed) + " missed, " + number_text(added) + " false";
+  }
+};
+
+}  // namespace hinge::tool
