@@ -83,7 +83,7 @@ RobotScene study_scene(const Options& options, const Job& job) {
   how.seed = options.seed;
   how.clearance = options.clearance;
   how.settled = job.disabled;
-  scene.made_for = "--made-for " + model_digest(options, robot);
+  scene.made_for = "--made-for " + model_digest(options, robot.description());
   std::string words = scene.made_for;
   std::vector<std::string> items;
   if (!robot.independent_joints().empty())

@@ -112,12 +112,8 @@ Tiers read_tiers(const Options& options) {
   return tiers;
 }
 
-/// Leaves out the pairs of --proved-apart. Throws ModelError for an unknown link, LoadError for another model.
+/// Leaves out the pairs of --proved-apart. Throws ModelError for an unknown link.
 void read_proved(const Options& options, Job& job) {
-  if (!options.made_for.empty() && options.made_for != model_digest(options, *job.robot))
-    throw hinge::LoadError(
-        "--made-for: the settings were made for another URDF file, mesh, --clearance, --contained or --primitives; "
-        "'robocd dial --apply FILE' makes new ones");
   for (const auto& [a, b] : options.proved_apart) {
     const auto first = job.robot->find_link(a), second = job.robot->find_link(b);
     if (!first || !second)
@@ -140,9 +136,9 @@ void check_floating_base(const Options& options, const RobotDescription& robot) 
 
 }  // namespace
 
-std::string model_digest(const Options& options, const Robot& robot) {
+std::string model_digest(const Options& options, const RobotDescription& robot) {
   std::string text = "robot " + hinge::tool::sha256_of(options.urdf) + '\n';
-  for (const LinkDescription& link : robot.description().links)
+  for (const LinkDescription& link : robot.links)
     for (const PlacedShape& placed : link.geometry)
       if (const auto* mesh = std::get_if<MeshShape>(&placed.shape); mesh != nullptr && !mesh->file.empty())
         text += "mesh " + hinge::tool::sha256_of(mesh->file) + '\n';
@@ -172,6 +168,11 @@ std::shared_ptr<const Robot> load_robot(const Options& options, std::vector<std:
   hinge::tool::check_output("--report", options.report, meshes);
   if (options.contained)
     for (std::string& note : fill_closed_meshes(description)) notes.push_back(std::move(note));
+  // The proofs are about the shapes of the URDF, which tiers enclose.
+  if (!options.made_for.empty() && options.made_for != model_digest(options, description))
+    throw hinge::LoadError(
+        "--made-for: the settings were made for another URDF file, mesh, --clearance, --contained or --primitives; "
+        "'robocd dial --apply FILE' makes new ones");
   if (!options.tiers.empty()) {
     try {
       description = with_tiers(std::move(description), read_tiers(options));

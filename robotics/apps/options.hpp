@@ -94,15 +94,15 @@ struct Job {
 void check_outputs(const Options& options);
 
 /// Reads the robot. With --contained closed meshes become solid. `notes` receives the notes of the reader and the links
-/// with open meshes. Throws LoadError (one line with file and element), or ModelError if --floating-base is missing or
-/// "free".
+/// with open meshes. Throws LoadError (one line with file and element) for a bad file or another model than --made-for,
+/// or ModelError if --floating-base is missing or "free".
 std::shared_ptr<const hinge::robotics::Robot> load_robot(const Options& options, std::vector<std::string>& notes);
 /// Reads the robot, the SRDF, the bodies and the pairs. Throws LoadError for bad files, ModelError for options that do
 /// not fit the robot or each other.
 Job load(const Options& options);
 
 /// Returns a digest of the URDF file, its meshes, and the options on which proofs about pairs of links depend.
-std::string model_digest(const Options& options, const hinge::robotics::Robot& robot);
+std::string model_digest(const Options& options, const hinge::robotics::RobotDescription& robot);
 
 /// Prints job.notes on standard error.
 void print_notes(const Job& job);

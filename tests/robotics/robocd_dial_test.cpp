@@ -289,18 +289,31 @@ TEST(RobocdSettings, AreOptionsInAFile) {
   EXPECT_TRUE(has(path.out, "s.settings:1: 'robocd path' has no option --threads, so it is left out")) << path.out;
 }
 
-TEST(RobocdSettings, ProofsHoldForTheirModelAndWithinTheLimitsOnly) {
-  const test::TemporaryFolder folder;
-  const std::string settings = (folder.path() / "arm.settings").string();
+/// Writes the options of the proofs about a robot to a file, and returns --settings with its name.
+std::string settings_of_proofs(const std::string& robot, const test::TemporaryFolder& folder) {
   std::string lines;
-  const Json dial = Json::parse(run_robocd("dial" + arm + "-n 10 --time 1 --json").out);
+  const Json dial = Json::parse(run_robocd("dial" + robot + " -n 10 --time 1 --json").out);
   for (const Json& requirement : dial.at("requires"))
     if (has(requirement.at("options"), "--proved-apart")) lines = requirement.at("options");
-  ASSERT_TRUE(lines.starts_with("--made-for ") && has(lines, " --proved-apart ")) << lines;
+  EXPECT_TRUE(lines.starts_with("--made-for ") && has(lines, " --proved-apart ")) << lines;
   for (std::size_t k = lines.find(" --"); k != std::string::npos; k = lines.find(" --", k)) lines[k] = '\n';
-  folder.write("arm.settings", lines + "\n");
-  const std::string with = arm + "--settings " + settings;
-  EXPECT_NE(run_robocd("check" + with + " --random 100").status, 3);
+  folder.write("proofs.settings", lines + "\n");
+  return "--settings " + (folder.path() / "proofs.settings").string();
+}
+
+TEST(RobocdSettings, ProofsHoldWithTiers) {  // which enclose the shapes of the proofs
+  const ArmFolder folder;
+  const std::string with = folder.urdf() + " " + settings_of_proofs(folder.urdf(), folder);
+  for (const char* tier : {"", " --tier hull", " --tier capsule", " --tier base=spheres"})
+    EXPECT_LE(run_robocd("check" + with + " --random 100" + tier).status, 1) << tier;
+  folder.write("cube.stl", test::cube_stl(Vec3::Zero(), 0.25));
+  EXPECT_EQ(run_robocd("check" + with + " --random 100 2>&1").status, 3);
+}
+
+TEST(RobocdSettings, ProofsHoldForTheirModelAndWithinTheLimitsOnly) {
+  const test::TemporaryFolder folder;
+  const std::string settings = settings_of_proofs(arm, folder), with = arm + settings;
+  EXPECT_LE(run_robocd("check" + with + " --random 100").status, 1);
   const auto refused = [&](const std::string& arguments) {
     const auto said = run_robocd(arguments + " 2>&1");
     EXPECT_EQ(said.status, 3) << said.out;
@@ -311,8 +324,8 @@ TEST(RobocdSettings, ProofsHoldForTheirModelAndWithinTheLimitsOnly) {
   EXPECT_TRUE(has(refused("check" + with + " --random 100 --contained"), "--made-for"));
   folder.write("q.csv", "turn,shoulder,elbow,roll,wrist,grip\n0,9,0,0,0,0\n");
   folder.write("arm.urdf", read(data + "arm.urdf") + "<!-- changed -->");
-  EXPECT_TRUE(has(refused("check " + (folder.path() / "arm.urdf").string() + " --random 10 --settings " + settings),
-                  "--made-for"));
+  EXPECT_TRUE(
+      has(refused("check " + (folder.path() / "arm.urdf").string() + " --random 10 " + settings), "--made-for"));
   const std::string out = refused("path" + with + " --from zero --to 0,9,0,0,0,0");
   EXPECT_TRUE(has(out, "--proved-apart leaves out pairs that are apart within the joint limits only")) << out;
 }
