@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The table of a dial's section: order, filter, selection.
-import {html} from './dom.js';
 import {accepts_text, error_text, rejects_text, time_text} from './dial_words.js';
+import {html} from './dom.js';
+import {choose_rows, head_cell, mark_row, scroll_to_row} from './table_parts.js';
 import {fixed} from './words.js';
 
 const compare_text = new Intl.Collator('en', {numeric: true}).compare;
@@ -38,23 +39,17 @@ export function make_dial_table(section, select) {
 
   const mark = () => {
     const place = shown.findIndex(({k}) => k === chosen);
-    shown.forEach(({row}, n) => {
-      row.setAttribute('aria-selected', String(n === place));
-      row.tabIndex = n === Math.max(0, place) ? 0 : -1;
-    });
+    mark_row(shown, place);
     return place;
   };
   const draw = () => {
     head.replaceChildren(...columns.map((column) => {
       const sorted = sort?.key === column.key;
-      return html('th', {scope: 'col', class: column.number ? 'number' : null,
-                         'aria-sort': sorted ? (sort.ascending ? 'ascending' : 'descending') : 'none'},
-        html('button', {type: 'button', 'data-key': column.key, onclick: () => {
-          sort = {key: column.key, ascending: sorted ? !sort.ascending : column.key !== 'speed'};
-          draw();
-          head.querySelector(`[data-key="${column.key}"]`).focus();
-        }}, column.name, html('span', {class: 'arrow', 'aria-hidden': 'true'},
-                              sorted && !sort.ascending ? '\u25bc' : '\u25b2')));
+      return head_cell(column, column.name, sort, () => {
+        sort = {key: column.key, ascending: sorted ? !sort.ascending : column.key !== 'speed'};
+        draw();
+        head.querySelector(`[data-key="${column.key}"]`).focus();
+      });
     }));
     let places = section.rows.map((_, k) => k).filter((k) => section.rows[k].name.toLowerCase().includes(filter));
     if (sort) {
@@ -77,23 +72,8 @@ export function make_dial_table(section, select) {
     box.hidden = shown.length === 0;
     mark();
   };
-  body.addEventListener('click', (event) => {
-    const found = shown.find(({row}) => row === event.target.closest('tr'));
-    if (found) select(found.k === chosen ? -1 : found.k);
-  });
-  body.addEventListener('keydown', (event) => {
-    const place = shown.findIndex(({row}) => row === event.target);
-    if (place < 0) return;
-    const target = {ArrowDown: place + 1, ArrowUp: place - 1, Home: 0, End: shown.length - 1}[event.key];
-    if (event.key === 'Enter' || event.key === ' ') select(shown[place].k);
-    else if (event.key === 'Escape') select(-1);
-    else if (target !== undefined) {
-      shown[place].row.tabIndex = -1;
-      const {row} = shown[Math.max(0, Math.min(shown.length - 1, target))];
-      row.tabIndex = 0;
-      row.focus();
-    } else return;
-    event.preventDefault();
+  choose_rows(body, () => shown, {
+    click: ({k}) => select(k === chosen ? -1 : k), enter: ({k}) => select(k), escape: () => select(-1),
   });
   const field = html('input', {type: 'search', placeholder: 'Part of a name', autocomplete: 'off', spellcheck: 'false',
                                oninput: () => { filter = field.value.toLowerCase(); draw(); }});
@@ -106,10 +86,7 @@ export function make_dial_table(section, select) {
       chosen = k;
       const place = mark();
       if (place < 0) return;
-      const {row} = shown[place];
-      const top = row.offsetTop - head.offsetHeight;
-      if (top < box.scrollTop || row.offsetTop + row.offsetHeight > box.scrollTop + box.clientHeight)
-        box.scrollTop = Math.max(0, top - box.clientHeight / 3);
+      scroll_to_row(box, head, shown[place].row);
     },
   };
 }

@@ -2,6 +2,7 @@
 // The table of pairs: order, filter, pages, selection.
 import {button, card, html} from './dom.js';
 import {listed_pairs} from './store.js';
+import {choose_rows, head_cell, mark_row, scroll_to_row} from './table_parts.js';
 import {capital, counted, fixed, pair_words, whole} from './words.js';
 
 const rows_a_page = 100;
@@ -93,24 +94,17 @@ export function make_table(store, report) {
   const draw_head = (state) => {
     const focused = head.contains(document.activeElement) ? document.activeElement.dataset.key : null;
     head.replaceChildren(...(state.all_frames ? with_frame : columns).map((column) => {
-      const sorted = state.sort.key === column.key;
-      const order = sorted ? (state.sort.ascending ? 'ascending' : 'descending') : 'none';
       const name = column.unit ? `${column.name}, ${column.unit}` : column.name;
-      return html('th', {scope: 'col', 'aria-sort': order, class: column.number ? 'number' : null},
-        html('button', {type: 'button', 'data-key': column.key, onclick: () => store.change({sort: {
-          key: column.key, ascending: sorted ? !state.sort.ascending : !(column.key === 'overlap')}})},
-        name, html('span', {class: 'arrow', 'aria-hidden': 'true'},
-                   sorted ? (state.sort.ascending ? '\u25b2' : '\u25bc') : '\u25b2')));
+      const sorted = state.sort.key === column.key;
+      return head_cell(column, name, state.sort, () => store.change({sort: {
+        key: column.key, ascending: sorted ? !state.sort.ascending : !(column.key === 'overlap')}}));
     }));
     if (focused) head.querySelector(`[data-key="${focused}"]`)?.focus();
   };
 
   const mark = (state) => {
     const chosen = rows.findIndex(({pair}) => pair === state.selected);
-    rows.forEach(({row}, k) => {
-      row.setAttribute('aria-selected', String(k === chosen));
-      row.tabIndex = k === Math.max(0, chosen) ? 0 : -1;
-    });
+    mark_row(rows, chosen);
     return chosen;
   };
 
@@ -177,32 +171,15 @@ export function make_table(store, report) {
     }
     const chosen = mark(state);
     if (chosen >= 0 && changes.selected) {
-      const {row} = rows[chosen];
-      const top = row.offsetTop - head.offsetHeight;
-      if (top < box.scrollTop || row.offsetTop + row.offsetHeight > box.scrollTop + box.clientHeight)
-        box.scrollTop = Math.max(0, top - box.clientHeight / 3);
+      scroll_to_row(box, head, rows[chosen].row);
       if (changes.by === 'view') box.scrollIntoView({block: 'nearest'});
     }
   };
 
-  const pair_of = (event) => rows.find(({row}) => row === event.target.closest('tr'))?.pair;
-  body.addEventListener('click', (event) => {
-    const pair = pair_of(event);
-    if (pair) store.select(pair === store.state.selected ? null : pair, 'table');
-  });
-  body.addEventListener('keydown', (event) => {
-    const place = rows.findIndex(({row}) => row === event.target);
-    if (place < 0) return;
-    const target = {ArrowDown: place + 1, ArrowUp: place - 1, Home: 0, End: rows.length - 1}[event.key];
-    if (event.key === 'Enter' || event.key === ' ') store.select(rows[place].pair, 'table');
-    else if (event.key === 'Escape') store.select(null, 'table');
-    else if (target !== undefined) {
-      rows[place].row.tabIndex = -1;
-      const {row} = rows[Math.max(0, Math.min(rows.length - 1, target))];
-      row.tabIndex = 0;
-      row.focus();
-    } else return;
-    event.preventDefault();
+  choose_rows(body, () => rows, {
+    click: ({pair}) => store.select(pair === store.state.selected ? null : pair, 'table'),
+    enter: ({pair}) => store.select(pair, 'table'),
+    escape: () => store.select(null, 'table'),
   });
 
   store.listen(update);
