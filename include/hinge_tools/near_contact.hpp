@@ -2,6 +2,9 @@
 // Configurations that nearly touch, and counts of wrong verdicts about them.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -10,6 +13,10 @@
 #include "hinge/core/number_text.hpp"
 
 namespace hinge::tool {
+
+/// How far configurations are moved from a contact, in rad or m, with its name.
+inline constexpr std::array<std::pair<double, const char*>, 3> steps_from_contact = {
+    {{1e-3, "10^-3"}, {1e-6, "10^-6"}, {1e-9, "10^-9"}}};
 
 /// Returns the configuration at t on the straight line between two others.
 inline std::vector<double> between(const std::vector<double>& from, const std::vector<double>& to, double t) {
@@ -28,6 +35,13 @@ std::pair<std::vector<double>, std::vector<double>> nearly_touching(const Collid
   for (double middle = 0.5; middle > low && middle < high; middle = low + (high - low) / 2.0)
     (collides(between(free, colliding, middle)) ? high : low) = middle;
   return {between(free, colliding, low), between(free, colliding, high)};
+}
+
+/// Returns q moved towards another configuration until its largest change is `step`, or as far as the other one.
+inline std::vector<double> moved(const std::vector<double>& q, const std::vector<double>& to, double step) {
+  double largest = 0.0;
+  for (std::size_t j = 0; j < q.size(); ++j) largest = std::max(largest, std::abs(to[j] - q[j]));
+  return largest > step ? between(q, to, step / largest) : to;
 }
 
 /// Counts wrong verdicts.

@@ -14,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "extremes_peer.hpp"
 #include "float_triangle.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/core/id.hpp"
@@ -27,6 +28,7 @@
 namespace robocd {
 
 using namespace hinge::robotics;
+using hinge::tool::moved;
 using hinge::tool::nearly_touching;
 using hinge::tool::WrongVerdicts;
 
@@ -82,6 +84,7 @@ struct Copy {
   double scale = 1.0;
   RobotChecker exact;
   std::vector<std::optional<RobotChecker>> tiered;  // empty: the shapes cannot be fitted at this scale
+  std::function<bool(RobotChecker&)> peer{};        // empty: there is none, or it has no such shapes
 };
 
 Copy make_copy(const Options& options, const Job& job, double scale) {
@@ -93,6 +96,7 @@ Copy make_copy(const Options& options, const Job& job, double scale) {
     return RobotChecker(robot, job.tested, LinkMargins(*robot, options.clearance * scale));
   };
   Copy copy{scale, checker(description), {}};
+  if (const ExtremesPeer* peer = extremes_peer()) copy.peer = peer->make(copy.exact);
   for (const Tier tier : tried_tiers) {
     Tiers all;
     all.all = tier;
@@ -174,9 +178,12 @@ bool collides_in_float(RobotChecker& checker, double margin) {
 hinge::tool::DialExtremes find_extremes(const Options& options, const Job& job) {
   hinge::tool::DialExtremes table;
   table.columns = {"case", "asked", "collide", "exact", "hull", "capsule", "spheres", "single precision"};
+  const ExtremesPeer* peer = extremes_peer();
+  if (peer != nullptr) table.columns.emplace_back(peer->name);
   Copy plain = make_copy(options, job, 1.0);
   const Robot& robot = *job.robot;
   std::vector<Configuration> random, near, free, colliding;
+  std::vector<Configuration> ends;  // by `near`: the end of the bisection on the same side
   const auto search = hinge::tool::dial::Clock::now();
   const auto wanted = [&] { return random.size() < 2 * most_near_pairs || near.size() < 2 * most_near_pairs; };
   for (std::uint64_t k = 0; wanted() && hinge::tool::dial::seconds_since(search) < search_seconds; ++k) {
@@ -190,6 +197,8 @@ hinge::tool::DialExtremes find_extremes(const Options& options, const Job& job) 
                                              free[made], colliding[made]);
       near.push_back(std::move(before));
       near.push_back(std::move(after));
+      ends.push_back(free[made]);
+      ends.push_back(colliding[made]);
     }
   }
   if (near.empty())
@@ -203,7 +212,7 @@ hinge::tool::DialExtremes find_extremes(const Options& options, const Job& job) 
                        double displaced) {
     const hinge::tool::dial::Clock::time_point start = hinge::tool::dial::Clock::now();
     std::array<WrongVerdicts, 3> of_tier;
-    WrongVerdicts of_float;
+    WrongVerdicts of_float, of_peer;
     std::size_t count = 0, hits = 0, changed = 0;
     hinge::Pose base;
     base.translation = hinge::Vec3(displaced, displaced, displaced);
@@ -220,17 +229,25 @@ hinge::tool::DialExtremes find_extremes(const Options& options, const Job& job) 
       changed += compares && truth != verdicts[count] ? 1U : 0U;
       for (std::size_t t = 0; t < tried_tiers.size(); ++t)
         if (copy.tiered[t]) of_tier[t].count(truth, collides(*copy.tiered[t], q));
-      of_float.count(!copy.exact.triangle_pairs().empty(), collides_in_float(copy.exact, margin));
+      const bool surfaces = !copy.exact.triangle_pairs().empty();
+      of_float.count(surfaces, collides_in_float(copy.exact, margin));
+      if (copy.peer) of_peer.count(surfaces, copy.peer(copy.exact));
     }
     const std::string exact = !compares ? "" : changed == 0 ? "same" : fmt::format("{} changed", changed);
     std::vector<std::string> row{name, fmt::format("{}", count), fmt::format("{}", hits), exact};
     for (std::size_t t = 0; t < tried_tiers.size(); ++t)
       row.push_back(copy.tiered[t] ? of_tier[t].text() : "cannot be fitted");
     row.push_back(of_float.text());
+    if (peer != nullptr) row.push_back(copy.peer ? of_peer.text() : "no such shapes");
     table.rows.push_back(std::move(row));
   };
   add("random", plain, random, false, 0.0);
   if (near.empty()) return table;
+  for (const auto& [step, name] : hinge::tool::steps_from_contact) {
+    std::vector<Configuration> apart;
+    for (std::size_t n = 0; n < near.size(); ++n) apart.push_back(moved(near[n], ends[n], step));
+    add(fmt::format("{} rad or m from contact", name), plain, apart, false, 0.0);
+  }
   add("nearly touching", plain, near, true, 0.0);
   for (const int power : {-20, -10, 10, 20}) {
     Copy copy = make_copy(options, job, std::ldexp(1.0, power));
@@ -240,10 +257,14 @@ hinge::tool::DialExtremes find_extremes(const Options& options, const Job& job) 
     add(fmt::format("nearly touching, displaced by {}", name), plain, near, true, displaced);
   table.notes.emplace_back(
       "nearly touching: a free and a colliding configuration, with no number between their places on a straight line");
+  table.notes.emplace_back("rad or m from contact: these two, each moved away from the other by so much");
   table.notes.emplace_back("exact: verdicts that differ from those without scale and displacement");
   table.notes.emplace_back("missed, false: compared with the exact verdict of the same case");
   table.notes.emplace_back(
       "single precision: triangles in the world as floats, decisions without error bounds, about surfaces only");
+  if (peer != nullptr)
+    table.notes.push_back(
+        fmt::format("{}: meshes, spheres and capsules in double precision, surfaces only", peer->name));
   if (!job.bodies.empty()) table.notes.emplace_back("bodies of --env are left out");
   return table;
 }

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// FclLinks: the links of a robot as a user of FCL gives them, behind plain arrays, because FCL's types change with
+// compiler flags.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "peers/fcl_triangles.hpp"
+
+namespace hinge::bench {
+
+/// Rotation by rows, then translation.
+using FclPose = std::array<double, 12>;
+
+/// The shapes of a link in its frame. All triangles become one mesh.
+struct FclLink {
+  struct Capsule {  // a sphere if `from` and `to` are equal
+    std::array<double, 3> from, to;
+    double radius;
+  };
+  std::vector<FclCorners> triangles;
+  std::vector<Capsule> capsules;
+};
+
+class FclLinks {
+ public:
+  FclLinks(std::span<const FclLink> links, std::vector<std::pair<std::size_t, std::size_t>> tested);
+  ~FclLinks();
+  /// Returns whether a tested pair of links collides, by fcl::collide. poses: one per link.
+  bool collide(std::span<const FclPose> poses) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hinge::bench
