@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <vector>
 
 #include "hinge_tools/complete_file.hpp"
 #include "hinge_tools/dial_report.hpp"
@@ -15,13 +16,20 @@
 
 namespace biocd {
 
-Exit run_dial(const Options& options) {
+using hinge::molecular::Structure;
+
+Exit run_dial(const Options& given) {
+  Options options = given;
+  options.rigid_from.clear();  // the rigid groups are one of the choices, not the reference
   const Job job = load(options);
+  std::vector<std::string> ensemble = given.rigid_from;
+  const Structure& s = job.molecule->structure();
+  if (ensemble.empty() && options.file != "-" && (s.more_models || s.models.size() > 1)) ensemble = {options.file};
   hinge::tool::CompleteFile page(options.report), settings(options.dial.apply);
   print_notes(job);
   require_free_torsions(options, job);
   if (options.output == Output::table) fmt::print("{}\n", heading(options, job));
-  MoleculeDial dial(options, job);
+  MoleculeDial dial(options, job, ensemble);
   const hinge::tool::DialReport report = dial.run();
   if (options.output == Output::json) {
     Json json{{"tool", "biocd"}, {"command", "dial"}, {"model", model_json(options, job)}};

@@ -15,7 +15,6 @@
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/clash_rules.hpp"
 #include "hinge/molecular/radii.hpp"
-#include "hinge/molecular/selection.hpp"
 #include "hinge_tools/measure.hpp"
 #include "hinge_tools/settings_file.hpp"
 #include "scene.hpp"
@@ -38,7 +37,8 @@ constexpr const char* reference_name = "the given options";
 
 }  // namespace
 
-MoleculeDial::MoleculeDial(const Options& options, const Job& job) : options_(options), job_(job) {
+MoleculeDial::MoleculeDial(const Options& options, const Job& job, std::vector<std::string> ensemble)
+    : options_(options), job_(job), ensemble_(std::move(ensemble)) {
   report_.seed = options.seed;
   report_.seconds = options.dial.seconds;
   report_.limits = options.dial.limits();
@@ -68,6 +68,7 @@ DialReport MoleculeDial::run() {
   add_all_rules();
   add_hydrogens();
   add_fewer_torsions();
+  add_rigid_groups();
   report_.sections.push_back(
       measure(std::move(section_), {options_.dial.seconds * conformations_share, options_.dial.count}));
   for (std::string& note : section_notes_) report_.sections.back().notes.push_back(std::move(note));
@@ -200,34 +201,6 @@ void MoleculeDial::add_hydrogens() {
     } catch (const hinge::ModelError& error) {
       section_notes_.push_back(fmt::format("{}: left out: {}", name, error.what()));
     }
-  }
-}
-
-void MoleculeDial::add_fewer_torsions() {
-  if (!options_.loop.empty() || !job_.kept.closures.empty()) return;
-  const Molecule& molecule = *job_.molecule;
-  std::vector<std::size_t> given;
-  for (const hinge::DofId dof : job_.checker.selection().dofs())
-    if (const std::size_t t = molecule.torsion_of(dof); t != Molecule::no_torsion) given.push_back(t);
-  std::ranges::sort(given);
-  for (const char* words : {"backbone", "chi", "loops", "count:35", "count:10"}) {
-    std::vector<std::size_t> kept;
-    try {
-      std::ranges::set_intersection(given, select_torsions(molecule, words, options_.omega), std::back_inserter(kept));
-    } catch (const hinge::ModelError&) {  // such as loops without HELIX and SHEET records
-      continue;
-    }
-    if (kept.empty() || kept.size() == given.size()) continue;
-    CheckOptions check = options_.check;
-    check.scope = read_scope(options_, molecule.structure());
-    Checker checker(job_.molecule, molecule.select_placed(kept), check);
-    const std::string expression =
-        options_.free == "all" ? std::string(words) : fmt::format("({}) and {}", options_.free, words);
-    add("torsions", fmt::format("only {} free, {} torsions", words, kept.size()),
-        {make_variant(job_, std::move(checker)),
-         {"--free " + hinge::tool::shell_quoted(expression)},
-         Sound::unknown,
-         {}});
   }
 }
 

@@ -17,8 +17,9 @@ namespace biocd {
 
 class MoleculeDial {
  public:
-  /// Refers to both arguments.
-  MoleculeDial(const Options& options, const Job& job);
+  /// ensemble: files of conformations whose rigid groups are one of the choices; may be empty. Refers to the first two
+  /// arguments.
+  MoleculeDial(const Options& options, const Job& job, std::vector<std::string> ensemble);
 
   /// Measures for about options.dial_seconds.
   hinge::tool::DialReport run();
@@ -47,12 +48,14 @@ class MoleculeDial {
   void add_all_rules();
   void add_hydrogens();
   void add_fewer_torsions();
+  void add_rigid_groups();
   void recommend();
   /// Measures a candidate on fresh conformations. Returns true if it keeps the limits and wins time.
   bool try_advice(const Selected& selected, double share);
 
   const Options& options_;
   const Job& job_;
+  const std::vector<std::string> ensemble_;
   std::optional<double> sigma_;  // rad; nothing: uniform
   std::shared_ptr<Conformations> conformations_;
   hinge::tool::DialSection section_;

@@ -169,6 +169,45 @@ TEST(BiocdDial, CountsAreThoseOfPlainLoops) {
   by_backbone.expect(row_of(dial, 0, only), count);
 }
 
+TEST(BiocdDial, RigidGroupsOfAnEnsembleCountAsPlainLoops) {
+  const test::TemporaryFolder folder;
+  const std::string ensemble = (folder.path() / "ensemble.pdb").string();
+  const std::string moving = "A:72-74 and backbone";
+  ASSERT_EQ(run_biocd("sample " + file + " --free '" + moving + "' --sigma 40 -n 6 --seed 3 --exit-zero --out " +
+                      ensemble + " 2>/dev/null")
+                .status,
+            0);
+  constexpr std::size_t count = 100;
+  const std::string arguments = "dial" + asked + "--sigma 2 -n 100 --seed 5 --time 5 --json --rigid-from " + ensemble;
+  const Json dial = Json::parse(run_biocd(arguments).out);
+  const Scene scene("A:66-76");
+  CheckOptions plain;
+  plain.exempt_reference = true;
+  const Checker checker = scene.checker(plain);
+  const Turned turned(*scene.molecule, checker.selection());
+  const std::vector<std::size_t> free = select_torsions(*scene.molecule, moving, false);
+  ASSERT_EQ(free.size(), 6U);
+  Counts same, rigid;
+  for (std::uint64_t k = 0; k < count; ++k) {
+    std::vector<double> q = sample_configuration({5, 2.0 * std::numbers::pi / 180.0}, k, checker.dof_count());
+    const bool truth = collides(checker, turned.at(q));
+    same.add(truth, truth);
+    const auto dofs = checker.selection().dofs();
+    for (std::size_t j = 0; j < q.size(); ++j)
+      if (!std::ranges::binary_search(free, scene.molecule->torsion_of(dofs[j]))) q[j] = 0.0;
+    rigid.add(truth, collides(checker, turned.at(q)));
+  }
+  EXPECT_GT(rigid.accepts, 0U);
+  same.expect(row_of(dial, 0, "the given options"), count);
+  const Json row = row_of(dial, 0, "rigid groups of the ensemble, 6 torsions");
+  rigid.expect(row, count);
+  EXPECT_TRUE(has(row.at("options"), "--rigid-from " + ensemble)) << row;
+  // An ensemble in which nothing moves leaves no torsion to turn.
+  const std::string still = "dial" + asked + "-n 10 --time 1 --rigid-from " + file + " --rigid-from " + file;
+  EXPECT_TRUE(has(run_biocd(still).out, "rigid groups of the ensemble: left out, because no torsion would be free"));
+  EXPECT_EQ(run_biocd("dial" + asked + "-n 10 --time 1 --rigid-from missing.pdb 2>/dev/null").status, 2);
+}
+
 /// Returns the verdicts of `biocd sample --mode any`, one digit each.
 std::string verdicts(const std::string& arguments) {
   std::istringstream rows(run_biocd("sample" + arguments + " --csv 2>/dev/null").out);
