@@ -205,7 +205,7 @@ TEST(BiocdDial, RigidGroupsOfAnEnsembleCountAsPlainLoops) {
   // An ensemble in which nothing moves leaves no torsion to turn.
   const std::string still = "dial" + asked + "-n 10 --time 1 --rigid-from " + file + " --rigid-from " + file;
   EXPECT_TRUE(has(run_biocd(still).out, "rigid groups of the ensemble: left out, because no torsion would be free"));
-  EXPECT_EQ(run_biocd("dial" + asked + "-n 10 --time 1 --rigid-from missing.pdb 2>/dev/null").status, 2);
+  EXPECT_EQ(run_biocd("dial" + asked + "-n 10 --time 1 --rigid-from missing.pdb 2>/dev/null").status, 3);
 }
 
 /// Returns the verdicts of `biocd sample --mode any`, one digit each.
