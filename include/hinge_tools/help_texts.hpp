@@ -25,14 +25,15 @@ inline constexpr const char* sampling = "Sampling";
 inline constexpr const char* moves = "Moves";
 inline constexpr const char* proofs = "Samples and proofs";
 inline constexpr const char* output = "Output";
+inline constexpr const char* parts = "Parts of a long run";
 inline constexpr const char* performance = "Performance";
 inline constexpr const char* general = "General";
 }  // namespace title
 
 inline constexpr const char* titles[] = {
-    title::input,    title::configurations, title::ends,        title::free,   title::molecules, title::question,
-    title::sampling, title::moves,          title::proofs,      title::rules,  title::pairs,     title::surroundings,
-    title::reading,  title::output,         title::performance, title::general};
+    title::input,    title::configurations, title::ends,   title::free,        title::molecules, title::question,
+    title::sampling, title::moves,          title::proofs, title::rules,       title::pairs,     title::surroundings,
+    title::reading,  title::output,         title::parts,  title::performance, title::general};
 
 /// A text about several options or commands. Lines that start with a blank are printed as they are; other lines are
 /// wrapped.

@@ -52,6 +52,7 @@ Exit run(int argc, char** argv) {
   Options o;
   o.read.dictionary = hinge::molecular::installed_dictionary();
   o.command_line = hinge::tool::command_text("biocd", argc, argv);
+  o.parts.words = hinge::tool::words_of_question(argc, argv);
   std::function<Exit(const Options&)> command;
   const hinge::tool::HelpTexts texts = biocd::help_texts();
   CLI::App app{"collisions of proteins and other molecules as articulated mechanisms", "biocd"};
@@ -80,7 +81,8 @@ Exit run(int argc, char** argv) {
       "count the clashes of all models or frames by pairs of residues or chains, most frequent first (a table, or with "
       "--json `clashes` in the summary)");
   check->callback([&] {
-    if (o.by && o.output == biocd::Output::csv) throw hinge::ModelError("--by: expected a table or --json, not --csv");
+    if (o.by && o.output != biocd::Output::table && o.output != biocd::Output::json)
+      throw hinge::ModelError("--by: expected a table or --json");
     if (o.by && !biocd::lists_pairs(hinge::Mode::parse(o.mode, "angstrom")))
       throw hinge::ModelError("--by: expected --mode all or within:D, which list pairs");
     command = biocd::run_check;
@@ -174,9 +176,9 @@ Exit run(int argc, char** argv) {
     command = biocd::run_relax;
   });
 
-  CLI::App* merge = app.add_subcommand("merge", "join the outputs of all shards of one run");
+  CLI::App* merge = app.add_subcommand("merge", "print the output of a run that was computed in parts");
   merge->option_defaults()->group(title::input);
-  merge->add_option("FILES", o.shards, "outputs of --shard 1/n ... n/n")->required();
+  merge->add_option("FOLDER", o.merged, "folder of --parts")->required();
   merge->option_defaults()->group(title::output);
   hinge::tool::add_exit_zero(*merge, o.exit_zero);
   merge->callback([&] { command = biocd::run_merge; });

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -11,13 +12,13 @@
 #include <utility>
 #include <vector>
 
+#include "checked.hpp"
 #include "clash_table.hpp"
 #include "conformation_file.hpp"
 #include "frames.hpp"
 #include "hinge/batch/ensemble.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/bond_gauge.hpp"
-#include "hinge/molecular/severity.hpp"
 #include "hinge_tools/counted.hpp"
 #include "hinge_tools/max_pairs_option.hpp"
 #include "hinge_tools/progress_bar.hpp"
@@ -36,78 +37,19 @@ namespace {
 
 using namespace hinge::molecular;
 using hinge::tool::counted;
+using hinge::tool::Rows;
 
-struct Checked {
-  Verdict verdict;
-  BondDeviation bond;
-  std::string pairs{};                 // JSON; empty for other outputs, and for modes without a list
-  std::vector<hinge::Vec3> positions;  // empty unless --out takes them
-  std::string error;                   // not empty if there is no verdict
-  std::shared_ptr<const Job> own{};    // for a model with other atoms than the first
-  std::string difference{};            // how its atoms differ
+/// Counts over the conformations of a run or a unit.
+struct Counts {
+  Summary summary;
+  std::optional<ClashTable> clashes;  // --by
+
+  Json json(bool has_closures) const {
+    Json all = summary.json(has_closures);
+    if (clashes) clashes->add_to(all);
+    return all;
+  }
 };
-
-/// Returns MolProbity's clashscore if its rules are in use and all pairs are listed, otherwise nothing.
-std::optional<double> clashscore_of(const Options& options, const Job& job, const Verdict& verdict, const Mode& mode) {
-  const bool lists_all = mode.kind == Mode::Kind::all || mode.kind == Mode::Kind::within;
-  if (options.check.thresholds.rules != "molprobity" || !lists_all || !options.between.empty() ||
-      !options.inside.empty() || options.check.exempt_reference)
-    return std::nullopt;
-  const auto clashes =
-      std::count_if(verdict.pairs.begin(), verdict.pairs.end(), [](const Contact& pair) { return pair.collides; });
-  return clashscore(static_cast<std::size_t>(clashes), job.molecule->structure().atoms.size());
-}
-
-Json bond_json(const Structure& s, const BondDeviation& bond) {
-  if (bond.first == bond.second) return {};
-  return {{"i", bond.first},
-          {"j", bond.second},
-          {"label_i", label(s, bond.first)},
-          {"label_j", label(s, bond.second)},
-          {"length", bond.length},
-          {"reference", bond.reference},
-          {"residual", bond.residual}};
-}
-
-/// Returns text such as ", bonds within 0.012 angstrom, closures within 0.34 angstrom". Residuals below 0.0005 are left
-/// out.
-std::string deviations_text(const Checked& checked) {
-  std::string text;
-  const auto add = [&](const char* what, double residual) {
-    if (residual >= 0.0005) text += fmt::format(", {} within {:.3f} angstrom", what, residual);
-  };
-  add("bonds", checked.bond.residual);
-  add("closures", checked.verdict.closure_residual);
-  return text;
-}
-
-/// headed: whether the next list of pairs starts with the names of its columns.
-void print_table_row(const Options& options, const Job& job, const std::string& name, const Checked& checked,
-                     const Mode& mode, const std::optional<double>& clashscore, bool& headed) {
-  const Verdict& verdict = checked.verdict;
-  fmt::print("{}: {}", name, verdict.collides ? "collides" : "free");
-  const std::string pairs = counted(verdict.pairs.size(), "pair");
-  if (mode.kind == Mode::Kind::all) fmt::print(", {}", pairs);
-  if (mode.kind == Mode::Kind::within) fmt::print(", {} closer than the threshold + {} angstrom", pairs, mode.margin);
-  if (clashscore) fmt::print(", clashscore {:.2f}", *clashscore);
-  fmt::print("{}\n", deviations_text(checked));
-  if (!options.by) fmt::print("{}", pair_table(options, job, verdict.pairs, headed));
-  if (verdict.closest) fmt::print("{}", pair_table(options, job, {*verdict.closest}, headed, "  (closest)"));
-  headed = headed && verdict.pairs.empty() && !verdict.closest;
-}
-
-/// Checks a model with other atoms than the first, with a topology of its own.
-Checked check_alone(const Options& options, int model, const Mode& mode, const std::string& difference) {
-  Options alone = options;
-  alone.read.model = model;
-  alone.rigid_from.clear();  // refers to atoms of the first model; no effect here
-  Checked checked;
-  checked.difference = difference;
-  checked.own = std::make_shared<const Job>(load(alone));
-  Checker checker = checked.own->checker;
-  checked.verdict = checker.check_coordinates(checked.own->molecule->structure().models.front(), mode);
-  return checked;
-}
 
 /// Writes the page of --report. mode: the pairs to list; others: models that were checked with atoms of their own.
 void write_page(MoleculePage& page, const Job& job, const Frames& frames, const Mode& mode, std::size_t others,
@@ -151,13 +93,13 @@ Exit run_check(const Options& options) {
   }
   const Structure& s = job.molecule->structure();
   const Frames frames(options.trajectories, options.file, s, options.read);
-  const auto [begin, end] = shard_range(options.shard.value_or(Shard{}), frames.size());
   ConformationFile file(options, s, options.out.empty() ? 0 : frames.atom_count(), frames.is_single());
 
   Json head{{"tool", "biocd"}, {"command", "check"}, {"model", model_json(options, job)}, {"mode", mode.text()}};
   frames.describe(head);
   head["constant_contacts"] = constant_contacts_json(job);
-  Results results(options, std::move(head), frames.size(), ",bond_residual,closure_residual");
+  const hinge::tool::RowsHead rows_head = head_of_rows(options, head, ",bond_residual,closure_residual", frames.size());
+  if (!options.parts.wanted()) hinge::tool::print(opening(rows_head));
   if (options.output == Output::csv) print_constant_contacts(job);
   if (options.output == Output::table) fmt::print("{}", heading(options, job));
 
@@ -165,20 +107,15 @@ Exit run_check(const Options& options) {
   if (options.output == Output::json && lists_pairs(mode)) pair_text.emplace(job);
   const BondGauge gauge(*job.molecule);
   const bool has_closures = !job.molecule->closure_atoms().empty();
-  Summary summary(closure_names(job), false, options.output == Output::json);
   BondDeviation worst;  // over all bonds and conformations
   std::string worst_name;
   bool headed = true;  // the next list of pairs starts with the names of its columns
   ViewChoice choice;
   MoleculePage page(options, job, false, lists_pairs(mode));
-  std::optional<ClashTable> clashes;
-  if (options.by) clashes.emplace(*options.by);
   std::uint64_t left_out = 0;  // pairs that are not printed
   std::size_t others = 0;      // models with other atoms than the first
-  hinge::tool::ProgressBar bar(end - begin);
-  const auto judge = [&, begin = begin](Checker& checker, std::size_t n) {
+  const auto judge = [&](Checker& checker, std::size_t k) {
     Checked checked;
-    const auto k = static_cast<std::size_t>(begin) + n;
     const Trajectory& source = frames.file(k);
     try {
       std::vector<hinge::Vec3> whole = source.frame(frames.place(k).frame);
@@ -207,20 +144,21 @@ Exit run_check(const Options& options) {
     }
     return checked;
   };
-  const auto report = [&, begin = begin](std::size_t n, const Checked& checked) {
+  const auto report = [&](std::size_t k, const Checked& checked, Rows& rows, Counts& counts) {
     if (!checked.error.empty()) throw hinge::LoadError(checked.error);
-    const auto k = static_cast<std::size_t>(begin) + n;
+    Summary& summary = counts.summary;
+    if (options.output == Output::npy) rows.add_verdict(checked.verdict.collides ? 1 : 0);
     const Job& of = checked.own ? *checked.own : job;
     if (checked.own) {  // its pairs are not counted: their indices mean other atoms
       if (++others == 1)
         fmt::print(stderr, "note: {}; it is checked with its own atoms and bonds\n", checked.difference);
-      Verdict counted = checked.verdict;
-      counted.pairs.clear();
-      summary.add(s, counted);
+      Verdict without_pairs = checked.verdict;
+      without_pairs.pairs.clear();
+      summary.add(s, without_pairs);
     } else {
       summary.add(s, checked.verdict);
     }
-    if (clashes) clashes->add(of, checked.verdict);
+    if (counts.clashes) counts.clashes->add(of, checked.verdict);
     const std::size_t printed = pairs_to_print(options, checked.verdict.pairs).size();
     left_out += checked.verdict.pairs.size() - printed;
     const std::optional<double> clashscore = clashscore_of(options, of, checked.verdict, mode);
@@ -233,11 +171,11 @@ Exit run_check(const Options& options) {
       if (checked.own) row["other_atoms"] = checked.difference;
       row["worst_bond"] = bond_json(s, checked.bond);
       if (has_closures) row["closures"] = closures_json(job, checked.verdict.closure_residuals);
-      results.add(row, checked.pairs);
+      rows.add_json(row_text(row, checked.pairs));
     }
     if (options.output == Output::csv)
-      results.add(with_columns(csv_rows(of, k, checked.verdict, printed),
-                               fmt::format(",{},{}", checked.bond.residual, checked.verdict.closure_residual)));
+      rows.add_csv(with_columns(csv_rows(of, k, checked.verdict, printed),
+                                fmt::format(",{},{}", checked.bond.residual, checked.verdict.closure_residual)));
     if (options.output == Output::table)
       print_table_row(options, of, frames.name(k), checked, mode, clashscore, headed);
     if (checked.bond.residual > worst.residual) {
@@ -249,21 +187,45 @@ Exit run_check(const Options& options) {
       page.offer(k, checked.verdict);
     }
     file.add(checked.positions, static_cast<int>(k) + 1, checked.verdict.collides);
-    bar.show(n + 1);
   };
+  hinge::Ensemble ensemble(job.checker, options.threads);
+  const auto run = [&](std::uint64_t begin, std::uint64_t end, Rows& rows, Counts& counts) {
+    const auto count = static_cast<std::size_t>(end - begin), from = static_cast<std::size_t>(begin);
+    std::optional<hinge::tool::ProgressBar> bar;
+    if (!options.parts.wanted()) bar.emplace(count);
+    ensemble.run(
+        count, [&](Checker& checker, std::size_t n) { return judge(checker, from + n); },
+        [&](std::size_t n, const Checked& checked) {
+          report(from + n, checked, rows, counts);
+          if (bar) bar->show(n + 1);
+        },
+        results_at_once(s.atoms.size()));
+  };
+  const auto no_counts = [&] {
+    return Counts{Summary(closure_names(job), false, options.output == Output::json),
+                  options.by ? std::optional<ClashTable>(*options.by) : std::nullopt};
+  };
+  if (options.parts.wanted()) {
+    run_units(options.parts, question_of(options, "check", rows_head),
+              [&](std::uint64_t begin, std::uint64_t end, Rows& rows) {
+                Counts counts = no_counts();
+                run(begin, end, rows, counts);
+                return counts_of(options, counts.summary, counts.json(has_closures));
+              });
+    return Exit::free;
+  }
+  Counts counts = no_counts();
+  const Summary& summary = counts.summary;
+  Rows rows = hinge::tool::printed_rows();
   const auto finish = [&](const std::string& error) {
     if (others > 1)
       fmt::print(stderr, "note: {} other atoms than the first model; see `other_atoms` of --json\n",
                  counted(others - 1, "more model has", "more models have"));
     note_left_out(options, left_out);
-    Json all = summary.json(has_closures);
-    if (clashes) {
-      all["by"] = word_of(*options.by);
-      all["clashes"] = clashes->json();
-    }
-    results.finish(std::move(all), error);
+    print_summary(options, counts.json(has_closures), error);
     if (options.output != Output::table) return;
-    if (clashes) fmt::print("{}", clashes->text(options.max_pairs.value_or(hinge::tool::usual_max_pairs)));
+    if (counts.clashes)
+      fmt::print("{}", counts.clashes->text(options.max_pairs.value_or(hinge::tool::usual_max_pairs)));
     if (worst.residual >= 0.0005)
       fmt::print("bond farthest from its length in the reference: {} - {}, {:.3f} angstrom against {:.3f} ({})\n",
                  label(s, worst.first), label(s, worst.second), worst.length, worst.reference, worst_name);
@@ -272,8 +234,7 @@ Exit run_check(const Options& options) {
                                                  frames.are_models() ? "model" : "frame"));
   };
   try {
-    hinge::Ensemble(job.checker, options.threads)
-        .run(static_cast<std::size_t>(end - begin), judge, report, results_at_once(s.atoms.size()));
+    run(0, frames.size(), rows, counts);
     file.finish();
   } catch (const hinge::LoadError& error) {
     // The results of the conformations before the error stay valid and complete.

@@ -8,24 +8,24 @@
 #include "conformation_file.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge_tools/check_output.hpp"
+#include "hinge_tools/parts_option.hpp"
 #include "options.hpp"
 #include "path_end.hpp"
 #include "view.hpp"
 
 namespace biocd {
 
-namespace {
-
 std::vector<std::filesystem::path> input_files(const Options& options) {
   std::vector<std::filesystem::path> files{options.file};
-  for (const auto* list :
-       {&options.with, &options.trajectories, &options.rigid_from, &options.shards, &options.settings})
+  for (const auto* list : {&options.with, &options.trajectories, &options.rigid_from, &options.settings})
     files.insert(files.end(), list->begin(), list->end());
   files.insert(files.end(), options.read.components.begin(), options.read.components.end());
   for (const std::string& end : {options.from, options.to})
     if (const std::string file = file_of_end(end); !file.empty()) files.emplace_back(file);
   return files;
 }
+
+namespace {
 
 /// Returns true if `file` exists and lies in `folder`. Files of a monomer dictionary are read on demand, so they are
 /// not listed as inputs.
@@ -41,6 +41,15 @@ bool is_inside(const std::filesystem::path& file, const std::filesystem::path& f
 }  // namespace
 
 void check_outputs(const Options& options, bool is_folder) {
+  hinge::tool::check_parts(options.parts, options.output == Output::table,
+                           !options.out.empty()            ? "--out"
+                           : !options.torsions_out.empty() ? "--torsions-out"
+                           : options.view                  ? "--view"
+                           : !options.report.empty()       ? "--report"
+                           : !options.explain.empty()      ? "--explain"
+                           : options.max_pairs             ? "--max-pairs"
+                           : options.seconds               ? "--time"
+                                                           : nullptr);
   if (!options.torsions_out.empty()) {
     if (std::filesystem::path(options.torsions_out).extension() != ".npy")
       throw hinge::ModelError("--torsions-out " + options.torsions_out + ": expected a file name with .npy");

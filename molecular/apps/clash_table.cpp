@@ -25,7 +25,16 @@ std::string name_of(const Structure& s, By by, std::uint32_t atom) {
 
 }  // namespace
 
+namespace {
+
 const char* word_of(By by) { return by == By::residue ? "residue" : "chain"; }
+
+}  // namespace
+
+void ClashTable::add_to(Json& summary) const {
+  summary["by"] = word_of(by_);
+  summary["clashes"] = json();
+}
 
 void ClashTable::add(const Job& job, const Verdict& verdict) {
   const Structure& s = job.molecule->structure();

@@ -26,6 +26,8 @@ class ClashTable {
   /// Returns the rows, most conformations first, then most pairs: `first`, `second` (names), `conformations` (in which
   /// they clash), `pairs` (of atoms), `overlap` (largest, angstrom).
   Json json() const;
+  /// Adds the members `by` and `clashes` to a summary.
+  void add_to(Json& summary) const;
   /// Returns the same as a table with a heading; at most `most` rows, and a line about the others.
   std::string text(std::uint64_t most) const;
 
@@ -37,8 +39,5 @@ class ClashTable {
   By by_;
   std::map<std::pair<std::string, std::string>, Counts> rows_;
 };
-
-/// Returns the word of --by.
-const char* word_of(By by);
 
 }  // namespace biocd

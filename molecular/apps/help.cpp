@@ -64,9 +64,8 @@ HelpTexts help_texts() {
   texts.commands["dial"] = {{"Selections"},
                             {"biocd dial" + file + " --exempt-reference --time 2 --apply 1ubq.settings",
                              "biocd dial" + file + " --free A:70-76 --time 2 --extremes --report dial.html"}};
-  texts.commands["merge"] = {{"Exit status"},
-                             {"biocd sample" + file + " -n 10 --csv --shard 1/2 > 1.csv",
-                              "biocd sample" + file + " -n 10 --csv --shard 2/2 > 2.csv", "biocd merge 1.csv 2.csv"}};
+  texts.commands["merge"] = {
+      {"Exit status"}, {"biocd sample" + file + " -n 10 --csv --parts run --unit 5", "biocd merge run > run.csv"}};
   texts.commands["demo"] = {
       {}, {"biocd demo" + file + " --out demo -n 100", "biocd demo" + file + " --out demo -n 100 --seed 2"}};
   return texts;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -20,28 +21,22 @@
 #include "hinge/molecular/torsion_prior.hpp"
 #include "hinge/path/path_answer.hpp"
 #include "hinge_tools/dial.hpp"
+#include "hinge_tools/parts.hpp"
+#include "hinge_tools/rows.hpp"
 #include "hinge_tools/run_tool.hpp"
 
 namespace biocd {
 
 using hinge::tool::Exit;
+using hinge::tool::Output;
 
 inline constexpr double degree = std::numbers::pi / 180.0;  // rad per degree
-
-/// Format of standard output.
-enum class Output : std::uint8_t { table, json, csv };
 
 /// Program that --view writes a script for.
 enum class Viewer : std::uint8_t { chimerax, pymol };
 
 /// What a table of clashes counts by.
 enum class By : std::uint8_t { residue, chain };
-
-/// Shard number `index` (from 1) of `of` shards.
-struct Shard {
-  std::uint64_t index = 1;
-  std::uint64_t of = 1;
-};
 
 /// The values of the command line. Each option belongs to all commands with a molecule unless a command is named.
 struct Options {
@@ -84,8 +79,8 @@ struct Options {
   bool torsions = false;                        ///< sample: rows contain the torsions
   std::string torsions_out;                     ///< sample: .npy file of the torsions
   bool only_free = false;                       ///< check, sample: `out` gets only conformations that do not collide
-  std::optional<Shard> shard;                   ///< check, sample
-  std::vector<std::string> shards{};            ///< merge: files of the shards
+  hinge::tool::PartsOptions parts;              ///< check, sample
+  std::string merged;                           ///< merge: folder of --parts
   std::uint64_t steps = 10000;                  ///< walk: moves to try
   double step_degrees = 3.0;                    ///< walk: standard deviation of a torsion's change
   std::uint64_t changes = 1;                    ///< walk: torsions per move
@@ -125,6 +120,9 @@ void require_free_torsions(const Options& options, const Job& job);
 /// The files that demo may write into its folder.
 inline constexpr const char* demo_files[] = {"speed.svg", "tail.svg",  "worst.pdb",
                                              "worst.cif", "worst.cxc", "worst.pml"};
+
+/// Returns the input files that the options name.
+std::vector<std::filesystem::path> input_files(const Options& options);
 
 /// Throws ModelError if --out, --torsions-out, --view or --report has another format than expected, or would overwrite
 /// an input, a directory, the file of the results or each other. is_folder: --out names demo's folder.

@@ -10,8 +10,8 @@
 #include "hinge_tools/help_texts.hpp"
 #include "hinge_tools/max_pairs_option.hpp"
 #include "hinge_tools/mode_option.hpp"
+#include "hinge_tools/parts_option.hpp"
 #include "hinge_tools/repeatable_option.hpp"
-#include "results.hpp"
 
 namespace biocd {
 
@@ -174,11 +174,17 @@ void add_output_options(CLI::App& command, Options& o, bool with_csv) {
   command.option_defaults()->group(title::output);
   command.add_flag_callback(
       "--json", [&o] { o.output = Output::json; }, "print JSON on standard output");
-  if (with_csv)
+  if (with_csv) {
+    CLI::Option* csv = command.add_flag_callback(
+        "--csv", [&o] { o.output = Output::csv; }, "print CSV on standard output");
+    csv->excludes("--json");
     command
         .add_flag_callback(
-            "--csv", [&o] { o.output = Output::csv; }, "print CSV on standard output")
-        ->excludes("--json");
+            "--npy", [&o] { o.output = Output::npy; },
+            "print verdicts as a NumPy array of bytes on standard output: 0 free, 1 collides, 2 not found")
+        ->excludes("--json")
+        ->excludes(csv);
+  }
   hinge::tool::add_max_pairs(command, o.max_pairs);
 }
 
@@ -219,15 +225,11 @@ void add_check_options(CLI::App& command, Options& o) {
       command, "--filter", {"all", "free"}, [&o](const std::string& text) { o.only_free = text == "free"; },
       "conformations that --out writes (default: all)")
       ->needs("--out");
-  command
-      .add_option_function<std::string>(
-          "--shard", [&o](const std::string& text) { o.shard = parse_shard(text); },
-          "run only part I of N (from 1), for biocd merge; needs --json or --csv")
-      ->type_name("I/N");
   add_view_option(command, o);
   add_report_option(command, o);
   add_explain_option(command, o);
   hinge::tool::add_exit_zero(command, o.exit_zero);
+  hinge::tool::add_parts(command, o.parts, "conformations");
   command.option_defaults()->group(title::performance);
   add_number(command, "--threads", o.threads, NumberRange<unsigned>{1, 1024},
              "number of worker threads; the output does not depend on it");

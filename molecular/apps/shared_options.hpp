@@ -15,7 +15,7 @@ inline constexpr hinge::tool::NumberRange<double> lengths_above_0{0.0, hinge::to
 
 /// Adds FILE and the options about the molecule, its free torsions and the rules of a check.
 void add_model_options(CLI::App& command, Options& o);
-/// Adds --json, --csv if with_csv, and --max-pairs.
+/// Adds --json, --csv and --npy if with_csv, and --max-pairs.
 void add_output_options(CLI::App& command, Options& o, bool with_csv = false);
 /// Adds --out of conformations.
 void add_out_option(CLI::App& command, Options& o);
@@ -25,7 +25,7 @@ void add_explain_option(CLI::App& command, Options& o);
 void add_view_option(CLI::App& command, Options& o);
 /// Adds --report.
 void add_report_option(CLI::App& command, Options& o);
-/// Adds the further options that check and sample share: output format, mode, --out, shards, threads.
+/// Adds the further options that check and sample share: output format, mode, --out, parts, threads.
 void add_check_options(CLI::App& command, Options& o);
 /// Adds all options of dial but those of the model.
 void add_dial_options(CLI::App& command, Options& o);

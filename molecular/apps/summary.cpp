@@ -55,12 +55,6 @@ void Summary::add(const Json& row) {
   }
 }
 
-void Summary::add_csv(const std::string& row) {
-  ++checked_;
-  const std::size_t comma = row.find(',');
-  colliding_ += comma != std::string::npos && row.compare(comma, 3, ",1,") == 0 ? 1 : 0;
-}
-
 void Summary::add(const Starts& starts) {
   if (!starts_) starts_.emplace();
   starts_->missing += starts.missing;

@@ -44,11 +44,9 @@ class Summary {
   void add_clashscore(double clashscore);
   /// Adds a conformation by its row of verdict_json.
   void add(const Json& row);
-  /// Adds a conformation by its first CSV row.
-  void add_csv(const std::string& row);
   /// Adds counts of starts.
   void add(const Starts& starts);
-  /// Adds the closure residuals and starts of a shard's summary, which its rows do not contain.
+  /// Adds the closure residuals and starts of a unit's summary, which its rows do not contain.
   void add_closures(const Json& summary);
 
   /// Returns the number of conformations added.
@@ -69,8 +67,6 @@ class Summary {
   /// worst_closure_residual and closures if with_closures; offenders; offenders_count_error unless 0; missing,
   /// starts_unclosed and closed_refused if starts are counted.
   Json json(bool with_closures) const;
-  /// Returns the summary with the keys of another summary.
-  Json json_like(const Json& other) const { return json(other.contains("worst_closure_residual")); }
 
  private:
   std::uint64_t checked_ = 0;

@@ -8,7 +8,8 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
-#include <map>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,32 +24,16 @@
 #include "hinge_tools/progress_bar.hpp"
 #include "report.hpp"
 #include "robot_page.hpp"
+#include "summary.hpp"
 
 namespace robocd {
 
 using namespace hinge::robotics;
+using hinge::tool::Rows;
 
 namespace {
 
-using NamedPair = std::pair<std::string, std::string>;
-
-struct Summary {
-  std::size_t checked = 0;
-  std::size_t colliding = 0;
-  std::map<NamedPair, std::size_t> pairs;
-
-  /// Returns the n most frequent pairs, most frequent first.
-  std::vector<std::pair<NamedPair, std::size_t>> top(std::size_t n) const {
-    std::vector<std::pair<NamedPair, std::size_t>> all(pairs.begin(), pairs.end());
-    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
-    all.resize(std::min(n, all.size()));
-    return all;
-  }
-};
-
-constexpr std::size_t shown_pairs = 10;  // of a summary; longer lists are not read
-
-void print_json_start(const Options& options, const Job& job, const Mode& mode) {
+Json head_json(const Options& options, const Job& job, const Mode& mode) {
   Json head{{"tool", "robocd"}, {"command", "check"}, {"robot", robot_json(options, job)}, {"mode", mode.text()}};
   head["clearance"] = options.clearance;
   head["seed"] = options.count > 0 ? Json(options.seed) : Json();
@@ -56,19 +41,16 @@ void print_json_start(const Options& options, const Job& job, const Mode& mode) 
   head["allowed"] = allowed_json(job);
   head["notes"] = job.notes;
   head["joints"] = joint_names(*job.robot);
-  std::string text = hinge::tool::json_text(head, 1);
-  text.resize(text.rfind('\n'));  // the closing brace follows the summary
-  fmt::print("{},\n\"configurations\": [", text);
+  return head;
 }
 
-/// error: message of the error that ended the run early; empty: none.
-void print_json_end(const Summary& summary, const std::string& error = {}) {
-  Json pairs = Json::array();
-  for (const auto& [pair, count] : summary.top(shown_pairs))
-    pairs.push_back({{"first", pair.first}, {"second", pair.second}, {"count", count}});
-  Json end{{"checked", summary.checked}, {"colliding", summary.colliding}, {"most_frequent", pairs}};
-  if (!error.empty()) end["error"] = error;
-  fmt::print("\n],\n\"summary\": {}}}\n", hinge::tool::json_text(end));
+/// Returns what the folder of --parts answers.
+hinge::tool::Question question_of(const Options& options, const Job& job, const hinge::tool::RowsHead& head) {
+  std::vector<std::pair<std::string, std::string>> inputs{
+      {"robot with meshes", model_digest(options, job.robot->description())}};
+  for (const std::filesystem::path& file : input_files(options))
+    if (!file.empty()) inputs.emplace_back(file.string(), hinge::tool::input_digest(file.string()));
+  return hinge::tool::make_question<Json>("robocd", "check", options.parts, head, inputs);
 }
 
 void print_table_end(const Summary& summary, const Robot& robot, bool sampled, double seconds) {
@@ -80,8 +62,7 @@ void print_table_end(const Summary& summary, const Robot& robot, bool sampled, d
   fmt::print("{}\n", incomplete(robot));
   if (!sampled || summary.pairs.empty()) return;
   fmt::print("  {:<28} {:<28} configurations\n", "link", "link or body");
-  for (const auto& [pair, count] : summary.top(shown_pairs))
-    fmt::print("  {:<28} {:<28} {:14}\n", pair.first, pair.second, count);
+  for (const auto& [pair, count] : summary.top()) fmt::print("  {:<28} {:<28} {:14}\n", pair.first, pair.second, count);
 }
 
 }  // namespace
@@ -100,29 +81,30 @@ Exit run_check(const Options& options) {
 
   hinge::tool::CompleteFile file(options.out);
   if (file.wanted()) write_header(file.stream(), *job.robot);
-  if (options.output == Output::json) print_json_start(options, job, mode);
-  if (options.output == Output::csv) fmt::print("{}", csv_header());
+  const bool is_json = options.output == Output::json;
+  const hinge::tool::RowsHead rows_head{options.output,
+                                        is_json ? hinge::tool::json_text(head_json(options, job, mode), 1)
+                                        : options.output == Output::csv ? csv_header()
+                                                                        : "",
+                                        "configurations", configurations.count};
+  if (!options.parts.wanted()) hinge::tool::print(opening(rows_head));
   if (options.output == Output::table) fmt::print("{}", heading(options, job));
 
-  Summary summary;
   bool headed = true;          // the next list of pairs starts with the names of its columns
   std::uint64_t left_out = 0;  // pairs that are not printed
   const Columns columns{mode, !options.environment.empty(), options.contained, options.max_pairs};
   RobotPage page(options, job, worker, mode, false);
-  hinge::tool::ProgressBar bar(configurations.count);
+  hinge::Ensemble ensemble(worker, options.threads);
   const auto start = std::chrono::steady_clock::now();
   const auto judge = [&](Worker& own, std::size_t k) {
     return ask(own, configurations.at(k), mode, options.contained);
   };
-  const auto report = [&](std::size_t k, const Answer& answer) {
-    ++summary.checked;
-    summary.colliding += answer.collides ? 1 : 0;
-    for (NamedPair& pair : named_pairs(worker, answer)) ++summary.pairs[std::move(pair)];
+  const auto report = [&](std::size_t k, const Answer& answer, Rows& rows, Summary& summary) {
+    summary.add(answer.collides, named_pairs(worker, answer));
     page.offer(k, answer);
-    if (options.output == Output::json)
-      fmt::print("{}\n{}", k == 0 ? "" : ",",
-                 hinge::tool::json_text(answer_json(worker, k, configurations.at(k), answer, columns)));
-    if (options.output == Output::csv) fmt::print("{}", csv_rows(worker, k, answer, options.max_pairs, left_out));
+    if (is_json) rows.add_json(hinge::tool::json_text(answer_json(worker, k, configurations.at(k), answer, columns)));
+    if (options.output == Output::csv) rows.add_csv(csv_rows(worker, k, answer, options.max_pairs, left_out));
+    if (options.output == Output::npy) rows.add_verdict(answer.collides ? 1 : 0);
     if (options.output == Output::table && !sampled) {
       const std::string table = pair_table(worker, answer, options.max_pairs);
       fmt::print("configuration {}: {}{}\n{}{}", k, answer.collides ? "collides" : "free", incomplete(*job.robot),
@@ -131,43 +113,71 @@ Exit run_check(const Options& options) {
     }
     if (file.wanted()) write_row(file.stream(), configurations.at(k));
     file.check();
-    bar.show(k + 1);
   };
   // check_batch() answers yes or no only, for the robot without bodies.
   const bool in_blocks = mode.kind == Mode::Kind::any && !worker.environment && !options.contained;
-  const auto judge_block = [&](Worker& own, std::size_t b) {
+  const auto judge_block = [&](Worker& own, std::size_t first, std::size_t end) {
     std::vector<double> block;
-    for (std::size_t k = b * block_size; k < std::min((b + 1) * block_size, configurations.count); ++k) {
+    for (std::size_t k = first; k < end; ++k) {
       const std::vector<double> q = configurations.at(k);
       block.insert(block.end(), q.begin(), q.end());
     }
     try {
       return own.checker.check_batch(block);
     } catch (const hinge::ConfigurationError&) {  // it names the configuration by its place in the block: ask again
-      for (std::size_t k = b * block_size; k < std::min((b + 1) * block_size, configurations.count); ++k) judge(own, k);
+      for (std::size_t k = first; k < end; ++k) judge(own, k);
       throw;
     }
   };
-  const auto report_block = [&](std::size_t b, const std::vector<std::uint8_t>& verdicts) {
-    Answer answer;
-    for (std::size_t k = 0; k < verdicts.size(); ++k) {
-      answer.collides = answer.self.collides = verdicts[k] != 0;
-      report(b * block_size + k, answer);
-    }
+  const auto run = [&](std::uint64_t from, std::uint64_t to, Rows& rows, Summary& summary) {
+    const auto first = static_cast<std::size_t>(from), count = static_cast<std::size_t>(to - from);
+    std::optional<hinge::tool::ProgressBar> bar;
+    if (!options.parts.wanted()) bar.emplace(count);
+    const auto take = [&](std::size_t n, const Answer& answer) {
+      report(first + n, answer, rows, summary);
+      if (bar) bar->show(n + 1);
+    };
+    if (!in_blocks || job.robot->independent_joints().empty())
+      return ensemble.run(
+          count, [&](Worker& own, std::size_t n) { return judge(own, first + n); }, take);
+    ensemble.run((count + block_size - 1) / block_size,
+                 [&](Worker& own, std::size_t b) {
+                   return judge_block(own, first + b * block_size, first + std::min((b + 1) * block_size, count));
+                 },
+                 [&](std::size_t b, const std::vector<std::uint8_t>& verdicts) {
+                   Answer answer;
+                   for (std::size_t k = 0; k < verdicts.size(); ++k) {
+                     answer.collides = answer.self.collides = verdicts[k] != 0;
+                     take(b * block_size + k, answer);
+                   }
+                 },
+                 16);
+  };
+  if (options.parts.wanted()) {
+    run_units(options.parts, question_of(options, job, rows_head),
+              [&](std::uint64_t from, std::uint64_t to, Rows& rows) {
+                Summary unit;
+                run(from, to, rows, unit);
+                return hinge::tool::UnitCounts{unit.checked, unit.colliding, 0,
+                                               is_json ? hinge::tool::json_text(unit.json()) : "{}"};
+              });
+    print_incomplete(*job.robot);
+    return Exit::free;
+  }
+  Summary summary;
+  Rows rows = hinge::tool::printed_rows();
+  const auto end = [&](const std::string& error) {
+    hinge::tool::print(closing(options.output, hinge::tool::json_text(summary.json(error))));
   };
   try {
-    hinge::Ensemble ensemble(worker, options.threads);
-    if (in_blocks && !job.robot->independent_joints().empty())
-      ensemble.run((configurations.count + block_size - 1) / block_size, judge_block, report_block, 16);
-    else
-      ensemble.run(configurations.count, judge, report);
+    run(0, configurations.count, rows, summary);
     file.finish();
   } catch (const std::exception& error) {  // such as a full disk
-    if (options.output == Output::json) print_json_end(summary, error.what());
+    end(error.what());
     throw;
   }
   const std::chrono::duration<double> checking = std::chrono::steady_clock::now() - start;
-  if (options.output == Output::json) print_json_end(summary);
+  end("");
   if (left_out > 0)
     fmt::print(stderr, "note: --max-pairs {}: {} without a row\n", options.max_pairs.value_or(0),
                hinge::tool::counted(left_out, "pair"));

@@ -28,6 +28,9 @@ HelpTexts help_texts() {
   texts.commands["check"] = {{"Units", "Pairs", "Exit status"},
                              {"robocd check" + arm + srdf + " --random 1000 --seed 1",
                               "robocd check" + arm + srdf + " --state arm/reach --mode closest"}};
+  texts.commands["merge"] = {
+      {"Exit status"},
+      {"robocd check" + arm + srdf + " --random 1000 --csv --parts run --unit 500", "robocd merge run > run.csv"}};
   texts.commands["path"] = {{"Units", "Pairs", "Exit status"},
                             {"robocd path" + arm + srdf + " --from zero --to state:arm/reach",
                              "robocd path" + arm + " --from zero --to 0,0.5,0,0,0,0 --env robotics/data/shelf.obj"}};

@@ -19,6 +19,7 @@
 #include "hinge/robotics/tiers.hpp"
 #include "hinge_tools/check_output.hpp"
 #include "hinge_tools/digest.hpp"
+#include "hinge_tools/parts_option.hpp"
 #include "options.hpp"
 #include "path_end.hpp"
 
@@ -26,13 +27,23 @@ namespace robocd {
 
 using namespace hinge::robotics;
 
-void check_outputs(const Options& options) {
+std::vector<std::filesystem::path> input_files(const Options& options) {
   std::vector<std::filesystem::path> inputs{options.urdf, options.srdf, options.csv_in, options.waypoints};
   for (const std::string& end : {options.from, options.to})
     if (end.starts_with('@')) inputs.push_back(file_of_end(end).first);
   inputs.insert(inputs.end(), options.skip_pairs.begin(), options.skip_pairs.end());
   inputs.insert(inputs.end(), options.settings.begin(), options.settings.end());
   for (const std::string& body : options.environment) inputs.push_back(parse_body(body).file);
+  return inputs;
+}
+
+void check_outputs(const Options& options) {
+  hinge::tool::check_parts(options.parts, options.output == Output::table,
+                           !options.out.empty()      ? "--out"
+                           : !options.report.empty() ? "--report"
+                           : options.max_pairs       ? "--max-pairs"
+                                                     : nullptr);
+  const std::vector<std::filesystem::path> inputs = input_files(options);
   hinge::tool::check_output("--out", options.out, inputs);
   hinge::tool::check_report(options.report, options.out, inputs);
   hinge::tool::check_output("--apply", options.dial.apply, inputs);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,13 +17,14 @@
 #include "hinge/robotics/read_srdf.hpp"
 #include "hinge/robotics/robot.hpp"
 #include "hinge_tools/dial.hpp"
+#include "hinge_tools/parts.hpp"
+#include "hinge_tools/rows.hpp"
 #include "hinge_tools/run_tool.hpp"
 
 namespace robocd {
 
 using hinge::tool::Exit;
-
-enum class Output : std::uint8_t { table, json, csv };
+using hinge::tool::Output;
 
 /// The options of all commands. Lengths in m, angles in rad.
 struct Options {
@@ -56,6 +58,8 @@ struct Options {
   std::string engine = "simd";
   bool contained = false;  // closed meshes are solid
   unsigned threads = 1;
+  hinge::tool::PartsOptions parts;  // check
+  std::string merged;               // merge: folder of --parts
   // path
   std::string from, to;           // see path_end.hpp
   std::string waypoints;          // CSV file of configurations, instead of from and to
@@ -88,9 +92,12 @@ struct Job {
   hinge::robotics::LinkPairs tested;
 };
 
-/// Throws ModelError if --out or --report would overwrite an input of the command, or is a directory or the file of
-/// standard output, or if --report has another extension than .html. Mesh files are checked by load_robot(), which
-/// knows them.
+/// Returns the input files that the options name, without meshes.
+std::vector<std::filesystem::path> input_files(const Options& options);
+
+/// Throws ModelError if --parts does not fit the other options, or if --out or --report would overwrite an input of the
+/// command, or is a directory or the file of standard output, or if --report has another extension than .html. Mesh
+/// files are checked by load_robot(), which knows them.
 void check_outputs(const Options& options);
 
 /// Reads the robot. With --contained closed meshes become solid. `notes` receives the notes of the reader and the links
@@ -115,6 +122,7 @@ void print_incomplete(const hinge::robotics::Robot& robot);
 
 Exit run_info(const Options& options);
 Exit run_check(const Options& options);
+Exit run_merge(const Options& options);
 Exit run_matrix(const Options& options);
 Exit run_path(const Options& options);
 Exit run_relax(const Options& options);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <string_view>
 
@@ -212,6 +213,25 @@ std::string pair_table(const Worker& worker, const Answer& answer, const std::op
     lines += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   });
   return lines + hinge::tool::left_out_text(left_out);
+}
+
+std::vector<std::pair<std::string, std::string>> named_pairs(const Json& row) {
+  std::vector<std::pair<std::string, std::string>> pairs;
+  std::set<std::pair<std::string, std::string>> known;
+  const auto add = [&](const Json& finding) {
+    const std::string first = finding.begin().value(), second = std::next(finding.begin()).value();
+    if (known.insert(std::minmax(first, second)).second) pairs.emplace_back(first, second);
+  };
+  for (const char* key :
+       {"pairs", "closest", "environment_pairs", "environment_closest", "contained", "environment_contained"}) {
+    const auto found = row.find(key);
+    if (found == row.end() || found->is_null()) continue;
+    if (found->is_object())
+      add(*found);
+    else
+      for (const Json& finding : *found) add(finding);
+  }
+  return pairs;
 }
 
 std::vector<std::pair<std::string, std::string>> named_pairs(const Worker& worker, const Answer& answer) {

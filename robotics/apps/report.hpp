@@ -57,6 +57,8 @@ std::string pair_table(const Worker& worker, const Answer& answer, const std::op
 
 /// Returns the pairs of an answer by name: two links, or link and body, each pair once.
 std::vector<std::pair<std::string, std::string>> named_pairs(const Worker& worker, const Answer& answer);
+/// Returns the same from a row of answer_json().
+std::vector<std::pair<std::string, std::string>> named_pairs(const Json& row);
 
 /// Returns the question in words, as names and values: the robot, what is tested, the bodies.
 std::vector<std::pair<std::string, std::string>> question_words(const Options& options, const Job& job);

@@ -27,6 +27,7 @@ namespace title = hinge::tool::title;
 Exit run(int argc, char** argv) {
   Options o;
   o.command_line = hinge::tool::command_text("robocd", argc, argv);
+  o.parts.words = hinge::tool::words_of_question(argc, argv);
   std::function<Exit(const Options&)> command;
   const hinge::tool::HelpTexts texts = robocd::help_texts();
   CLI::App app{"collisions of robots as articulated mechanisms", "robocd"};
@@ -45,6 +46,13 @@ Exit run(int argc, char** argv) {
   robocd::add_pair_options(*check, o);
   robocd::add_check_options(*check, o);
   check->callback([&] { command = robocd::run_check; });
+
+  CLI::App* merge = app.add_subcommand("merge", "print the output of a check that was computed in parts");
+  merge->option_defaults()->group(title::input);
+  merge->add_option("FOLDER", o.merged, "folder of --parts")->required();
+  merge->option_defaults()->group(title::output);
+  hinge::tool::add_exit_zero(*merge, o.exit_zero);
+  merge->callback([&] { command = robocd::run_merge; });
 
   CLI::App* matrix =
       app.add_subcommand("matrix", "write an SRDF with the pairs of links that need no test, and the reasons");

@@ -12,6 +12,7 @@
 #include "hinge_tools/max_pairs_option.hpp"
 #include "hinge_tools/mode_option.hpp"
 #include "hinge_tools/number_option.hpp"
+#include "hinge_tools/parts_option.hpp"
 #include "hinge_tools/repeatable_option.hpp"
 
 namespace robocd {
@@ -193,15 +194,21 @@ void add_check_options(CLI::App& command, Options& o) {
   add_number(command, "--threads", o.threads, NumberRange<unsigned>{1, 1024},
              "number of worker threads; the output does not depend on it");
   add_json_option(command, o);
+  CLI::Option* csv = command.add_flag_callback(
+      "--csv", [&o] { o.output = robocd::Output::csv; }, "print CSV on standard output");
+  csv->excludes("--json");
   command
       .add_flag_callback(
-          "--csv", [&o] { o.output = robocd::Output::csv; }, "print CSV on standard output")
-      ->excludes("--json");
+          "--npy", [&o] { o.output = robocd::Output::npy; },
+          "print verdicts as a NumPy array of bytes on standard output: 0 free, 1 collides")
+      ->excludes("--json")
+      ->excludes(csv);
   hinge::tool::add_max_pairs(command, o.max_pairs);
   add_report_option(command, o);
   command.add_option("--out", o.out, "write the configurations to this CSV file, in the format of --csv-in")
       ->type_name("FILE");
   hinge::tool::add_exit_zero(command, o.exit_zero);
+  hinge::tool::add_parts(command, o.parts, "configurations");
 }
 
 void add_matrix_options(CLI::App& command, Options& o) {

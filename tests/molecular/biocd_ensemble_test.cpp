@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tests biocd on ensembles: trajectories, filters, shards, and the output of truncated files.
+// Tests biocd on ensembles: trajectories, filters, and the output of truncated files.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -100,61 +100,6 @@ TEST(BiocdEnsemble, WritesTheFreeOnes) {
   }
 }
 
-TEST(BiocdEnsemble, GivesTheSameBytesHoweverItIsSplit) {
-  const Target npy(".npy");
-  run_biocd(sample_to(npy));
-  for (const std::string& question :
-       {"check " + file() + " " + npy.path() + rule, "sample " + file() + " -n 12 --seed 3 --sigma 0.4" + rule})
-    for (const std::string output : {" --json", " --csv"}) {
-      const Said whole = run_biocd(question + output + " 2>/dev/null");
-      ASSERT_FALSE(whole.out.empty());
-      for (const int n : {1, 3, 7, 13}) {
-        std::vector<std::unique_ptr<TemporaryFile>> shards;
-        std::string names;
-        for (int i = 1; i <= n; ++i) {
-          const std::string part = " --shard " + std::to_string(i) + "/" + std::to_string(n) + " --threads 2";
-          shards.push_back(
-              std::make_unique<TemporaryFile>(run_biocd(question + output + part + " 2>/dev/null").out, ".shard"));
-          names.append(" ").append(shards.back()->path().string());
-        }
-        const Said merged = run_biocd("merge" + names);
-        EXPECT_EQ(merged.status, whole.status);
-        EXPECT_TRUE(merged.out == whole.out) << question << output << ' ' << n;
-      }
-    }
-}
-
-TEST(BiocdEnsemble, MergesOnlyWhatBelongsTogether) {
-  const std::string question = "sample " + file() + " -n 5 --sigma 0.4 ";
-  for (const std::string output : {"--json", "--csv"}) {
-    const auto shard = [&](const std::string& which, const std::string& more = "") {
-      return run_biocd(question + output + " --shard " + which + " " + more + " 2>/dev/null").out;
-    };
-    const TemporaryFile one(shard("1/2")), two(shard("2/2")), seed(shard("2/2", "--seed 2")), third(shard("2/3"));
-    const TemporaryFile cut(shard("2/2").substr(0, shard("2/2").size() - 20)), whole(run_biocd(question + output).out);
-    const auto status = [](std::initializer_list<const TemporaryFile*> files) {
-      std::string command = "merge";
-      for (const TemporaryFile* f : files) command.append(" ").append(f->path().string());
-      const Said said = run_biocd(command + " 2>&1");
-      EXPECT_TRUE(said.status != 3 || said.out.starts_with("biocd: ")) << said.out;  // no other output
-      return said.status;
-    };
-    EXPECT_EQ(status({&one, &two}), 1);
-    EXPECT_EQ(status({&one}), 3);
-    EXPECT_EQ(status({&two}), 3);
-    EXPECT_EQ(status({&one, &one}), 3);
-    EXPECT_EQ(status({&one, &two, &two}), 3);
-    EXPECT_EQ(status({&one, &seed}), 3);
-    EXPECT_EQ(status({&one, &third}), 3);
-    EXPECT_EQ(status({&one, &cut}), 3);
-    EXPECT_EQ(status({&one, &whole}), 3);
-  }
-  EXPECT_EQ(run_biocd("merge /nonexistent 2>&1").status, 3);
-  for (const char* text : {"0/3", "4/3", "1", "a/b", "1/0", "-1/2"})
-    EXPECT_EQ(run_biocd(question + "--csv --shard " + text + " 2>&1").status, 2) << text;
-  EXPECT_EQ(run_biocd(question + "--shard 1/2 2>&1").status, 2);
-}
-
 TEST(BiocdEnsemble, KeepsWhatWasCheckedBeforeAFileBreaksOff) {
   const Structure s = read_structure(test::ubiquitin());
   std::vector<Frame> frames(40, s.models[0]);
@@ -174,10 +119,6 @@ TEST(BiocdEnsemble, KeepsWhatWasCheckedBeforeAFileBreaksOff) {
       const Said said = run_biocd(question + " --csv 2>&1 >/dev/null | grep '^biocd: '");
       EXPECT_NE(said.out.find(word), std::string::npos);
       EXPECT_EQ(std::count(said.out.begin(), said.out.end(), '\n'), 1);
-      const TemporaryFile shard(run_biocd(question + " --json --shard 1/1 2>/dev/null").out);
-      const Said merged = run_biocd("merge " + shard.path().string() + " 2>&1");
-      EXPECT_EQ(merged.status, 3);
-      EXPECT_NE(merged.out.find("ended early"), std::string::npos) << merged.out;
     }
   // If the file cannot be read at all, nothing is printed to standard output.
   for (const std::string& bytes : {std::string(), std::string("junk"), test::dcd_file({Frame(5, Vec3::Zero())})}) {

@@ -108,7 +108,7 @@ TEST(BiocdMaxPairs, CutsJsonAndCsvOnlyIfGiven) {
     const Said csv = run_biocd(within + "--csv --max-pairs 2 2>&1 | grep -v left.out");
     EXPECT_EQ(lines(run_biocd(within + "--csv --max-pairs 2 2>/dev/null").out), 1 + 2 * whole["conformations"].size());
     EXPECT_TRUE(has(csv.out, "note: --max-pairs 2: " + std::to_string(left_out) + " pairs without a row\n")) << csv.out;
-    EXPECT_EQ(run_biocd(within + "--csv --max-pairs 2 --shard 1/2 2>/dev/null").status, 2);
+    EXPECT_EQ(run_biocd(within + "--csv --max-pairs 2 --parts /tmp/parts 2>/dev/null").status, 2);
   }
   const Json path = Json::parse(
       run_biocd("path" + file() + "--from 0 --to 180 --free A:30:psi --exempt-reference --json --max-pairs 1").out);

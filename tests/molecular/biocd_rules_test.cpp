@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tests biocd --rules: severities in every output, clashscore, shards, rejected input.
+// Tests biocd --rules: severities in every output, clashscore, rejected input.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -99,28 +99,6 @@ TEST(BiocdRules, SayTheSameInJsonAndCsv) {
       EXPECT_DOUBLE_EQ(json["summary"]["clashscore"].get<double>(), expected);
     }
   }
-}
-
-TEST(BiocdRules, SurviveShardsByteForByte) {
-  const test::TemporaryFile target("", ".npy");
-  const std::string poses = target.path().string();
-  ASSERT_EQ(run_biocd("sample " + file() + " -n 5 --sigma 0.3 --out " + poses).status, 1);
-  for (const std::string& question : {"check " + file() + " " + poses + " --rules molprobity",
-                                      "sample " + file() + " -n 4 --sigma 0.4 --rules posebusters --mode within:0.1"})
-    for (const std::string output : {" --json", " --csv"}) {
-      const auto whole = run_biocd(question + output + " 2>/dev/null");
-      ASSERT_FALSE(whole.out.empty());
-      std::vector<std::unique_ptr<test::TemporaryFile>> shards;
-      std::string names;
-      for (const char* shard : {"2/2", "1/2"}) {
-        shards.push_back(std::make_unique<test::TemporaryFile>(
-            run_biocd(question + output + " --shard " + shard + " 2>/dev/null").out, ".shard"));
-        names.append(" ").append(shards.back()->path().string());
-      }
-      const auto merged = run_biocd("merge" + names);
-      EXPECT_EQ(merged.status, whole.status);
-      EXPECT_TRUE(merged.out == whole.out) << question << output;
-    }
 }
 
 TEST(BiocdRules, ExplainPairsInsideResiduesAndWithHydrogens) {
