@@ -60,7 +60,8 @@ def page(modules):
 
 if __name__ == "__main__":
     import hinge
+    import hinge.distributed
     import hinge.molecular
     import hinge.robotics
 
-    PAGE.write_text(page([hinge, hinge.molecular, hinge.robotics]))
+    PAGE.write_text(page([hinge, hinge.molecular, hinge.robotics, hinge.distributed]))

@@ -12,11 +12,12 @@ import sys
 import pytest
 
 import hinge
+import hinge.distributed
 import hinge.molecular
 import hinge.robotics
 
 HERE = pathlib.Path(__file__).resolve().parent
-MODULES = (hinge, hinge.molecular, hinge.robotics)
+MODULES = (hinge, hinge.molecular, hinge.robotics, hinge.distributed)
 # Results, which users do not construct.
 RESULTS = ("CoordinateFit", "Motion", "Relaxation", "RigidGroups", "Walk")
 
