@@ -202,9 +202,9 @@ hinge::tool::DialExtremes find_extremes(const Options& options, const Job& job) 
     }
   }
   if (near.empty())
-    table.notes.push_back(colliding.empty()
-                              ? "no random configuration collides, so none that nearly touches was found"
-                              : "every random configuration collides, so none that nearly touches was found");
+    table.notes.emplace_back(colliding.empty()
+                                 ? "no random configuration collides, so none that nearly touches was found"
+                                 : "every random configuration collides, so none that nearly touches was found");
   std::vector<bool> verdicts;  // of `near`, at scale 1 without displacement
   for (const Configuration& q : near) verdicts.push_back(collides(plain.exact, q));
 

@@ -30,7 +30,7 @@ using namespace hinge::robotics;
 std::vector<std::filesystem::path> input_files(const Options& options) {
   std::vector<std::filesystem::path> inputs{options.urdf, options.srdf, options.csv_in, options.waypoints};
   for (const std::string& end : {options.from, options.to})
-    if (end.starts_with('@')) inputs.push_back(file_of_end(end).first);
+    if (end.starts_with('@')) inputs.emplace_back(file_of_end(end).first);
   inputs.insert(inputs.end(), options.skip_pairs.begin(), options.skip_pairs.end());
   inputs.insert(inputs.end(), options.settings.begin(), options.settings.end());
   for (const std::string& body : options.environment) inputs.push_back(parse_body(body).file);

@@ -42,7 +42,7 @@ PageMesh merged(const std::vector<hinge::Triangle>& triangles, const hinge::Vec3
   mesh.vertices.resize(3 * vertices.size());
   for (const auto& [key, vertex] : vertices)
     for (int axis = 0; axis < 3; ++axis)
-      mesh.vertices[3 * vertex.index + static_cast<std::size_t>(axis)] =
+      mesh.vertices[std::size_t{3} * vertex.index + static_cast<std::size_t>(axis)] =
           static_cast<float>(vertex.sum[axis] / vertex.count);
   return mesh;
 }

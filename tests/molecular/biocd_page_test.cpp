@@ -109,7 +109,7 @@ TEST_F(BiocdPage, HoldsTheMoleculeAndItsCoordinates) {
     EXPECT_EQ(label(molecule, i), hinge::molecular::label(s, i));
     EXPECT_EQ(molecule.at("atoms").at("elements").at(i), s.atoms[i].element);
     for (std::size_t axis = 0; axis < 3; ++axis)
-      EXPECT_NEAR(molecule.at("origin").at(axis).get<double>() + 0.01 * grid[3 * i + axis],
+      EXPECT_NEAR(molecule.at("origin").at(axis).get<double>() + 0.01 * grid[std::size_t{3} * i + axis],
                   s.models[0][i][static_cast<Eigen::Index>(axis)], 0.00501);
     // Residues before 69 stay; the last atoms move.
     if (s.residues[s.atoms[i].residue].sequence_number < 69) {
@@ -184,7 +184,7 @@ TEST_F(BiocdPage, CutsLargeMoleculesDown) {
                       static_cast<int>((static_cast<std::size_t>(copy) * s.atoms.size() + i) % 99999 + 1),
                       (" " + s.atoms[i].name).c_str(), r.name.c_str(),
                       static_cast<char>(copy < 26 ? 'A' + copy : 'a' + copy - 26), r.sequence_number,
-                      s.models[0][i].x() + 60.0 * (copy % 6), s.models[0][i].y() + 60.0 * (copy / 6),
+                      s.models[0][i].x() + 60.0 * (copy % 6), s.models[0][i].y() + 60.0 * static_cast<double>(copy / 6),
                       s.models[0][i].z(), s.atoms[i].element.c_str());
         out << line;
       }

@@ -45,7 +45,7 @@ TargetCoordinates target_of(const std::vector<Vec3>& positions, double share, do
     if (stream.uniform() >= share) continue;
     const Vec3 off(stream.normal(), stream.normal(), stream.normal());
     target.atoms.push_back(i);
-    target.positions.push_back(Vec3(turn * (positions[i] + noise * off)) + Vec3(30.0, -20.0, 10.0));
+    target.positions.emplace_back(Vec3(turn * (positions[i] + noise * off)) + Vec3(30.0, -20.0, 10.0));
   }
   return target;
 }
