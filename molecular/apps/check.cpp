@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -92,7 +93,13 @@ Exit run_check(const Options& options) {
     return Exit::free;
   }
   const Structure& s = job.molecule->structure();
-  const Frames frames(options.trajectories, options.file, s, options.read);
+  ReadOptions frames_from = options.read;
+  if (options.parts.wanted()) {  // all processes of the run share the places of the frames
+    std::error_code error;       // claim() reports it
+    std::filesystem::create_directories(options.parts.folder, error);
+    frames_from.index_folder = options.parts.folder;
+  }
+  const Frames frames(options.trajectories, options.file, s, frames_from);
   ConformationFile file(options, s, options.out.empty() ? 0 : frames.atom_count(), frames.is_single());
 
   Json head{{"tool", "biocd"}, {"command", "check"}, {"model", model_json(options, job)}, {"mode", mode.text()}};

@@ -69,7 +69,7 @@ Trajectory::Format Trajectory::Format::open(const std::filesystem::path& path, c
                                             const ReadOptions& options, bool may_have_more) {
   BinaryFile file(path);
   if (DcdFile::is_one(file)) return {DcdFile(std::move(file))};
-  if (XtcFile::is_one(file)) return {XtcFile(std::move(file))};
+  if (XtcFile::is_one(file)) return {XtcFile(std::move(file), options.index_folder)};
   if (NpyFile::is_one(file)) return {NpyFile(std::move(file))};
   std::string text(std::size_t{1} << 16, '\0');
   text.resize(file.read(0, text));

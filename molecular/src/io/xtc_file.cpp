@@ -9,6 +9,7 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/number_text.hpp"
+#include "io/frame_index.hpp"
 #include "io/xtc_coordinates.hpp"
 
 namespace hinge::molecular {
@@ -36,7 +37,19 @@ bool XtcFile::is_one(const BinaryFile& file) {
   return (word == xtc_magic || word == magic_of_large_systems) && integer(start.data() + 4) > 0;
 }
 
-XtcFile::XtcFile(BinaryFile file) : file_(std::move(file)) {
+XtcFile::XtcFile(BinaryFile file, const std::filesystem::path& index_folder) : file_(std::move(file)) {
+  const FrameIndex index(index_folder, file_);
+  frames_at_ = index.read();
+  if (frames_at_.empty()) {
+    find_frames();
+    index.write(frames_at_);
+  } else {
+    atoms_ = static_cast<std::size_t>(head(0).atoms);
+  }
+  if (atoms_ == 0) frame(0);  // the first header is damaged: throws
+}
+
+void XtcFile::find_frames() {
   for (std::uint64_t offset = 0; offset < file_.size();) {
     frames_at_.push_back(offset);
     Head h;
@@ -50,7 +63,6 @@ XtcFile::XtcFile(BinaryFile file) : file_(std::move(file)) {
     if (padded > file_.size() - h.data_at) break;
     offset = h.data_at + padded;
   }
-  if (atoms_ == 0) frame(0);  // the first header is damaged: throws
 }
 
 XtcFile::Head XtcFile::head(std::uint64_t offset) const {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,9 @@ namespace hinge::molecular {
 /// Big-endian. Frames differ in length, so the constructor finds their offsets from the headers.
 class XtcFile {
  public:
-  /// Throws LoadError if the first header is damaged.
-  explicit XtcFile(BinaryFile file);
+  /// index_folder: where the offsets are kept for other processes; empty: nowhere. Throws LoadError if the first header
+  /// is damaged.
+  explicit XtcFile(BinaryFile file, const std::filesystem::path& index_folder = {});
 
   /// True if the file starts as an XTC file.
   static bool is_one(const BinaryFile& file);
@@ -40,6 +42,7 @@ class XtcFile {
     std::vector<char> bytes;
   };
   Head head(std::uint64_t offset) const;
+  void find_frames();
 
   BinaryFile file_;
   std::size_t atoms_ = 0;

@@ -30,6 +30,9 @@ struct ReadOptions {
   std::vector<std::filesystem::path> components = {};
   std::filesystem::path dictionary = {};  ///< folder of a monomer dictionary (ComponentLibrary); empty: none
   bool first_model = false;               ///< read only the first model, unless `model` names one
+  /// Trajectory keeps the places of the frames of XTC files in this folder, so that other processes need not search
+  /// them again; empty: nowhere. Errors of these files are ignored.
+  std::filesystem::path index_folder = {};
 };
 
 /// Returns the atoms, coordinates (angstrom) and bonds of a PDB or mmCIF file. If models differ, the common atoms are
