@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
+#include "hinge_tools/check_output.hpp"
+#include "hinge_tools/complete_file.hpp"
 #include "hinge_tools/counted.hpp"
 #include "hinge_tools/digest.hpp"
 #include "hinge_tools/json_text.hpp"
@@ -65,15 +67,19 @@ Question read_question(const PartsFolder& folder, const std::string& tool, RowsH
   throw LoadError(file + ": is damaged");
 }
 
-/// Prints the whole run. add(row) takes the rows of JSON output; add_unit(counts, summary) takes every unit;
-/// summary() -> Json returns the summary of the whole. Nothing is printed unless all units are there and whole; throws
-/// LoadError otherwise.
+/// Writes the whole run to `out`, or prints it if the path is empty. add(row) takes the rows of JSON output;
+/// add_unit(counts, summary) takes every unit; summary() -> Json returns the summary of the whole. Nothing is printed
+/// unless all units are there and whole; throws LoadError otherwise.
 template <class Json, class Add, class AddUnit, class Summary>
-void merge_parts(const std::string& path, const std::string& tool, const Add& add, const AddUnit& add_unit,
-                 const Summary& summary) {
+void merge_parts(const std::string& path, const std::string& out, const std::string& tool, const Add& add,
+                 const AddUnit& add_unit, const Summary& summary) {
   const PartsFolder folder(path);
   RowsHead head;
   const Question question = read_question<Json>(folder, tool, head);
+  const char* const extension = head.output == Output::json ? ".json" : head.output == Output::csv ? ".csv" : ".npy";
+  if (!out.empty() && std::filesystem::path(out).extension() != extension)
+    throw ModelError("--out " + out + ": expected a file name with " + extension + ", the format of the run");
+  check_output("--out", out, {folder.question_file()});
   std::vector<std::uint64_t> missing;
   std::error_code error;
   for (std::uint64_t k = 0; k < question.units(); ++k)
@@ -91,15 +97,22 @@ void merge_parts(const std::string& path, const std::string& tool, const Add& ad
       throw LoadError(folder.unit_file(k).string() + ": is damaged: its rows cannot be read");
     }
   }
-  print(opening(head));
-  Rows rows = printed_rows();
+  CompleteFile file(out);
+  const auto write = [&](std::string_view text) {
+    if (!file.wanted()) return print(text);
+    file.stream().write(text.data(), static_cast<std::streamsize>(text.size()));
+    file.check();
+  };
+  write(opening(head));
+  Rows rows(write, true);
   for (const UnitReader& unit : units) {
     if (head.output == Output::json)
       unit.for_lines([&](const std::string& row) { rows.add_json(row); });
     else
-      unit.for_rows(print);
+      unit.for_rows(write);
   }
-  if (head.output == Output::json) print(closing(head.output, json_text(summary())));
+  write(closing(head.output, head.output == Output::json ? json_text(summary()) : ""));
+  file.finish();
   if (const std::size_t count = folder.left_over(); count > 0)
     std::fprintf(stderr, "note: %s: %s of killed processes may be deleted\n", path.c_str(),
                  counted(count, "file *.partial", "files *.partial").c_str());

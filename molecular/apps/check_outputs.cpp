@@ -71,7 +71,7 @@ void check_outputs(const Options& options, bool is_folder) {
   const std::filesystem::path out = options.out;
   if (out.empty()) return;
   if (!is_folder) {
-    conformation_format(options.out);
+    if (options.merged.empty()) conformation_format(options.out);
     hinge::tool::check_output("--out", out, input_files(options));
     if (is_inside(out, options.read.dictionary))
       throw hinge::ModelError("--out " + options.out + ": is in the monomer dictionary, expected a different file");

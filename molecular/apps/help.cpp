@@ -65,7 +65,7 @@ HelpTexts help_texts() {
                             {"biocd dial" + file + " --exempt-reference --time 2 --apply 1ubq.settings",
                              "biocd dial" + file + " --free A:70-76 --time 2 --extremes --report dial.html"}};
   texts.commands["merge"] = {
-      {"Exit status"}, {"biocd sample" + file + " -n 10 --csv --parts run --unit 5", "biocd merge run > run.csv"}};
+      {"Exit status"}, {"biocd sample" + file + " -n 10 --csv --parts run --unit 5", "biocd merge run --out run.csv"}};
   texts.commands["demo"] = {
       {}, {"biocd demo" + file + " --out demo -n 100", "biocd demo" + file + " --out demo -n 100 --seed 2"}};
   return texts;

@@ -16,7 +16,7 @@ Exit run_merge(const Options& options) {
   std::uint64_t colliding = 0, missing = 0;
   bool with_closures = false;
   hinge::tool::merge_parts<Json>(
-      options.merged, "biocd", [&](const Json& row) { summary.add(row); },
+      options.merged, options.out, "biocd", [&](const Json& row) { summary.add(row); },
       [&](const hinge::tool::UnitCounts& counts, const Json& unit) {
         colliding += counts.colliding;
         missing += counts.missing;

@@ -299,7 +299,7 @@ class _Run:
         self.in_flight = in_flight or 2 * (workers or os.cpu_count() or 1)
         self.finished = queue.SimpleQueue()
         self.flying = {}  # future -> (unit, attempt)
-        self.rows = []  # of the log
+        self.workers, self.instruction_sets = set(), {}
         self.summary = Summary(units=self.units, notes=tuple(self.notes))
         self.started = time.time()
         self.clock = time.monotonic()
@@ -328,16 +328,16 @@ class _Run:
                 raise UnitError(f"the executor ended ({type(error).__name__}); {self._kept()}") from error
             if isinstance(error, ModelError):  # it fails everywhere
                 raise
+            self.record({"unit": unit, "attempt": attempt, "error": str(error)})
             if attempt >= self.retries:
                 raise UnitError(f"unit {unit}, after {attempt + 1} attempts: {error}; {self._kept()}") from error
             self.summary.retries += 1
-            self.rows.append({"unit": unit, "attempt": attempt, "error": str(error)})
             self.start(unit, attempt + 1)
             return
         content = result.pop("content")
         if content is not None:
             _write(self.folder / _file_name(unit), content)
-        self.rows.append({**result, "attempt": attempt})
+        self.record({**result, "attempt": attempt})
         self.summary.computed += 1
         self.summary.conformations += self.length(unit)
         if self.progress:
@@ -366,21 +366,34 @@ class _Run:
     def _kept(self):
         return f"{self.summary.there + self.summary.computed} of {self.units} units are complete, run again to go on"
 
-    def write_log(self, error):
-        rows = self.rows
+    def record(self, row):
+        """Writes a row of the log, so that memory does not grow with the number of units."""
+        self.log.write(("" if self.log_is_empty else ",\n") + json.dumps(row))
+        self.log_is_empty = False
+        if "host" in row:
+            self.workers.add((row["host"], row["pid"]))
+            self.instruction_sets[row["host"]] = row["instruction_set"]
+
+    def open_log(self):
+        head = {"hinge": __version__, "question": self.digest, "tool": self.question.tool,
+                "words": list(self.question.words), "unit": self.question.unit,
+                "started": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(self.started)),
+                "client": socket.gethostname(), "notes": self.notes}
+        started = time.strftime("%Y%m%dT%H%M%SZ", time.gmtime(self.started))
+        self.log_path = self.folder / f"log-{started}-{socket.gethostname()}-{os.getpid()}.json"
+        self.log = open(f"{self.log_path}.partial", "w", encoding="utf-8")
+        self.log_is_empty = True
+        self.log.write(json.dumps(head)[:-1] + ', "units": [\n')
+
+    def close_log(self, error):
         self.summary.seconds = time.monotonic() - self.clock
-        self.summary.workers = len({(row["host"], row["pid"]) for row in rows if "host" in row})
-        sets = {row["host"]: row["instruction_set"] for row in rows if "host" in row}
-        log = {"hinge": __version__, "question": self.digest, "tool": self.question.tool,
-               "words": list(self.question.words), "unit": self.question.unit,
-               "started": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(self.started)),
-               "client": socket.gethostname(), "instruction_sets": sets,
-               "summary": {k: v for k, v in dataclasses.asdict(self.summary).items() if k not in ("log", "notes")},
-               "notes": self.notes, "error": error, "units": rows}
-        name = f"log-{time.strftime('%Y%m%dT%H%M%SZ', time.gmtime(self.started))}-{socket.gethostname()}-{os.getpid()}.json"
-        path = self.folder / name
-        _write(path, (json.dumps(log, indent=1) + "\n").encode())
-        self.summary.log = str(path)
+        self.summary.workers = len(self.workers)
+        self.summary.log = str(self.log_path)
+        summary = {k: v for k, v in dataclasses.asdict(self.summary).items() if k not in ("log", "notes")}
+        end = {"instruction_sets": self.instruction_sets, "summary": summary, "error": error}
+        self.log.write("],\n" + json.dumps(end)[1:] + "\n")
+        self.log.close()
+        os.replace(self.log.name, self.log_path)
 
 
 def run(question, executor, folder, *, threads=1, ship=None, retries=3, in_flight=None, progress=None):
@@ -398,6 +411,7 @@ def run(question, executor, folder, *, threads=1, ship=None, retries=3, in_fligh
     """
     call = _Run(question, executor, folder, threads, ship, retries, in_flight, progress)
     error = None
+    call.open_log()
     try:
         call.run()
     except BaseException as problem:
@@ -407,7 +421,7 @@ def run(question, executor, folder, *, threads=1, ship=None, retries=3, in_fligh
                 future.cancel()
         raise
     finally:
-        call.write_log(error)
+        call.close_log(error)
     return call.summary
 
 
@@ -433,7 +447,7 @@ def _parser():
         description="Computes a question in units on many processes or machines. Ends with status 0 if all units are "
         "complete, 2 for a wrong command line, and 3 otherwise; finished units are kept.",
         epilog="example: python3 -m hinge.distributed --local 4 --parts parts -- biocd sample 1ubq.pdb --free A:70-76 "
-        "-n 1000000 --npy; biocd merge parts > verdicts.npy")
+        "-n 1000000 --npy; biocd merge parts --out verdicts.npy")
     where = parser.add_mutually_exclusive_group(required=True)
     where.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster, such as tcp://host:8786")
     where.add_argument("--mpi", action="store_true",

@@ -30,7 +30,7 @@ HelpTexts help_texts() {
                               "robocd check" + arm + srdf + " --state arm/reach --mode closest"}};
   texts.commands["merge"] = {
       {"Exit status"},
-      {"robocd check" + arm + srdf + " --random 1000 --csv --parts run --unit 500", "robocd merge run > run.csv"}};
+      {"robocd check" + arm + srdf + " --random 1000 --csv --parts run --unit 500", "robocd merge run --out run.csv"}};
   texts.commands["path"] = {{"Units", "Pairs", "Exit status"},
                             {"robocd path" + arm + srdf + " --from zero --to state:arm/reach",
                              "robocd path" + arm + " --from zero --to 0,0.5,0,0,0,0 --env robotics/data/shelf.obj"}};

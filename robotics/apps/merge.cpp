@@ -13,7 +13,8 @@ Exit run_merge(const Options& options) {
   Summary summary;
   std::uint64_t colliding = 0;
   hinge::tool::merge_parts<Json>(
-      options.merged, "robocd", [&](const Json& row) { summary.add(row.at("collides").get<bool>(), named_pairs(row)); },
+      options.merged, options.out, "robocd",
+      [&](const Json& row) { summary.add(row.at("collides").get<bool>(), named_pairs(row)); },
       [&](const hinge::tool::UnitCounts& counts, const Json&) { colliding += counts.colliding; },
       [&] { return summary.json(); });
   return colliding > 0 ? Exit::collision : Exit::free;

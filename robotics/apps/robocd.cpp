@@ -51,6 +51,8 @@ Exit run(int argc, char** argv) {
   merge->option_defaults()->group(title::input);
   merge->add_option("FOLDER", o.merged, "folder of --parts")->required();
   merge->option_defaults()->group(title::output);
+  merge->add_option("--out", o.out, "file to write, completely or not at all (default: standard output)")
+      ->type_name("FILE");
   hinge::tool::add_exit_zero(*merge, o.exit_zero);
   merge->callback([&] { command = robocd::run_merge; });
 

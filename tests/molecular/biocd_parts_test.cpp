@@ -80,6 +80,9 @@ TEST(BiocdParts, GiveTheBytesOfTheWholeRun) {
         const Said merged = run_biocd("merge " + parts.path);
         EXPECT_EQ(merged.status, whole.status) << divided;
         EXPECT_TRUE(merged.out == whole.out) << divided;
+        const std::filesystem::path out = parts.in.path() / ("out." + format);
+        EXPECT_EQ(run_biocd("merge " + parts.path + " --out " + out.string()).status, whole.status);
+        EXPECT_TRUE(content(out) == whole.out) << divided;
       }
     }
 }
@@ -200,6 +203,13 @@ TEST(BiocdParts, RefusesAnotherQuestion) {
   EXPECT_EQ(run_biocd("merge " + folder.path().string() + " 2>&1").status, 3);
   std::ofstream(parts.question()) << "{}";
   EXPECT_TRUE(has(run_biocd("merge " + parts.path + " 2>&1").out, "question.json: is damaged"));
+  // A file to write has the extension of the format, and is no input.
+  for (const std::string name : {"x.npy", "x.json", "x"}) {
+    const Said said = run_biocd("merge " + other.path + " --out " + (folder.path() / name).string() + " 2>&1");
+    EXPECT_EQ(said.status, 2);
+    EXPECT_TRUE(has(said.out, "expected a file name with .csv, the format of the run")) << said.out;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "x.npy"));
 }
 
 TEST(BiocdParts, RefusesOptionsThatDoNotFit) {
