@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Implements FrameIndex. The file has the numbers 'magic, size of the first file, count, offsets, sum' of 64 bits each.
+// Implements FrameIndex. The file has the numbers 'index_magic, size of the first file, count, offsets, sum' of 64 bits
+// each.
 #include "io/frame_index.hpp"
 
 #include <unistd.h>
@@ -13,8 +14,8 @@ namespace hinge::molecular {
 
 namespace {
 
-constexpr std::uint64_t magic = 0x68696e6765786931;  // another byte order gives another number
-constexpr std::size_t numbers_before = 3;            // numbers in front of the offsets
+constexpr std::uint64_t index_magic = 0x68696e6765786931;  // another byte order gives another number
+constexpr std::size_t index_head = 3;                      // numbers in front of the offsets
 
 /// FNV-1a of the numbers.
 std::uint64_t sum_of(const std::vector<std::uint64_t>& numbers, std::size_t count) {
@@ -40,19 +41,19 @@ std::vector<std::uint64_t> FrameIndex::read() const {
   std::ifstream in(path_, std::ios::binary);
   std::error_code error;
   const std::uint64_t bytes = path_.empty() ? 0 : std::filesystem::file_size(path_, error);
-  if (!in || error || bytes < 8 * (numbers_before + 1) || bytes % 8 != 0) return {};
+  if (!in || error || bytes < 8 * (index_head + 1) || bytes % 8 != 0) return {};
   std::vector<std::uint64_t> numbers(static_cast<std::size_t>(bytes / 8));
   in.read(reinterpret_cast<char*>(numbers.data()), static_cast<std::streamsize>(bytes));
-  const bool fits = in && numbers[0] == magic && numbers[1] == size_ &&
-                    numbers[2] == numbers.size() - numbers_before - 1 &&
+  const bool fits = in && numbers[0] == index_magic && numbers[1] == size_ &&
+                    numbers[2] == numbers.size() - index_head - 1 &&
                     numbers.back() == sum_of(numbers, numbers.size() - 1);
   if (!fits) return {};
-  return {numbers.begin() + numbers_before, numbers.end() - 1};
+  return {numbers.begin() + index_head, numbers.end() - 1};
 }
 
 void FrameIndex::write(const std::vector<std::uint64_t>& offsets) const {
   if (path_.empty()) return;
-  std::vector<std::uint64_t> numbers{magic, size_, offsets.size()};
+  std::vector<std::uint64_t> numbers{index_magic, size_, offsets.size()};
   numbers.insert(numbers.end(), offsets.begin(), offsets.end());
   numbers.push_back(sum_of(numbers, numbers.size()));
   const std::filesystem::path temporary = path_.string() + "." + std::to_string(::getpid()) + ".partial";
