@@ -30,7 +30,10 @@ Worker make_worker(const Options& options, Job& job) {
     auto* mesh = std::get_if<MeshShape>(&shape);
     if (options.contained && mesh != nullptr) mesh->solid = closed(tessellate(*mesh).triangles);
     try {
-      named[body.name].push_back(worker.environment->add(shape, body.pose, body.name, job.robot->tessellation()));
+      const hinge::Pose in_world = body.holder ? hinge::Pose() : body.pose;
+      const BodyId id = worker.environment->add(shape, in_world, body.name, job.robot->tessellation());
+      if (body.holder) worker.environment->attach(id, job.robot, *job.robot->find_link(*body.holder), body.pose);
+      named[body.name].push_back(id);
     } catch (const hinge::ModelError& error) {
       throw hinge::ModelError("--env: " + std::string(error.what()));
     }
@@ -85,6 +88,7 @@ std::vector<std::string> notes_on_bodies(const Options& options, Worker& worker)
   const hinge::RigidGroups groups(tree, hinge::DofSelection::all(tree));
   for (const BodyContact& contact : worker.checker.collisions(environment)) {
     if (groups.group_of(contact.link) != hinge::GroupId{0}) continue;
+    if (contact.held || environment.attached_to(contact.body)) continue;  // one of the two may move
     const std::string &link = robot.link_name(contact.link), &body = environment.name(contact.body);
     notes.push_back("link '" + link + "' never moves and collides with body '" + body +
                     "' in every configuration; --allow '" + link + "' '" + body + "' leaves this pair out");

@@ -20,7 +20,8 @@ struct Body {
   std::filesystem::path file{};    // mesh or points; empty: a primitive
   std::optional<double> radius{};  // of the points in the file; empty: the file is a mesh
   std::optional<hinge::robotics::Shape> primitive{};
-  hinge::Pose pose{};
+  hinge::Pose pose{};                       // in the world, or in the frame of `holder`
+  std::optional<std::string> holder{};      // name of the link that holds it; empty: it stands in the world
   hinge::Vec3 scale = hinge::Vec3::Ones();  // of a mesh
 };
 

@@ -39,6 +39,7 @@ Json head_json(const Options& options, const Job& job, const Mode& mode) {
   head["seed"] = options.count > 0 ? Json(options.seed) : Json();
   head["environment"] = body_names(job);
   head["allowed"] = allowed_json(job);
+  head["attached"] = attached_json(job);
   head["notes"] = job.notes;
   head["joints"] = joint_names(*job.robot);
   return head;

@@ -33,6 +33,7 @@ Exit run_dial(const Options& options) {
     json["clearance"] = options.clearance;
     json["environment"] = body_names(job);
     json["allowed"] = allowed_json(job);
+    json["attached"] = attached_json(job);
     json["notes"] = job.notes;
     json.update(hinge::tool::dial_json<Json>(report));
     fmt::print("{}\n", hinge::tool::json_text(json, 1));

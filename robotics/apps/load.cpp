@@ -102,6 +102,23 @@ void read_allowed(const Options& options, Job& job) {
   }
 }
 
+/// Sets the holders of bodies.
+void read_attached(const Options& options, Job& job) {
+  for (const auto& [link, name] : options.attached) {
+    const std::string start = "--attach " + link + " " + name + ": ";
+    if (!job.robot->find_link(link))
+      throw hinge::ModelError(start + "robot '" + job.robot->name() + "' has no link '" + link + "'");
+    bool found = false;
+    for (Body& body : job.bodies) {
+      if (body.name != name) continue;
+      if (body.holder) throw hinge::ModelError(start + "link '" + *body.holder + "' holds the body already");
+      body.holder = link;
+      found = true;
+    }
+    if (!found) throw hinge::ModelError(start + "'" + name + "' is not a body of --env");
+  }
+}
+
 /// Reads the words of --tier. Throws ModelError for a bad word, and for a link or "all links" named twice.
 Tiers read_tiers(const Options& options) {
   Tiers tiers;
@@ -209,6 +226,7 @@ Job load(const Options& options) {
   job.disabled = job.srdf.disabled;
   job.notes.insert(job.notes.end(), job.srdf.notes.begin(), job.srdf.notes.end());
   read_allowed(options, job);
+  read_attached(options, job);
   read_proved(options, job);
   job.tested = tested_pairs(*job.robot, job.disabled);
   return job;

@@ -51,10 +51,11 @@ struct Options {
   bool zero = false;
   // check: the question for each configuration
   std::string mode = "all";
-  double clearance = 0.0;                                    // m
-  std::vector<std::string> environment;                      // bodies, see bodies.hpp
-  std::vector<std::pair<std::string, std::string>> allowed;  // a link and a body that may touch
-  std::string floating_base;                                 // "fixed" or "free"; empty: not given
+  double clearance = 0.0;                                     // m
+  std::vector<std::string> environment;                       // bodies, see bodies.hpp
+  std::vector<std::pair<std::string, std::string>> allowed;   // a link and a body that may touch
+  std::vector<std::pair<std::string, std::string>> attached;  // a link and a body that it holds
+  std::string floating_base;                                  // "fixed" or "free"; empty: not given
   std::string engine = "simd";
   bool contained = false;  // closed meshes are solid
   unsigned threads = 1;

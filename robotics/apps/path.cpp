@@ -60,6 +60,7 @@ Json path_json(const Options& options, const Job& job, const Worker& worker, con
   json["clearance"] = options.clearance;
   json["environment"] = body_names(job);
   json["allowed"] = allowed_json(job);
+  json["attached"] = attached_json(job);
   json["notes"] = job.notes;
   json["joints"] = joint_names(*job.robot);
   const auto end = [&](const std::string& given, std::size_t row) {

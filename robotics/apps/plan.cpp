@@ -55,6 +55,7 @@ Json head_json(const Options& options, const Job& job) {
   json["clearance"] = options.clearance;
   json["environment"] = body_names(job);
   json["allowed"] = allowed_json(job);
+  json["attached"] = attached_json(job);
   json["notes"] = job.notes;
   json["joints"] = joint_names(*job.robot);
   return json;

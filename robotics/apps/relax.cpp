@@ -76,6 +76,7 @@ Exit run_relax(const Options& options) {
     json["clearance"] = options.clearance;
     json["environment"] = body_names(job);
     json["allowed"] = allowed_json(job);
+    json["attached"] = attached_json(job);
     json["notes"] = job.notes;
     json["seed"] = options.seed;
     json["joints"] = joint_names(*job.robot);

@@ -45,6 +45,7 @@ struct Finding {
   const double* distance = nullptr;
   const hinge::Vec3* point1 = nullptr;
   const hinge::Vec3* point2 = nullptr;
+  const std::string* holder = nullptr;  // the link that holds `first`, if that is a body
 };
 
 /// Calls visit(finding) for every finding, in the order of the JSON keys.
@@ -52,6 +53,8 @@ template <class Visit>
 void for_each_finding(const Worker& worker, const Answer& answer, const Visit& visit) {
   const auto link = [&](hinge::LinkId l) -> const std::string& { return worker.checker.robot().link_name(l); };
   const auto body = [&](BodyId b) -> const std::string& { return worker.environment->name(b); };
+  const auto part = [&](const auto& c) -> const std::string& { return c.held ? body(*c.held) : link(c.link); };
+  const auto holder = [&](const auto& c) { return c.held ? &link(c.link) : nullptr; };
   const auto& near = answer.self.distances;  // mode within: of the same pairs
   for (const ClosestLinks& c : near)
     visit(Finding{"pair", link(c.link1), link(c.link2), &c.distance, &c.point1, &c.point2});
@@ -60,16 +63,16 @@ void for_each_finding(const Worker& worker, const Answer& answer, const Visit& v
   if (const auto& c = answer.self.closest)
     visit(Finding{"closest", link(c->link1), link(c->link2), &c->distance, &c->point1, &c->point2});
   for (const ClosestBody& c : answer.body_distances)
-    visit(Finding{"environment_pair", link(c.link), body(c.body), &c.distance, &c.point1, &c.point2});
+    visit(Finding{"environment_pair", part(c), body(c.body), &c.distance, &c.point1, &c.point2, holder(c)});
   if (answer.body_distances.empty())
     for (const BodyContact& pair : answer.body_pairs)
-      visit(Finding{"environment_pair", link(pair.link), body(pair.body)});
+      visit(Finding{"environment_pair", part(pair), body(pair.body), nullptr, nullptr, nullptr, holder(pair)});
   if (const auto& c = answer.closest_body)
-    visit(Finding{"environment_closest", link(c->link), body(c->body), &c->distance, &c->point1, &c->point2});
+    visit(Finding{"environment_closest", part(*c), body(c->body), &c->distance, &c->point1, &c->point2, holder(*c)});
   for (const LinkContainment& c : answer.contained) visit(Finding{"contained", link(c.outer), link(c.inner)});
   for (const BodyContainment& c : answer.contained_bodies)
-    visit(c.body_is_outer ? Finding{"environment_contained", body(c.body), link(c.link)}
-                          : Finding{"environment_contained", link(c.link), body(c.body)});
+    visit(c.body_is_outer ? Finding{"environment_contained", body(c.body), part(c)}
+                          : Finding{"environment_contained", part(c), body(c.body)});
 }
 
 /// Calls visit(finding) for the findings that are printed. Closest pairs are no list, so they always are. is_table:
@@ -90,7 +93,9 @@ std::size_t for_each_printed(const Worker& worker, const Answer& answer, const s
 Json pair_json(const Finding& f, const char* second_key) {
   const std::string kind = f.kind;
   if (kind.ends_with("contained")) return Json{{"outer", f.first}, {"inner", f.second}};
-  Json json{{second_key[0] == 'b' ? "link" : "link1", f.first}, {second_key, f.second}};
+  Json json{{second_key[0] == 'b' ? "link" : "link1", f.holder != nullptr ? *f.holder : f.first}};
+  if (f.holder != nullptr) json["held"] = f.first;
+  json[second_key] = f.second;
   if (f.distance == nullptr) return json;
   json["distance"] = *f.distance;
   json["point1"] = point_json(*f.point1);
@@ -150,6 +155,13 @@ Json body_names(const Job& job) {
 Json allowed_json(const Job& job) {
   Json pairs = Json::array();
   for (const auto& [link, body] : job.allowed) pairs.push_back({{"link", link}, {"body", body}});
+  return pairs;
+}
+
+Json attached_json(const Job& job) {
+  Json pairs = Json::array();
+  for (const Body& body : job.bodies)
+    if (body.holder) pairs.push_back({{"link", *body.holder}, {"body", body.name}});
   return pairs;
 }
 
@@ -219,7 +231,9 @@ std::vector<std::pair<std::string, std::string>> named_pairs(const Json& row) {
   std::vector<std::pair<std::string, std::string>> pairs;
   std::set<std::pair<std::string, std::string>> known;
   const auto add = [&](const Json& finding) {
-    const std::string first = finding.begin().value(), second = std::next(finding.begin()).value();
+    // A held body follows the link that holds it.
+    const auto at = finding.contains("held") ? finding.find("held") : finding.begin();
+    const std::string first = at.value(), second = std::next(at).value();
     if (known.insert(std::minmax(first, second)).second) pairs.emplace_back(first, second);
   };
   for (const char* key :
@@ -254,6 +268,8 @@ std::vector<std::pair<std::string, std::string>> question_words(const Options& o
   std::string bodies;
   for (const Body& body : job.bodies) bodies += (bodies.empty() ? "" : "; ") + body.name;
   if (!bodies.empty()) words.emplace_back("Bodies", bodies);
+  for (const Body& body : job.bodies)
+    if (body.holder) words.emplace_back("Held", body.name + " by " + *body.holder);
   for (const auto& [link, body] : job.allowed) words.emplace_back("May touch", link + " and " + body);
   return words;
 }

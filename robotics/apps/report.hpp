@@ -38,6 +38,8 @@ Json joint_names(const hinge::robotics::Robot& robot);
 Json body_names(const Job& job);
 /// Returns the pairs of link and body that are not tested.
 Json allowed_json(const Job& job);
+/// Returns the links that hold bodies, with these.
+Json attached_json(const Job& job);
 
 /// Returns the JSON row of one configuration. q: its values, rad or m.
 Json answer_json(const Worker& worker, std::size_t index, const std::vector<double>& q, const Answer& answer,

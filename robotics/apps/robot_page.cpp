@@ -93,7 +93,17 @@ RobotPage::RobotPage(const Options& options, const Job& job, Worker& worker, con
       margin_(mode.kind == Mode::Kind::within ? mode.margin : 0.0),
       choice_(mode.kind == Mode::Kind::all || mode.kind == Mode::Kind::within,
               is_path ? hinge::tool::ReportChoice::all : hinge::tool::ReportChoice::usual),
-      is_path_(is_path) {}
+      is_path_(is_path) {
+  for (const Body& body : job.bodies) held_ += body.holder ? 1U : 0U;
+  std::size_t held = 0, others = held_;
+  for (const Body& body : job.bodies) order_.push_back(body.holder ? held++ : others++);
+}
+
+std::size_t RobotPage::place_of(BodyId body) const {
+  const std::vector<BodyId> bodies = worker_.environment->bodies();  // in the order of job.bodies
+  return job_.robot->link_count() - 1 +
+         order_[static_cast<std::size_t>(std::ranges::find(bodies, body) - bodies.begin())];
+}
 
 void RobotPage::offer(std::uint64_t index, const Answer& answer) {
   if (!wanted()) return;
@@ -131,6 +141,10 @@ Json RobotPage::frame_json(const std::string& name, const std::vector<double>& q
   std::vector<float> poses;
   for (std::size_t k = 1; k <= links; ++k)
     for (const float number : numbers_of(checker.link_pose(hinge::id<hinge::LinkId>(k)))) poses.push_back(number);
+  for (const Body& body : job_.bodies)
+    if (body.holder)
+      for (const float number : numbers_of(checker.link_pose(*job_.robot->find_link(*body.holder)) * body.pose))
+        poses.push_back(number);
   std::vector<std::pair<double, Json>> rows;  // by gap
   bool collides = checker.collides();
   for (const ClosestLinks& found : checker.distances(margin_))
@@ -138,10 +152,9 @@ Json RobotPage::frame_json(const std::string& name, const std::vector<double>& q
         found.gap, row_json(hinge::index(found.link1) - 1, hinge::index(found.link2) - 1, found, options_.clearance));
   if (worker_.environment) {
     collides = collides || checker.collides(*worker_.environment);
-    const std::vector<BodyId> bodies = worker_.environment->bodies();
     for (const ClosestBody& found : checker.distances(*worker_.environment, margin_)) {
-      const auto body = static_cast<std::size_t>(std::ranges::find(bodies, found.body) - bodies.begin());
-      rows.emplace_back(found.gap, row_json(hinge::index(found.link) - 1, links + body, found, options_.clearance));
+      const std::size_t first = found.held ? place_of(*found.held) : hinge::index(found.link) - 1;
+      rows.emplace_back(found.gap, row_json(first, place_of(found.body), found, options_.clearance));
     }
   }
   std::ranges::stable_sort(rows, {}, [](const auto& row) { return row.first; });
@@ -203,10 +216,14 @@ void RobotPage::write(const char* state, const std::string& verdict) {
     out["links"].push_back(std::move(link));
   }
   for (std::size_t k = 0; k < bodies.size(); ++k) {
+    const Body& of = job_.bodies[k];
     Json body = mesh_json(bodies[k], all);
-    body["name"] = job_.bodies[k].name;
-    body["pose"] = numbers_of(job_.bodies[k].pose);
-    out["bodies"].push_back(std::move(body));
+    body["name"] = of.name;
+    if (of.holder)
+      body["moves"] = moves(hinge::index(*robot.find_link(*of.holder))) ? 1 : 0;
+    else
+      body["pose"] = numbers_of(of.pose);
+    out[of.holder ? "links" : "bodies"].push_back(std::move(body));
   }
   for (const std::size_t joint : robot.independent_joints()) {
     const JointDescription& of = robot.description().joints[joint];

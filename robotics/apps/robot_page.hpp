@@ -49,6 +49,9 @@ class RobotPage {
 
  private:
   Json frame_json(const std::string& name, const std::vector<double>& q);
+  /// Returns the place of a body on the page. Held bodies are behind the links, because they move; then come the
+  /// others.
+  std::size_t place_of(hinge::robotics::BodyId body) const;
 
   const Options& options_;
   const Job& job_;
@@ -59,6 +62,8 @@ class RobotPage {
   bool is_path_;
   Json frames_ = Json::array();
   Json matrix_;
+  std::vector<std::size_t> order_;  // places of job.bodies among the bodies of the page
+  std::size_t held_ = 0;            // number of bodies that links hold
 };
 
 /// A configuration on the straight path between two waypoints.

@@ -170,6 +170,10 @@ void add_environment_option(CLI::App& command, Options& o) {
                                 "mesh file, 'box:X Y Z', 'sphere:R', 'cylinder:R L', 'capsule:R L' or 'points:FILE R' "
                                 "(a text file of points x y z, each a sphere of radius R) (repeatable)"),
              "BODY");
+  repeatable(command.add_option("--attach", o.attached,
+                                "this link holds this body of --env, whose xyz and rpy are then in the frame of the "
+                                "link; the body may touch the links that move with it (repeatable)"),
+             "LINK BODY");
   repeatable(command.add_option("--allow", o.allowed,
                                 "this link and this body may touch, for example a base and its table (repeatable)"),
              "LINK BODY");

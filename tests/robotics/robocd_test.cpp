@@ -155,7 +155,7 @@ TEST(Robocd, KeepsTheJsonContractOfCheck) {
 
   const Json json = check(in + "all" + env, 1);
   EXPECT_EQ(keys(json), (Keys{"tool", "command", "robot", "mode", "clearance", "seed", "environment", "allowed",
-                              "notes", "joints", "configurations", "summary"}));
+                              "attached", "notes", "joints", "configurations", "summary"}));
   EXPECT_EQ(keys(json["summary"]), (Keys{"checked", "colliding", "most_frequent"}));
   EXPECT_EQ(pairs(row(json)["pairs"]), "base fore;camera mast;");
   EXPECT_EQ(keys(row(json)["pairs"][0]), (Keys{"link1", "link2"}));
