@@ -34,6 +34,7 @@ import sys
 import tempfile
 import threading
 import time
+import uuid
 
 from . import Error, LoadError, ModelError, __version__
 
@@ -221,12 +222,14 @@ def _compute(question, unit, folder, threads, digest, cwd, inputs):
     word, seconds = server.compute(unit)
     _idle.give(key, server)
     path = pathlib.Path(folder, _file_name(unit))
+    with open(path, "rb") as file:
+        first, last = file.readline().decode().split("conformations ")[1].split(",")[0].split(" to ")
     content = None
     if not shared:
         content = path.read_bytes()
         path.unlink()
     return {"unit": unit, "outcome": word, "seconds": seconds, "host": socket.gethostname(), "pid": os.getpid(),
-            "instruction_set": server.instruction_set, "content": content}
+            "instruction_set": server.instruction_set, "conformations": int(last) - int(first) + 1, "content": content}
 
 
 def _file_name(unit):
@@ -262,10 +265,10 @@ def _write(path, content):
 
 def _submitter(executor):
     """Returns submit(name, function, *arguments) -> future, and the number of workers that is known, or None."""
-    if hasattr(executor, "scheduler_info"):  # a dask.distributed.Client
-        workers = sum(w["nthreads"] for w in executor.scheduler_info()["workers"].values())
-        return lambda name, *call: executor.submit(*call, key=name, pure=False), workers or None
-    return (lambda name, *call: executor.submit(*call)), getattr(executor, "_max_workers", None)
+    client = executor if hasattr(executor, "scheduler_info") else getattr(executor, "_client", None)
+    if client is not None:  # of Dask, or the client of its executor
+        return lambda name, *call: executor.submit(*call, key=name, pure=False), sum(client.nthreads().values()) or None
+    return lambda name, *call: executor.submit(*call), getattr(executor, "_max_workers", None)
 
 
 def _read_inputs(names):
@@ -301,11 +304,12 @@ class _Run:
         self.flying = {}  # future -> (unit, attempt)
         self.workers, self.instruction_sets = set(), {}
         self.summary = Summary(units=self.units, notes=tuple(self.notes))
+        self.id = uuid.uuid4().hex[:8]  # of this run: Dask takes tasks of one name for the same
         self.started = time.time()
         self.clock = time.monotonic()
 
     def start(self, unit, attempt, with_inputs=False):
-        name = f"{self.question.tool}-{self.digest[:8]}-unit-{unit:09d}-{attempt}{'-inputs' if with_inputs else ''}"
+        name = f"{self.question.tool}-{self.id}-unit-{unit:09d}-{attempt}{'-inputs' if with_inputs else ''}"
         try:
             future = self.submit(name, _compute, self.question, unit, str(self.folder) if self.shared else None,
                                  self.threads, self.digest, os.getcwd() if self.shared else None,
@@ -339,15 +343,9 @@ class _Run:
             _write(self.folder / _file_name(unit), content)
         self.record({**result, "attempt": attempt})
         self.summary.computed += 1
-        self.summary.conformations += self.length(unit)
+        self.summary.conformations += result["conformations"]
         if self.progress:
             self.progress(self.summary.there + self.summary.computed, self.units)
-
-    def length(self, unit):
-        with open(self.folder / _file_name(unit), "rb") as file:
-            first = file.readline().decode()
-        begin, end = first.split("conformations ")[1].split(",")[0].split(" to ")
-        return int(end) - int(begin) + 1
 
     def run(self):
         waiting = iter(range(self.units))
@@ -378,7 +376,7 @@ class _Run:
         head = {"hinge": __version__, "question": self.digest, "tool": self.question.tool,
                 "words": list(self.question.words), "unit": self.question.unit,
                 "started": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(self.started)),
-                "client": socket.gethostname(), "notes": self.notes}
+                "client": socket.gethostname(), "run": self.id, "notes": self.notes}
         started = time.strftime("%Y%m%dT%H%M%SZ", time.gmtime(self.started))
         self.log_path = self.folder / f"log-{started}-{socket.gethostname()}-{os.getpid()}.json"
         self.log = open(f"{self.log_path}.partial", "w", encoding="utf-8")
