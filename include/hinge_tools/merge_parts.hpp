@@ -61,7 +61,7 @@ Question read_question(const PartsFolder& folder, const std::string& tool, RowsH
     head.total = json.at("total");
     std::string digest = sha256_of_text(text);
     Question question{std::move(text), head.total, json.at("unit"), std::move(digest), {}};
-    if (question.unit > 0 && question.total > 0) return question;
+    if (question.unit > 0) return question;
   } catch (const typename Json::exception&) {
   }
   throw LoadError(file + ": is damaged");

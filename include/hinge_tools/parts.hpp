@@ -262,7 +262,8 @@ void run_units(const PartsOptions& options, const Question& question, const Run&
           std::string(detail::simd::name(detail::simd::compiled_for())) + "\n");
     std::fflush(stdout);
     for (std::string line; std::getline(std::cin, line);) {
-      const auto number = read_number<std::uint64_t>("unit", line, {0, question.units() - 1});
+      const auto number =
+          read_number<std::uint64_t>("unit", line, {0, std::max<std::uint64_t>(question.units(), 1) - 1});
       const double before = seconds();
       const bool there = is_there(number);
       if (!there) compute(number);

@@ -111,6 +111,21 @@ TEST(BiocdParts, WritesVerdictsAsNumpyArrays) {
   EXPECT_GT(std::count(some.out.begin() + 128, some.out.end(), '\x02'), 0);
 }
 
+TEST(BiocdParts, OfNoConformationAreEmpty) {
+  const TemporaryFolder folder;
+  const std::string none = (folder.path() / "none.npy").string();
+  ASSERT_EQ(run_biocd("sample " + ubiquitin() + " -n 1 --rho 5 --filter free --exit-zero --out " + none).status, 0);
+  for (const std::string format : {" --json", " --csv", " --npy"}) {
+    const Parts parts;
+    const std::string asked = "check " + ubiquitin() + " " + none + format;
+    const Said whole = run_biocd(asked + " 2>/dev/null");
+    EXPECT_EQ(run_biocd(asked + " --parts " + parts.path + " 2>/dev/null").status, 0);
+    const Said merged = run_biocd("merge " + parts.path);
+    EXPECT_EQ(merged.status, whole.status);
+    EXPECT_TRUE(merged.out == whole.out) << whole.out << merged.out;
+  }
+}
+
 TEST(BiocdParts, SurviveBeingKilledAtAnyTime) {
   const std::string asked = tail + "-n 40000 --csv --mode any";
   const Parts parts;
