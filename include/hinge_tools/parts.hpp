@@ -147,6 +147,7 @@ Question make_question(const std::string& tool, const std::string& command, cons
   for (std::string word; std::getline(words, word);) json["words"].push_back(word);
   json["inputs"] = Json::object();
   for (const auto& [name, digest] : inputs) json["inputs"][name] = digest;
+  json["model"] = sha256_of_text(head.model);
   json["head_key"] = head.json_key;
   json["head"] = head.text;
   std::string text = json_text(json, 1) + "\n";

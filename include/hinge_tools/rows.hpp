@@ -23,6 +23,7 @@ struct RowsHead {
   std::string text;         ///< json: an object, several lines; csv: the line of column names
   std::string json_key;     ///< json: name of the list of rows
   std::uint64_t total = 0;  ///< conformations of the run
+  std::string model;        ///< what was read and how it is asked, JSON: equal in all processes of a run
 };
 
 /// Returns the text in front of the rows.

@@ -18,7 +18,7 @@ hinge::tool::RowsHead head_of_rows(const Options& options, const Json& head, con
   std::string text;
   if (options.output == Output::json) text = json_text(head, 1);
   if (options.output == Output::csv) text = csv_header(options, columns);
-  return {options.output, std::move(text), "conformations", total};
+  return {options.output, std::move(text), "conformations", total, json_text(head)};
 }
 
 std::string row_text(const Json& row, const std::string& pairs) {

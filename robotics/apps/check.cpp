@@ -83,11 +83,12 @@ Exit run_check(const Options& options) {
   hinge::tool::CompleteFile file(options.out);
   if (file.wanted()) write_header(file.stream(), *job.robot);
   const bool is_json = options.output == Output::json;
+  const std::string head = hinge::tool::json_text(head_json(options, job, mode), 1);
   const hinge::tool::RowsHead rows_head{options.output,
-                                        is_json ? hinge::tool::json_text(head_json(options, job, mode), 1)
+                                        is_json                         ? head
                                         : options.output == Output::csv ? csv_header()
                                                                         : "",
-                                        "configurations", configurations.count};
+                                        "configurations", configurations.count, head};
   if (!options.parts.wanted()) hinge::tool::print(opening(rows_head));
   if (options.output == Output::table) fmt::print("{}", heading(options, job));
 

@@ -205,6 +205,24 @@ TEST(BiocdParts, RefusesAnotherQuestion) {
   refused(start + "--json --unit 10", "\"format\": \"csv\", expected \"format\": \"json\"");
   refused(start + "--csv --unit 10 --seed 2", "expected \"--seed\"");
   EXPECT_EQ(run_biocd(start + "--csv --unit=10 --threads 2 --exit-zero" + to + " 2>/dev/null").status, 0);
+  // Another monomer dictionary may give other bonds. Only the environment names it, so the model must tell.
+  std::string atoms;
+  for (const char* atom : {"    1  C1  LIG A   1       0.000   0.000", "    2  C2  LIG A   1       1.500   0.000",
+                           "    3  C3  LIG A   1       2.200   1.300"})
+    atoms += std::string("HETATM") + atom + "   0.000  1.00  0.00           C\n";
+  const std::string ligand = folder.write("ligand.pdb", atoms).string();
+  const std::filesystem::path component = folder.write("monomers/l/LIG.cif",
+                                                       "data_comp_LIG\nloop_\n_chem_comp_bond.comp_id\n"
+                                                       "_chem_comp_bond.atom_id_1\n_chem_comp_bond.atom_id_2\n"
+                                                       "_chem_comp_bond.type\nLIG C1 C2 single\nLIG C2 C3 double\n");
+  const Parts bonds;
+  const std::string check = "check " + ligand + " --hetero --csv --parts " + bonds.path + " 2>&1";
+  const std::string monomers = "CLIBD_MON=" + component.parent_path().parent_path().string();
+  ASSERT_EQ(run_biocd(check, monomers).status, 0);
+  const Said otherwise = run_biocd(check, "CLIBD_MON=" + folder.path().string());
+  EXPECT_EQ(otherwise.status, 3);
+  EXPECT_TRUE(has(otherwise.out, "is another question: it has \"model\": ")) << otherwise.out;
+  EXPECT_EQ(run_biocd(check, monomers).status, 0);
   // A unit of another question.
   const Parts other;
   ASSERT_EQ(run_biocd(start + "--csv --unit 10 --seed 3 --parts " + other.path + " 2>/dev/null").status, 0);
