@@ -7,12 +7,6 @@
 
 #include "peers/fcl_triangles.hpp"
 
-// This program has no variants for other instruction sets.
-extern const char hinge_build_id[];
-const char hinge_build_id[] = "biocd_fcl";
-extern const char hinge_programs_folder[];
-const char hinge_programs_folder[] = "";
-
 namespace biocd {
 namespace {
 

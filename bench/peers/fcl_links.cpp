@@ -8,6 +8,8 @@
 #include <fcl/math/bv/OBBRSS.h>
 #include <fcl/narrowphase/collision.h>
 
+#include "oracle/fcl_transform.hpp"
+
 namespace hinge::bench {
 namespace {
 
@@ -42,24 +44,14 @@ Part part(const std::vector<FclCorners>& triangles) {
   return {mesh};
 }
 
-fcl::Transform3d transform(const FclPose& pose) {
-  fcl::Transform3d at = fcl::Transform3d::Identity();
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) at(row, column) = pose[static_cast<std::size_t>(3 * row + column)];
-    at(row, 3) = pose[static_cast<std::size_t>(9 + row)];
-  }
-  return at;
-}
-
 }  // namespace
 
 struct FclLinks::Impl {
   std::vector<std::vector<Part>> links;
-  std::vector<std::pair<std::size_t, std::size_t>> tested;
+  oracle::Pairs tested;
 };
 
-FclLinks::FclLinks(std::span<const FclLink> links, std::vector<std::pair<std::size_t, std::size_t>> tested)
-    : impl_(std::make_unique<Impl>()) {
+FclLinks::FclLinks(std::span<const FclLink> links, oracle::Pairs tested) : impl_(std::make_unique<Impl>()) {
   for (const FclLink& link : links) {
     std::vector<Part>& parts = impl_->links.emplace_back();
     for (const FclLink::Capsule& capsule : link.capsules) parts.push_back(part(capsule));
@@ -70,10 +62,10 @@ FclLinks::FclLinks(std::span<const FclLink> links, std::vector<std::pair<std::si
 
 FclLinks::~FclLinks() = default;
 
-bool FclLinks::collide(std::span<const FclPose> poses) const {
+bool FclLinks::collide(std::span<const oracle::Placement> poses) const {
   const fcl::CollisionRequestd request;
   for (const auto& [first, second] : impl_->tested) {
-    const fcl::Transform3d at_first = transform(poses[first]), at_second = transform(poses[second]);
+    const fcl::Transform3d at_first = oracle::transform(poses[first]), at_second = oracle::transform(poses[second]);
     for (const Part& a : impl_->links[first])
       for (const Part& b : impl_->links[second]) {
         fcl::CollisionResultd result;

@@ -4,18 +4,14 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
+#include "oracle/fcl_oracle.hpp"
 #include "peers/fcl_triangles.hpp"
 
 namespace hinge::bench {
-
-/// Rotation by rows, then translation.
-using FclPose = std::array<double, 12>;
 
 /// The shapes of a link in its frame. All triangles become one mesh.
 struct FclLink {
@@ -29,10 +25,10 @@ struct FclLink {
 
 class FclLinks {
  public:
-  FclLinks(std::span<const FclLink> links, std::vector<std::pair<std::size_t, std::size_t>> tested);
+  FclLinks(std::span<const FclLink> links, oracle::Pairs tested);
   ~FclLinks();
   /// Returns whether a tested pair of links collides, by fcl::collide. poses: one per link.
-  bool collide(std::span<const FclPose> poses) const;
+  bool collide(std::span<const oracle::Placement> poses) const;
 
  private:
   struct Impl;

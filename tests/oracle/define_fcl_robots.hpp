@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "oracle/fcl_robots.hpp"
+#include "oracle/fcl_transform.hpp"
 
 namespace hinge::oracle {
 
@@ -23,16 +24,6 @@ using Object = fcl::CollisionObject<double>;
 using Tree = fcl::BVHModel<fcl::OBBRSS<double>>;
 using Transforms = std::vector<fcl::Transform3d, Eigen::aligned_allocator<fcl::Transform3d>>;
 using Manager = fcl::DynamicAABBTreeCollisionManager<double>;
-
-inline fcl::Transform3d transform(const Placement& p) {
-  fcl::Transform3d x = fcl::Transform3d::Identity();
-  for (std::size_t r = 0; r < 3; ++r) {
-    const auto row = static_cast<int>(r);
-    for (std::size_t c = 0; c < 3; ++c) x.linear()(row, static_cast<int>(c)) = p[3 * r + c];
-    x.translation()[row] = p[9 + r];
-  }
-  return x;
-}
 
 inline std::shared_ptr<Tree> filled(std::span<const Mesh> meshes) {
   std::size_t triangles = 0;

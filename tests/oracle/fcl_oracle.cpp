@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "oracle/fcl_transform.hpp"
+
 namespace hinge::oracle {
 
 namespace {
@@ -21,16 +23,6 @@ using Mesh = fcl::BVHModel<fcl::OBBRSS<double>>;
 
 /// Returns the number of an object; its user data points to it.
 std::size_t number(const Object* object) { return *static_cast<const std::size_t*>(object->getUserData()); }
-
-fcl::Transform3d transform(const Placement& p) {
-  fcl::Transform3d x = fcl::Transform3d::Identity();
-  for (std::size_t r = 0; r < 3; ++r) {
-    const auto row = static_cast<Eigen::Index>(r);
-    for (std::size_t c = 0; c < 3; ++c) x.linear()(row, static_cast<Eigen::Index>(c)) = p[3 * r + c];
-    x.translation()[row] = p[9 + r];
-  }
-  return x;
-}
 
 }  // namespace
 
