@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "hinge/core/number_text.hpp"
+#include "hinge_tools/clock.hpp"
 #include "hinge_tools/dial.hpp"
 #include "hinge_tools/progress_bar.hpp"
 #include "hinge_tools/statistics.hpp"
@@ -20,12 +20,6 @@
 namespace hinge::tool {
 
 namespace dial {
-
-using Clock = std::chrono::steady_clock;
-
-inline double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// Sets is_on_front of every row.
 inline void find_front(std::vector<DialRow>& rows) {

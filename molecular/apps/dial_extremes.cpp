@@ -13,15 +13,13 @@
 #include "extremes_peer.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/core/vec3.hpp"
-#include "hinge_tools/measure.hpp"
+#include "hinge_tools/clock.hpp"
 #include "hinge_tools/near_contact.hpp"
 
 namespace biocd {
 
 using namespace hinge::molecular;
 using hinge::Vec3;
-using hinge::tool::moved;
-using hinge::tool::nearly_touching;
 
 namespace {
 
@@ -100,7 +98,9 @@ hinge::tool::DialExtremes find_extremes(const Job& job, const Sampling& sampling
   if (peer != nullptr) table.columns.emplace_back(peer->name);
   Checker checker = job.checker;
   Conformations conformations(job, sampling);
-  std::vector<Configuration> random, near, ends;  // ends: by `near`, the end of the bisection on the same side
+  std::vector<Configuration> random;
+  hinge::tool::NearContacts contacts;
+  const std::vector<Configuration>& near = contacts.all();
   const Configuration reference(checker.dof_count(), 0.0);
   const bool starts_free = !collides(checker, reference);
   for (std::uint64_t k = 0;
@@ -109,22 +109,16 @@ hinge::tool::DialExtremes find_extremes(const Job& job, const Sampling& sampling
     const auto drawn = conformations.at(k);
     if (drawn.empty()) continue;
     Configuration q(drawn.begin(), drawn.end());
-    if (starts_free && near.size() < 2 * most_near_pairs && collides(checker, q)) {
-      auto [before, after] =
-          nearly_touching([&](const Configuration& at) { return collides(checker, at); }, reference, q);
-      near.push_back(std::move(before));
-      near.push_back(std::move(after));
-      ends.push_back(reference);
-      ends.push_back(q);
-    }
+    if (starts_free && near.size() < 2 * most_near_pairs && collides(checker, q))
+      contacts.add([&](const Configuration& at) { return collides(checker, at); }, reference, q);
     if (random.size() < 2 * most_near_pairs) random.push_back(std::move(q));
   }
   const auto add = [&](const std::string& name, const std::vector<Configuration>& asked, const Rewriting* change) {
-    const auto start = hinge::tool::dial::Clock::now();
+    const auto start = hinge::tool::Clock::now();
     std::size_t count = 0, hits = 0, changed = 0;
     hinge::tool::WrongVerdicts in_float, of_peer;
     const double margin = 1e-3 + (change != nullptr ? change->largest : 1e3) * 0x1p-20;
-    for (; count < asked.size() && hinge::tool::dial::seconds_since(start) < case_seconds; ++count) {
+    for (; count < asked.size() && hinge::tool::seconds_since(start) < case_seconds; ++count) {
       const bool plain = collides(checker, asked[count]);
       Positions positions = checker.positions();
       if (change != nullptr)
@@ -147,11 +141,8 @@ hinge::tool::DialExtremes find_extremes(const Job& job, const Sampling& sampling
     table.notes.emplace_back(starts_free ? "no conformation collides, so none that nearly touches was found"
                                          : "the reference collides, so no conformation that nearly touches was found");
   } else {
-    for (const auto& [step, name] : hinge::tool::steps_from_contact) {
-      std::vector<Configuration> apart;
-      for (std::size_t n = 0; n < near.size(); ++n) apart.push_back(moved(near[n], ends[n], step));
-      add(fmt::format("{} rad from contact", name), apart, nullptr);
-    }
+    for (const auto& [step, name] : hinge::tool::steps_from_contact)
+      add(fmt::format("{} rad from contact", name), contacts.apart(step), nullptr);
     add("nearly touching", near, nullptr);
     for (const Rewriting& change : rewritings()) add("nearly touching, " + change.name, near, &change);
     table.notes.emplace_back(

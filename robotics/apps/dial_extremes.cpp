@@ -22,14 +22,12 @@
 #include "hinge/robotics/random_configuration.hpp"
 #include "hinge/robotics/robot_checker.hpp"
 #include "hinge/robotics/tiers.hpp"
-#include "hinge_tools/measure.hpp"
+#include "hinge_tools/clock.hpp"
 #include "hinge_tools/near_contact.hpp"
 
 namespace robocd {
 
 using namespace hinge::robotics;
-using hinge::tool::moved;
-using hinge::tool::nearly_touching;
 using hinge::tool::WrongVerdicts;
 
 RobotDescription scaled(RobotDescription robot, double scale) {
@@ -182,24 +180,19 @@ hinge::tool::DialExtremes find_extremes(const Options& options, const Job& job) 
   if (peer != nullptr) table.columns.emplace_back(peer->name);
   Copy plain = make_copy(options, job, 1.0);
   const Robot& robot = *job.robot;
-  std::vector<Configuration> random, near, free, colliding;
-  std::vector<Configuration> ends;  // by `near`: the end of the bisection on the same side
-  const auto search = hinge::tool::dial::Clock::now();
+  std::vector<Configuration> random, free, colliding;
+  hinge::tool::NearContacts contacts;
+  const std::vector<Configuration>& near = contacts.all();
+  const auto search = hinge::tool::Clock::now();
   const auto wanted = [&] { return random.size() < 2 * most_near_pairs || near.size() < 2 * most_near_pairs; };
-  for (std::uint64_t k = 0; wanted() && hinge::tool::dial::seconds_since(search) < search_seconds; ++k) {
+  for (std::uint64_t k = 0; wanted() && hinge::tool::seconds_since(search) < search_seconds; ++k) {
     Configuration q(robot.independent_joints().size());
     random_configuration(robot, options.seed, k, q);
     (collides(plain.exact, q) ? colliding : free).push_back(q);
     if (random.size() < 2 * most_near_pairs) random.push_back(std::move(q));
     const std::size_t made = near.size() / 2;
-    if (made < most_near_pairs && made < std::min(free.size(), colliding.size())) {
-      auto [before, after] = nearly_touching([&](const Configuration& at) { return collides(plain.exact, at); },
-                                             free[made], colliding[made]);
-      near.push_back(std::move(before));
-      near.push_back(std::move(after));
-      ends.push_back(free[made]);
-      ends.push_back(colliding[made]);
-    }
+    if (made < most_near_pairs && made < std::min(free.size(), colliding.size()))
+      contacts.add([&](const Configuration& at) { return collides(plain.exact, at); }, free[made], colliding[made]);
   }
   if (near.empty())
     table.notes.emplace_back(colliding.empty()
@@ -210,7 +203,7 @@ hinge::tool::DialExtremes find_extremes(const Options& options, const Job& job) 
 
   const auto add = [&](const std::string& name, Copy& copy, const std::vector<Configuration>& asked, bool compares,
                        double displaced) {
-    const hinge::tool::dial::Clock::time_point start = hinge::tool::dial::Clock::now();
+    const hinge::tool::Clock::time_point start = hinge::tool::Clock::now();
     std::array<WrongVerdicts, 3> of_tier;
     WrongVerdicts of_float, of_peer;
     std::size_t count = 0, hits = 0, changed = 0;
@@ -222,7 +215,7 @@ hinge::tool::DialExtremes find_extremes(const Options& options, const Job& job) 
         if (checker) checker->set_base(base);
     }
     const double margin = (displaced + 4.0 * copy.scale) * 0x1p-20;
-    for (; count < asked.size() && hinge::tool::dial::seconds_since(start) < case_seconds; ++count) {
+    for (; count < asked.size() && hinge::tool::seconds_since(start) < case_seconds; ++count) {
       const Configuration q = at_scale(robot, asked[count], copy.scale);
       const bool truth = collides(copy.exact, q);
       hits += truth ? 1U : 0U;
@@ -243,11 +236,8 @@ hinge::tool::DialExtremes find_extremes(const Options& options, const Job& job) 
   };
   add("random", plain, random, false, 0.0);
   if (near.empty()) return table;
-  for (const auto& [step, name] : hinge::tool::steps_from_contact) {
-    std::vector<Configuration> apart;
-    for (std::size_t n = 0; n < near.size(); ++n) apart.push_back(moved(near[n], ends[n], step));
-    add(fmt::format("{} rad or m from contact", name), plain, apart, false, 0.0);
-  }
+  for (const auto& [step, name] : hinge::tool::steps_from_contact)
+    add(fmt::format("{} rad or m from contact", name), plain, contacts.apart(step), false, 0.0);
   add("nearly touching", plain, near, true, 0.0);
   for (const int power : {-20, -10, 10, 20}) {
     Copy copy = make_copy(options, job, std::ldexp(1.0, power));

@@ -59,8 +59,8 @@ DialChoice choice(const std::string& name, Sound sound, std::chrono::microsecond
               const bool collides = (first % 4 == 0) != wrong(first);
               ++first;
               verdict = collides ? Verdict3::collides : Verdict3::free;
-              const auto end = dial::Clock::now() + time;
-              while (dial::Clock::now() < end) {
+              const auto end = Clock::now() + time;
+              while (Clock::now() < end) {
               }
             }
           },
@@ -124,12 +124,12 @@ TEST(Dial, LeavesOutWhatIsTooSlowAndEndsInTime) {
   DialSection slow = section();
   slow.choices.push_back(
       choice("slow", Sound::exact, std::chrono::milliseconds(120), [](std::uint64_t) { return false; }));
-  const auto start = dial::Clock::now();
+  const auto start = Clock::now();
   const DialResult result = measure(std::move(slow), {.seconds = 1.0});
   EXPECT_EQ(result.rows.size(), 5U);
   ASSERT_EQ(result.notes.size(), 1U);
   EXPECT_EQ(result.notes[0], "slow: left out, one answer takes 0.1 s");
-  EXPECT_LT(dial::seconds_since(start), 10.0);
+  EXPECT_LT(seconds_since(start), 10.0);
 }
 
 TEST(Dial, UndecidedAnswersAreNotCounted) {
