@@ -31,10 +31,7 @@ Exit run_dial(const Options& options) {
   if (options.output == Output::json) {
     Json json{{"tool", "robocd"}, {"command", "dial"}, {"robot", robot_json(options, job)}};
     json["clearance"] = options.clearance;
-    json["environment"] = body_names(job);
-    json["allowed"] = allowed_json(job);
-    json["attached"] = attached_json(job);
-    json["notes"] = job.notes;
+    add_surroundings(json, job);
     json.update(hinge::tool::dial_json<Json>(report));
     fmt::print("{}\n", hinge::tool::json_text(json, 1));
   } else {

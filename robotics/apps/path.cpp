@@ -58,10 +58,7 @@ Json path_json(const Options& options, const Job& job, const Worker& worker, con
   const RobotPathAnswer& path = asked.path;
   Json json{{"tool", "robocd"}, {"command", "path"}, {"robot", robot_json(options, job)}};
   json["clearance"] = options.clearance;
-  json["environment"] = body_names(job);
-  json["allowed"] = allowed_json(job);
-  json["attached"] = attached_json(job);
-  json["notes"] = job.notes;
+  add_surroundings(json, job);
   json["joints"] = joint_names(*job.robot);
   const auto end = [&](const std::string& given, std::size_t row) {
     return Json{{"given", options.waypoints.empty() ? given : fmt::format("@{}:{}", options.waypoints, row)},

@@ -53,10 +53,7 @@ Rows rows_to_write(const Rows& waypoints, const std::optional<double>& step) {
 Json head_json(const Options& options, const Job& job) {
   Json json{{"tool", "robocd"}, {"command", "plan"}, {"robot", robot_json(options, job)}};
   json["clearance"] = options.clearance;
-  json["environment"] = body_names(job);
-  json["allowed"] = allowed_json(job);
-  json["attached"] = attached_json(job);
-  json["notes"] = job.notes;
+  add_surroundings(json, job);
   json["joints"] = joint_names(*job.robot);
   return json;
 }

@@ -74,10 +74,7 @@ Exit run_relax(const Options& options) {
   if (options.output == Output::json) {
     Json json{{"tool", "robocd"}, {"command", "relax"}, {"robot", robot_json(options, job)}};
     json["clearance"] = options.clearance;
-    json["environment"] = body_names(job);
-    json["allowed"] = allowed_json(job);
-    json["attached"] = attached_json(job);
-    json["notes"] = job.notes;
+    add_surroundings(json, job);
     json["seed"] = options.seed;
     json["joints"] = joint_names(*job.robot);
     json["before"] = side_json(options, worker, start, before);

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "hinge/core/id.hpp"
 #include "hinge/core/vec3.hpp"
@@ -146,23 +147,17 @@ Json joint_names(const Robot& robot) {
   return names;
 }
 
-Json body_names(const Job& job) {
-  Json names = Json::array();
-  for (const Body& body : job.bodies) names.push_back(body.name);
-  return names;
-}
-
-Json allowed_json(const Job& job) {
-  Json pairs = Json::array();
-  for (const auto& [link, body] : job.allowed) pairs.push_back({{"link", link}, {"body", body}});
-  return pairs;
-}
-
-Json attached_json(const Job& job) {
-  Json pairs = Json::array();
-  for (const Body& body : job.bodies)
-    if (body.holder) pairs.push_back({{"link", *body.holder}, {"body", body.name}});
-  return pairs;
+void add_surroundings(Json& json, const Job& job) {
+  Json names = Json::array(), allowed = Json::array(), attached = Json::array();
+  for (const auto& [link, body] : job.allowed) allowed.push_back({{"link", link}, {"body", body}});
+  for (const Body& body : job.bodies) {
+    names.push_back(body.name);
+    if (body.holder) attached.push_back({{"link", *body.holder}, {"body", body.name}});
+  }
+  json["environment"] = std::move(names);
+  json["allowed"] = std::move(allowed);
+  json["attached"] = std::move(attached);
+  json["notes"] = job.notes;
 }
 
 Json answer_json(const Worker& worker, std::size_t index, const std::vector<double>& q, const Answer& answer,

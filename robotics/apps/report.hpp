@@ -34,12 +34,8 @@ struct Columns {
 
 /// Returns the names of the independent joints.
 Json joint_names(const hinge::robotics::Robot& robot);
-/// Returns the names of the bodies, in the order of the command line.
-Json body_names(const Job& job);
-/// Returns the pairs of link and body that are not tested.
-Json allowed_json(const Job& job);
-/// Returns the links that hold bodies, with these.
-Json attached_json(const Job& job);
+/// Adds what is around the robot and the notes: `environment`, `allowed`, `attached`, `notes`.
+void add_surroundings(Json& json, const Job& job);
 
 /// Returns the JSON row of one configuration. q: its values, rad or m.
 Json answer_json(const Worker& worker, std::size_t index, const std::vector<double>& q, const Answer& answer,

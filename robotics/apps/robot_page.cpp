@@ -94,8 +94,8 @@ RobotPage::RobotPage(const Options& options, const Job& job, Worker& worker, con
       choice_(mode.kind == Mode::Kind::all || mode.kind == Mode::Kind::within,
               is_path ? hinge::tool::ReportChoice::all : hinge::tool::ReportChoice::usual),
       is_path_(is_path) {
-  for (const Body& body : job.bodies) held_ += body.holder ? 1U : 0U;
-  std::size_t held = 0, others = held_;
+  std::size_t held = 0, others = 0;
+  for (const Body& body : job.bodies) others += body.holder ? 1U : 0U;
   for (const Body& body : job.bodies) order_.push_back(body.holder ? held++ : others++);
 }
 

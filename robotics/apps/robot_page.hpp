@@ -63,7 +63,6 @@ class RobotPage {
   Json frames_ = Json::array();
   Json matrix_;
   std::vector<std::size_t> order_;  // places of job.bodies among the bodies of the page
-  std::size_t held_ = 0;            // number of bodies that links hold
 };
 
 /// A configuration on the straight path between two waypoints.
