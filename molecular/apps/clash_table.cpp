@@ -23,10 +23,6 @@ std::string name_of(const Structure& s, By by, std::uint32_t atom) {
   return by == By::residue ? text : text.substr(0, text.find(':'));
 }
 
-}  // namespace
-
-namespace {
-
 const char* word_of(By by) { return by == By::residue ? "residue" : "chain"; }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // biocd dial: measures what each choice costs and gets wrong on the user's molecule, and recommends one.
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,8 @@ Exit run_dial(const Options& given) {
   const Job job = load(options);
   std::vector<std::string> ensemble = given.rigid_from;
   const Structure& s = job.molecule->structure();
-  if (ensemble.empty() && options.file != "-" && (s.more_models || s.models.size() > 1)) ensemble = {options.file};
+  const bool can_be_read_again = std::filesystem::is_regular_file(options.file);  // not a pipe
+  if (ensemble.empty() && can_be_read_again && (s.more_models || s.models.size() > 1)) ensemble = {options.file};
   hinge::tool::CompleteFile page(options.report), settings(options.dial.apply);
   print_notes(job);
   require_free_torsions(options, job);

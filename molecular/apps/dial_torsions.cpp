@@ -49,14 +49,16 @@ void MoleculeDial::add_fewer_torsions() {
 
 void MoleculeDial::add_rigid_groups() {
   if (ensemble_.empty() || !options_.loop.empty() || !job_.kept.closures.empty()) return;
+  const auto leave_out = [&](const std::string& why) {
+    section_notes_.push_back("rigid groups of the ensemble: left out" + why);
+  };
   Options other = options_;
   other.rigid_from = ensemble_;
   try {
     const Job job = load(other);
     const std::size_t free = job.checker.dof_count();
     if (free == 0 || free == job_.checker.dof_count()) {
-      section_notes_.push_back(fmt::format("rigid groups of the ensemble: left out, because {} free",
-                                           free == 0 ? "no torsion would be" : "all torsions stay"));
+      leave_out(free == 0 ? ", because no torsion would be free" : ", because all torsions stay free");
       return;
     }
     std::vector<std::string> lines;
@@ -66,9 +68,9 @@ void MoleculeDial::add_rigid_groups() {
         {make_variant(job_, job.checker), lines, Sound::unknown, {}});
   } catch (const hinge::LoadError& error) {
     if (ensemble_.front() != options_.file) throw;  // a file that the user gave for this
-    section_notes_.push_back(fmt::format("rigid groups of the ensemble: left out: {}", error.what()));
+    leave_out(std::string(": ") + error.what());
   } catch (const hinge::ModelError& error) {
-    section_notes_.push_back(fmt::format("rigid groups of the ensemble: left out: {}", error.what()));
+    leave_out(std::string(": ") + error.what());
   }
 }
 

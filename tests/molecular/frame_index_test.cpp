@@ -32,14 +32,6 @@ std::vector<Frame> frames(std::size_t number, std::size_t count) {
   return all;
 }
 
-Structure atoms(std::size_t count) {
-  Structure s;
-  s.atoms.assign(count, Atom{"C", "C", 0, '\0', 0, 0, 0.0});
-  s.residues.push_back(Residue{"UNL", 1, '\0', 0, 0, static_cast<std::uint32_t>(count), ResidueKind::other});
-  s.chains.push_back({"A", 0, 1});
-  return s;
-}
-
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
@@ -51,7 +43,7 @@ TEST(FrameIndex, GivesTheFramesOfTheFile) {
   ReadOptions options;
   options.index_folder = indices.path();
   const auto expect = [&](const std::filesystem::path& file, const std::vector<Frame>& expected) {
-    const Structure molecule = atoms(expected[0].size());
+    const Structure molecule = test::carbons(expected[0].size());
     const Trajectory trajectory(file, molecule, options);
     ASSERT_EQ(trajectory.size(), expected.size());
     EXPECT_EQ(trajectory.atom_count(), expected[0].size());
@@ -99,7 +91,7 @@ TEST(FrameIndex, KeepsErrorsWhereTheyAre) {
   const auto all = frames(5, 40);
   const std::string bytes = XtcPacker().file(all);
   const std::filesystem::path file = folder.write("a.xtc", bytes.substr(0, bytes.size() - 30));
-  const Structure molecule = atoms(40);
+  const Structure molecule = test::carbons(40);
   for (int time = 0; time < 2; ++time) {
     const Trajectory trajectory(file, molecule, options);
     ASSERT_EQ(trajectory.size(), 5U);

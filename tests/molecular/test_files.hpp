@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "hinge/molecular/read_structure.hpp"
+#include "hinge/molecular/structure.hpp"
 
 namespace hinge::test {
 
@@ -100,6 +102,16 @@ inline molecular::ReadOptions heavy_atoms() {
   molecular::ReadOptions options;
   options.keep_hydrogens = false;
   return options;
+}
+
+/// Returns a structure of `count` carbons in one residue.
+inline molecular::Structure carbons(std::size_t count) {
+  molecular::Structure s;
+  s.atoms.assign(count, molecular::Atom{"C", "C", 0, '\0', 0, 0, 0.0});
+  s.residues.push_back(
+      molecular::Residue{"UNL", 1, '\0', 0, 0, static_cast<std::uint32_t>(count), molecular::ResidueKind::other});
+  s.chains.push_back({"A", 0, 1});
+  return s;
 }
 
 }  // namespace hinge::test

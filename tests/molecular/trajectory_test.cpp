@@ -25,21 +25,13 @@
 namespace hinge::molecular {
 namespace trajectory_test {
 
+using test::carbons;
 using test::dcd_file;
 using test::DcdStyle;
 using test::Frame;
 using test::npy_file;
 using test::TemporaryFile;
 using test::XtcPacker;
-
-/// Returns a structure of `count` carbons in one residue.
-Structure atoms(std::size_t count) {
-  Structure s;
-  s.atoms.assign(count, Atom{"C", "C", 0, '\0', 0, 0, 0.0});
-  s.residues.push_back(Residue{"UNL", 1, '\0', 0, 0, static_cast<std::uint32_t>(count), ResidueKind::other});
-  s.chains.push_back({"A", 0, 1});
-  return s;
-}
 
 /// Returns x rounded to floats, as the readers widen them.
 Vec3 through_floats(Vec3 x) {
@@ -66,7 +58,7 @@ std::vector<Frame> chains(std::size_t frames, std::size_t count, bool single) {
 /// Returns the message of the first LoadError, from opening to the last frame; empty if there is none.
 std::string refusal(const std::string& bytes, std::size_t count) {
   const TemporaryFile file(bytes, ".traj");
-  const Structure molecule = atoms(count);
+  const Structure molecule = carbons(count);
   try {
     const Trajectory trajectory(file.path(), molecule);
     for (std::size_t k = 0; k < trajectory.size(); ++k) {
@@ -81,7 +73,7 @@ std::string refusal(const std::string& bytes, std::size_t count) {
 }
 
 void expect_frames(const std::string& bytes, const std::vector<Frame>& expected) {
-  const Structure molecule = atoms(expected[0].size());
+  const Structure molecule = carbons(expected[0].size());
   for (const std::string& stored : {bytes, test::gzipped(bytes)}) {
     const TemporaryFile file(stored, ".traj");
     const Trajectory trajectory(file.path(), molecule);
@@ -124,7 +116,7 @@ TEST(Dcd, TrustsTheSizeNotTheHeader) {
   DcdStyle style;
   style.claimed = 500;
   const TemporaryFile file(dcd_file(chains(3, 10, true), style), ".dcd");
-  const Structure molecule = atoms(10);
+  const Structure molecule = carbons(10);
   const Trajectory trajectory(file.path(), molecule);
   EXPECT_EQ(trajectory.size(), 3U);
   ASSERT_EQ(trajectory.notes().size(), 1U);
@@ -136,7 +128,7 @@ TEST(Dcd, SaysWhereItIsCutShortOrDamaged) {
   const std::size_t frame = std::size_t{3} * (8 + 40);
   // The complete frames before the cut can be read.
   const TemporaryFile file(whole.substr(0, whole.size() - 50), ".dcd");
-  const Structure molecule = atoms(10);
+  const Structure molecule = carbons(10);
   const Trajectory trajectory(file.path(), molecule);
   ASSERT_EQ(trajectory.size(), 3U);
   EXPECT_NO_THROW(trajectory.frame(1));
@@ -223,7 +215,7 @@ TEST(Xtc, SaysWhereItIsCutShort) {
     EXPECT_NE(said.find("may be cut short"), std::string::npos) << cut << said;
   }
   const TemporaryFile file(whole.substr(0, whole.size() - 10), ".xtc");
-  const Structure molecule = atoms(50);
+  const Structure molecule = carbons(50);
   const Trajectory trajectory(file.path(), molecule);
   EXPECT_EQ(trajectory.size(), 3U);
   EXPECT_TRUE(trajectory.frame(1) == on_grid(frames, 1000.0)[1]);
@@ -256,7 +248,7 @@ TEST(Trajectory, RefusesOtherFiles) {
   EXPECT_NE(refusal("", 5).find("is empty"), std::string::npos);
   EXPECT_NE(refusal("no such thing\n", 5).find("expected DCD, XTC, NumPy, PDB or mmCIF"), std::string::npos);
   EXPECT_NE(refusal(dcd_file(chains(1, 6, true)), 5).find("frames of 6 atoms"), std::string::npos);
-  const Structure molecule = atoms(5);
+  const Structure molecule = carbons(5);
   EXPECT_THROW(Trajectory("/nonexistent.dcd", molecule), LoadError);
   EXPECT_THROW(Trajectory("/tmp", molecule), LoadError);
 }

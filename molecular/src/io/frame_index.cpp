@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Implements FrameIndex. The file has the numbers 'index_magic, size of the first file, count, offsets, sum' of 64 bits
-// each.
+// Implements FrameIndex. The file has the numbers 'magic number, size of the first file, count, offsets, sum' of 64
+// bits each.
 #include "io/frame_index.hpp"
 
 #include <unistd.h>
