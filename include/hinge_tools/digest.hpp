@@ -28,11 +28,28 @@ inline std::string sha256_of(const std::string& path) {
   return digest.data();
 }
 
+/// A running digest.
+class Digest {
+ public:
+  Digest() { SHA256Init(&state_); }
+  void add(std::string_view text) {
+    SHA256Update(&state_, reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+  }
+  std::string text() {
+    std::array<char, SHA256_DIGEST_STRING_LENGTH> digits{};
+    SHA256End(&state_, digits.data());
+    return digits.data();
+  }
+
+ private:
+  SHA2_CTX state_{};
+};
+
 /// Returns the digest of a text.
 inline std::string sha256_of_text(std::string_view text) {
-  std::array<char, SHA256_DIGEST_STRING_LENGTH> digest{};
-  SHA256Data(reinterpret_cast<const std::uint8_t*>(text.data()), text.size(), digest.data());
-  return digest.data();
+  Digest digest;
+  digest.add(text);
+  return digest.text();
 }
 
 }  // namespace hinge::tool

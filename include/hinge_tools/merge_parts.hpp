@@ -2,6 +2,7 @@
 // merge_parts: prints the output of the whole run from the files of its units.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -17,7 +18,7 @@
 #include "hinge_tools/counted.hpp"
 #include "hinge_tools/digest.hpp"
 #include "hinge_tools/json_text.hpp"
-#include "hinge_tools/parts.hpp"
+#include "hinge_tools/parts_folder.hpp"
 #include "hinge_tools/rows.hpp"
 #include "hinge_tools/unit_file.hpp"
 
@@ -54,14 +55,14 @@ Question read_question(const PartsFolder& folder, const std::string& tool, RowsH
     if (json.at("tool") != tool)
       throw LoadError(file + ": is a question to " + json.at("tool").template get<std::string>() +
                       ", expected one to " + tool);
-    const std::string format = json.at("format");
-    head.output = format == "json" ? Output::json : format == "csv" ? Output::csv : Output::npy;
+    const auto format = std::ranges::find(output_words, json.at("format").template get<std::string>());
+    head.output = static_cast<Output>(format - output_words.begin());
     head.text = json.at("head");
     head.json_key = json.at("head_key");
     head.total = json.at("total");
     std::string digest = sha256_of_text(text);
     Question question{std::move(text), head.total, json.at("unit"), std::move(digest), {}};
-    if (question.unit > 0) return question;
+    if (question.unit > 0 && format != output_words.end()) return question;
   } catch (const typename Json::exception&) {
   }
   throw LoadError(file + ": is damaged");
@@ -76,7 +77,7 @@ void merge_parts(const std::string& path, const std::string& out, const std::str
   const PartsFolder folder(path);
   RowsHead head;
   const Question question = read_question<Json>(folder, tool, head);
-  const char* const extension = head.output == Output::json ? ".json" : head.output == Output::csv ? ".csv" : ".npy";
+  const std::string extension = std::string(".") + word_of(head.output);
   if (!out.empty() && std::filesystem::path(out).extension() != extension)
     throw ModelError("--out " + out + ": expected a file name with " + extension + ", the format of the run");
   check_output("--out", out, {folder.question_file()});

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "hinge/core/error.hpp"
+#include "hinge_tools/exit_zero_option.hpp"
 #include "hinge_tools/help_texts.hpp"
 #include "hinge_tools/number_option.hpp"
 #include "hinge_tools/parts.hpp"
@@ -32,6 +33,19 @@ void add_parts(Command& command, PartsOptions& parts, const std::string& conform
       ->type_name("I/N");
   command.add_flag("--serve", parts.serves, "compute the units whose numbers arrive on standard input, one a line")
       ->needs(folder);
+}
+
+/// Adds the command merge with its options. Returns it.
+template <class App>
+App* add_merge(App& tool, std::string& folder, std::string& out, bool& exit_zero) {
+  App* const merge = tool.add_subcommand("merge", "print the output of a run that was computed in parts");
+  merge->option_defaults()->group(title::input);
+  merge->add_option("FOLDER", folder, "folder of --parts")->required();
+  merge->option_defaults()->group(title::output);
+  merge->add_option("--out", out, "file to write, completely or not at all (default: standard output)")
+      ->type_name("FILE");
+  add_exit_zero(*merge, exit_zero);
+  return merge;
 }
 
 /// Throws ModelError if the parts are wanted with an option that does not fit. table: the output is a table. other: the

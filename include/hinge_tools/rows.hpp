@@ -2,7 +2,9 @@
 // Rows: prints the results of a run, one row per conformation, to standard output or to the file of a unit.
 #pragma once
 
+#include <array>
 #include <cerrno>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <functional>
@@ -16,6 +18,9 @@ namespace hinge::tool {
 /// Format of standard output. npy: an array of bytes in the format of NumPy, one per conformation: 0 free, 1 collides,
 /// 2 no conformation was found.
 enum class Output : std::uint8_t { table, json, csv, npy };
+/// The words for them, which are also the extensions of files.
+inline constexpr std::array<const char*, 4> output_words = {"table", "json", "csv", "npy"};
+inline const char* word_of(Output output) { return output_words[static_cast<std::size_t>(output)]; }
 
 /// What stands in front of the rows.
 struct RowsHead {
@@ -23,7 +28,6 @@ struct RowsHead {
   std::string text;         ///< json: an object, several lines; csv: the line of column names
   std::string json_key;     ///< json: name of the list of rows
   std::uint64_t total = 0;  ///< conformations of the run
-  std::string model;        ///< what was read and how it is asked, JSON: equal in all processes of a run
 };
 
 /// Returns the text in front of the rows.

@@ -2,8 +2,6 @@
 // Files of finished units: a line with range and question, the rows, and a line with counts and a digest.
 #pragma once
 
-#include <sha2.h>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -18,6 +16,7 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge_tools/complete_file.hpp"
+#include "hinge_tools/digest.hpp"
 
 namespace hinge::tool {
 
@@ -49,23 +48,6 @@ inline std::string last_line(const UnitCounts& counts) {
          ", missing " + std::to_string(counts.missing) + ", summary " + counts.summary + ", sha256 ";
 }
 
-/// A running SHA-256 digest.
-class Digest {
- public:
-  Digest() { SHA256Init(&state_); }
-  void add(std::string_view text) {
-    SHA256Update(&state_, reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
-  }
-  std::string text() {
-    std::array<char, SHA256_DIGEST_STRING_LENGTH> digits{};
-    SHA256End(&state_, digits.data());
-    return digits.data();
-  }
-
- private:
-  SHA2_CTX state_{};
-};
-
 }  // namespace units
 
 /// Writes the file of a unit, completely or not at all.
@@ -88,7 +70,7 @@ class UnitWriter {
 
  private:
   CompleteFile file_;
-  units::Digest digest_;
+  Digest digest_;
 };
 
 /// Reads the file of a unit.
@@ -111,7 +93,7 @@ class UnitReader {
     const std::string last = read_last_line(in);
     end_ = size_ - last.size() - 1;
     const std::size_t at = last.rfind(' ') + 1;
-    units::Digest digest;
+    Digest digest;
     for_bytes(0, size_ - (last.size() - at), [&](std::string_view text) { digest.add(text); });
     if (digest.text() + '\n' != last.substr(at)) refuse("its digest differs");
     read_counts(last);

@@ -18,6 +18,7 @@
 #include "hinge_tools/help_texts.hpp"
 #include "hinge_tools/number_option.hpp"
 #include "hinge_tools/parse_command_line.hpp"
+#include "hinge_tools/parts_option.hpp"
 #include "hinge_tools/pick_instruction_set.hpp"
 #include "hinge_tools/report_page.hpp"
 #include "hinge_tools/run_tool.hpp"
@@ -176,14 +177,7 @@ Exit run(int argc, char** argv) {
     command = biocd::run_relax;
   });
 
-  CLI::App* merge = app.add_subcommand("merge", "print the output of a run that was computed in parts");
-  merge->option_defaults()->group(title::input);
-  merge->add_option("FOLDER", o.merged, "folder of --parts")->required();
-  merge->option_defaults()->group(title::output);
-  merge->add_option("--out", o.out, "file to write, completely or not at all (default: standard output)")
-      ->type_name("FILE");
-  hinge::tool::add_exit_zero(*merge, o.exit_zero);
-  merge->callback([&] { command = biocd::run_merge; });
+  hinge::tool::add_merge(app, o.merged, o.out, o.exit_zero)->callback([&] { command = biocd::run_merge; });
 
   CLI::App* path =
       app.add_subcommand("path", "check the straight path between two conformations, by proof or by sampling");

@@ -9,7 +9,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -22,6 +21,7 @@
 #include "hinge/molecular/bond_gauge.hpp"
 #include "hinge_tools/counted.hpp"
 #include "hinge_tools/max_pairs_option.hpp"
+#include "hinge_tools/parts.hpp"
 #include "hinge_tools/progress_bar.hpp"
 #include "molecule_page.hpp"
 #include "options.hpp"
@@ -95,8 +95,7 @@ Exit run_check(const Options& options) {
   const Structure& s = job.molecule->structure();
   ReadOptions frames_from = options.read;
   if (options.parts.wanted()) {  // all processes of the run share the places of the frames
-    std::error_code error;       // claim() reports it
-    std::filesystem::create_directories(options.parts.folder, error);
+    hinge::tool::PartsFolder(options.parts.folder).make();
     frames_from.index_folder = options.parts.folder;
   }
   const Frames frames(options.trajectories, options.file, s, frames_from);
@@ -213,7 +212,7 @@ Exit run_check(const Options& options) {
                   options.by ? std::optional<ClashTable>(*options.by) : std::nullopt};
   };
   if (options.parts.wanted()) {
-    run_units(options.parts, question_of(options, "check", rows_head),
+    run_units(options.parts, question_of(options, "check", rows_head, head),
               [&](std::uint64_t begin, std::uint64_t end, Rows& rows) {
                 Counts counts = no_counts();
                 run(begin, end, rows, counts);

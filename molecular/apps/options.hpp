@@ -21,7 +21,7 @@
 #include "hinge/molecular/torsion_prior.hpp"
 #include "hinge/path/path_answer.hpp"
 #include "hinge_tools/dial.hpp"
-#include "hinge_tools/parts.hpp"
+#include "hinge_tools/parts_folder.hpp"
 #include "hinge_tools/rows.hpp"
 #include "hinge_tools/run_tool.hpp"
 

@@ -2,10 +2,8 @@
 // Implements the text around the rows.
 #include "results.hpp"
 
-#include <filesystem>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "hinge_tools/json_text.hpp"
 
@@ -18,7 +16,7 @@ hinge::tool::RowsHead head_of_rows(const Options& options, const Json& head, con
   std::string text;
   if (options.output == Output::json) text = json_text(head, 1);
   if (options.output == Output::csv) text = csv_header(options, columns);
-  return {options.output, std::move(text), "conformations", total, json_text(head)};
+  return {options.output, std::move(text), "conformations", total};
 }
 
 std::string row_text(const Json& row, const std::string& pairs) {
@@ -31,15 +29,15 @@ std::string row_text(const Json& row, const std::string& pairs) {
 }
 
 void print_summary(const Options& options, Json summary, const std::string& error) {
+  if (options.output != Output::json) return;
   if (!error.empty()) summary["error"] = error;
   hinge::tool::print(closing(options.output, json_text(summary)));
 }
 
-hinge::tool::Question question_of(const Options& options, const char* command, const hinge::tool::RowsHead& head) {
-  std::vector<std::pair<std::string, std::string>> inputs;
-  for (const std::filesystem::path& file : input_files(options))
-    inputs.emplace_back(file.string(), hinge::tool::input_digest(file.string()));
-  return hinge::tool::make_question<Json>("biocd", command, options.parts, head, inputs);
+hinge::tool::Question question_of(const Options& options, const char* command, const hinge::tool::RowsHead& head,
+                                  const Json& model) {
+  return hinge::tool::make_question("biocd", command, options.parts, head, model,
+                                    hinge::tool::input_digests(input_files(options)));
 }
 
 hinge::tool::UnitCounts counts_of(const Options& options, const Summary& summary, const Json& all) {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "hinge_tools/parts.hpp"
+#include "hinge_tools/parts_folder.hpp"
 #include "hinge_tools/rows.hpp"
 #include "options.hpp"
 #include "report.hpp"
@@ -24,8 +24,9 @@ std::string row_text(const Json& row, const std::string& pairs);
 /// Prints the summary of a whole run, if the output is JSON. error: why the run ended early, or empty.
 void print_summary(const Options& options, Json summary, const std::string& error = {});
 
-/// Returns the question that a folder of parts answers. command: its name.
-hinge::tool::Question question_of(const Options& options, const char* command, const hinge::tool::RowsHead& head);
+/// Returns the question that a folder of parts answers. command: its name. model: the head of JSON output.
+hinge::tool::Question question_of(const Options& options, const char* command, const hinge::tool::RowsHead& head,
+                                  const Json& model);
 
 /// Returns the counts of a unit. all: its summary, which only JSON output needs.
 hinge::tool::UnitCounts counts_of(const Options& options, const Summary& summary, const Json& all);

@@ -18,6 +18,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/sampler.hpp"
 #include "hinge_tools/counted.hpp"
+#include "hinge_tools/parts.hpp"
 #include "hinge_tools/progress_bar.hpp"
 #include "molecule_page.hpp"
 #include "options.hpp"
@@ -185,7 +186,7 @@ Exit run_sample(const Options& options) {
     return Summary(closure_names(job), closed, options.output == Output::table || options.output == Output::json);
   };
   if (options.parts.wanted()) {
-    run_units(options.parts, question_of(options, "sample", rows_head),
+    run_units(options.parts, question_of(options, "sample", rows_head, head),
               [&](std::uint64_t begin, std::uint64_t end, Rows& rows) {
                 Summary summary = counts();
                 run(begin, end, rows, summary);

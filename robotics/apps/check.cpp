@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,6 +20,7 @@
 #include "hinge_tools/complete_file.hpp"
 #include "hinge_tools/counted.hpp"
 #include "hinge_tools/json_text.hpp"
+#include "hinge_tools/parts.hpp"
 #include "hinge_tools/progress_bar.hpp"
 #include "report.hpp"
 #include "robot_page.hpp"
@@ -37,21 +37,17 @@ Json head_json(const Options& options, const Job& job, const Mode& mode) {
   Json head{{"tool", "robocd"}, {"command", "check"}, {"robot", robot_json(options, job)}, {"mode", mode.text()}};
   head["clearance"] = options.clearance;
   head["seed"] = options.count > 0 ? Json(options.seed) : Json();
-  head["environment"] = body_names(job);
-  head["allowed"] = allowed_json(job);
-  head["attached"] = attached_json(job);
-  head["notes"] = job.notes;
+  add_surroundings(head, job);
   head["joints"] = joint_names(*job.robot);
   return head;
 }
 
-/// Returns what the folder of --parts answers.
-hinge::tool::Question question_of(const Options& options, const Job& job, const hinge::tool::RowsHead& head) {
-  std::vector<std::pair<std::string, std::string>> inputs{
-      {"robot with meshes", model_digest(options, job.robot->description())}};
-  for (const std::filesystem::path& file : input_files(options))
-    if (!file.empty()) inputs.emplace_back(file.string(), hinge::tool::input_digest(file.string()));
-  return hinge::tool::make_question<Json>("robocd", "check", options.parts, head, inputs);
+/// Returns what the folder of --parts answers. model: the head of JSON output.
+hinge::tool::Question question_of(const Options& options, const Job& job, const hinge::tool::RowsHead& head,
+                                  const Json& model) {
+  auto inputs = hinge::tool::input_digests(input_files(options));
+  inputs.insert(inputs.begin(), {"robot with meshes", model_digest(options, job.robot->description())});
+  return hinge::tool::make_question("robocd", "check", options.parts, head, model, inputs);
 }
 
 void print_table_end(const Summary& summary, const Robot& robot, bool sampled, double seconds) {
@@ -83,12 +79,10 @@ Exit run_check(const Options& options) {
   hinge::tool::CompleteFile file(options.out);
   if (file.wanted()) write_header(file.stream(), *job.robot);
   const bool is_json = options.output == Output::json;
-  const std::string head = hinge::tool::json_text(head_json(options, job, mode), 1);
-  const hinge::tool::RowsHead rows_head{options.output,
-                                        is_json                         ? head
-                                        : options.output == Output::csv ? csv_header()
-                                                                        : "",
-                                        "configurations", configurations.count, head};
+  const Json head = head_json(options, job, mode);
+  hinge::tool::RowsHead rows_head{options.output, "", "configurations", configurations.count};
+  if (is_json) rows_head.text = hinge::tool::json_text(head, 1);
+  if (options.output == Output::csv) rows_head.text = csv_header();
   if (!options.parts.wanted()) hinge::tool::print(opening(rows_head));
   if (options.output == Output::table) fmt::print("{}", heading(options, job));
 
@@ -156,7 +150,7 @@ Exit run_check(const Options& options) {
                  16);
   };
   if (options.parts.wanted()) {
-    run_units(options.parts, question_of(options, job, rows_head),
+    run_units(options.parts, question_of(options, job, rows_head, head),
               [&](std::uint64_t from, std::uint64_t to, Rows& rows) {
                 Summary unit;
                 run(from, to, rows, unit);
@@ -169,7 +163,7 @@ Exit run_check(const Options& options) {
   Summary summary;
   Rows rows = hinge::tool::printed_rows();
   const auto end = [&](const std::string& error) {
-    hinge::tool::print(closing(options.output, hinge::tool::json_text(summary.json(error))));
+    if (is_json) hinge::tool::print(closing(options.output, hinge::tool::json_text(summary.json(error))));
   };
   try {
     run(0, configurations.count, rows, summary);

@@ -17,7 +17,7 @@
 #include "hinge/robotics/read_srdf.hpp"
 #include "hinge/robotics/robot.hpp"
 #include "hinge_tools/dial.hpp"
-#include "hinge_tools/parts.hpp"
+#include "hinge_tools/parts_folder.hpp"
 #include "hinge_tools/rows.hpp"
 #include "hinge_tools/run_tool.hpp"
 

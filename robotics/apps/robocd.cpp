@@ -12,6 +12,7 @@
 #include "hinge_tools/exit_zero_option.hpp"
 #include "hinge_tools/help_texts.hpp"
 #include "hinge_tools/parse_command_line.hpp"
+#include "hinge_tools/parts_option.hpp"
 #include "hinge_tools/pick_instruction_set.hpp"
 #include "hinge_tools/report_page.hpp"
 #include "hinge_tools/run_tool.hpp"
@@ -47,14 +48,7 @@ Exit run(int argc, char** argv) {
   robocd::add_check_options(*check, o);
   check->callback([&] { command = robocd::run_check; });
 
-  CLI::App* merge = app.add_subcommand("merge", "print the output of a check that was computed in parts");
-  merge->option_defaults()->group(title::input);
-  merge->add_option("FOLDER", o.merged, "folder of --parts")->required();
-  merge->option_defaults()->group(title::output);
-  merge->add_option("--out", o.out, "file to write, completely or not at all (default: standard output)")
-      ->type_name("FILE");
-  hinge::tool::add_exit_zero(*merge, o.exit_zero);
-  merge->callback([&] { command = robocd::run_merge; });
+  hinge::tool::add_merge(app, o.merged, o.out, o.exit_zero)->callback([&] { command = robocd::run_merge; });
 
   CLI::App* matrix =
       app.add_subcommand("matrix", "write an SRDF with the pairs of links that need no test, and the reasons");
