@@ -3,6 +3,7 @@
 
 import concurrent.futures
 import contextlib
+import io
 import json
 import multiprocessing
 import os
@@ -15,6 +16,7 @@ import subprocess
 import sys
 import time
 
+import numpy as np
 import pytest
 
 import hinge
@@ -48,6 +50,15 @@ def output(name, *words):
 
 def merged(folder, name="biocd"):
     return output(name, "merge", str(folder))
+
+
+def test_numpy_reads_the_verdicts():
+    words = (*SAMPLE, "-n", "500")
+    verdicts = np.load(io.BytesIO(output("biocd", *words, "--npy")))
+    assert verdicts.dtype == np.uint8 and verdicts.shape == (500,)
+    rows = output("biocd", *words, "--csv").decode().splitlines()[1:]
+    assert verdicts.tolist() == [int(row.split(",")[1]) for row in rows]
+    assert 0 < verdicts.sum() < 500
 
 
 @pytest.mark.parametrize("form", ["--json", "--csv", "--npy"])
