@@ -348,18 +348,15 @@ class _Run:
             self.progress(self.summary.there + self.summary.computed, self.units)
 
     def run(self):
-        waiting = iter(range(self.units))
-        more = True
-        while more or self.flying:
-            while more and len(self.flying) < self.in_flight:
-                unit = next(waiting, None)
-                more = unit is not None
-                if more and _is_whole(self.folder / _file_name(unit)):
-                    self.summary.there += 1
-                elif more:
-                    self.start(unit, 0)
-            if self.flying:
+        for unit in range(self.units):
+            if _is_whole(self.folder / _file_name(unit)):
+                self.summary.there += 1
+                continue
+            while len(self.flying) >= self.in_flight:
                 self.take(self.finished.get())
+            self.start(unit, 0)
+        while self.flying:
+            self.take(self.finished.get())
 
     def _kept(self):
         return f"{self.summary.there + self.summary.computed} of {self.units} units are complete, run again to go on"
