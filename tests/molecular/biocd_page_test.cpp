@@ -176,7 +176,8 @@ TEST_F(BiocdPage, CutsLargeMoleculesDown) {
   {
     std::ofstream out(large);
     const Structure s = read_structure(test::ubiquitin());
-    for (int copy = 0; copy < 36; ++copy)
+    for (int copy = 0; copy < 36; ++copy) {
+      const int row = copy / 6;
       for (std::size_t i = 0; i < s.atoms.size(); ++i) {
         const Residue& r = s.residues[s.atoms[i].residue];
         char line[96];
@@ -184,10 +185,11 @@ TEST_F(BiocdPage, CutsLargeMoleculesDown) {
                       static_cast<int>((static_cast<std::size_t>(copy) * s.atoms.size() + i) % 99999 + 1),
                       (" " + s.atoms[i].name).c_str(), r.name.c_str(),
                       static_cast<char>(copy < 26 ? 'A' + copy : 'a' + copy - 26), r.sequence_number,
-                      s.models[0][i].x() + 60.0 * (copy % 6), s.models[0][i].y() + 60.0 * static_cast<double>(copy / 6),
-                      s.models[0][i].z(), s.atoms[i].element.c_str());
+                      s.models[0][i].x() + 60.0 * (copy % 6), s.models[0][i].y() + 60.0 * row, s.models[0][i].z(),
+                      s.atoms[i].element.c_str());
         out << line;
       }
+    }
     out << "END\n";
   }
   EXPECT_EQ(run_biocd("check " + large.string() + report).status, 1);

@@ -66,7 +66,7 @@ TEST(FrameIndex, GivesTheFramesOfTheFile) {
     std::ofstream(index, std::ios::binary) << damaged;
     expect(file, first);
   }
-  for (const std::size_t length : {0, 8, 40, 190}) {
+  for (const std::size_t length : {0U, 8U, 40U, 190U}) {
     std::ofstream(index, std::ios::binary) << whole.substr(0, length);
     expect(file, first);
   }
