@@ -44,7 +44,7 @@ class Simd {
     if constexpr (detail::UsesStaticBvh<P>)
       trees_.emplace(std::make_shared<const detail::TreeParts<P>>(model, filter_, matrix_));
     else
-      sides_.side(model, filter_, matrix_, false, true);
+      sides_.side(model, filter_, matrix_, false, detail::LeftOut::out_of_reach);
   }
 
   /// Hands the admitted pairs i < j within the cutoff to `collector` (see Collector), until it is done.
@@ -58,7 +58,8 @@ class Simd {
         trees_->self_query(state, detail::tree_pair_test(collector, rules), collector, options, budget.counts);
         return budget.report(options.counts);
       }
-    Side& side = present_side(state, without_margin(collector, options));
+    const auto idle = state.follows_joints() ? detail::LeftOut::out_of_reach : detail::LeftOut::never_colliding;
+    Side& side = present_side(state, without_margin(collector, options) ? idle : detail::LeftOut::none);
     side.begin(state, options.moved_only, options.clearance);
     const detail::SelfPairTest test_pair{
         collector, rules, [&](PrimitiveId first, PrimitiveId second) { return rules.admits(first, second); }};
@@ -158,8 +159,8 @@ class Simd {
     const bool skip_never_colliding =
         without_margin(collector, options) &&
         (TypedThresholdMatrix<D> || (sides_.all_never_collide() && other.sides_.all_never_collide()));
-    Side &mine = present_side(state, skip_never_colliding),
-         &theirs = other.present_side(other_state, skip_never_colliding);
+    const auto left_out = skip_never_colliding ? detail::LeftOut::never_colliding : detail::LeftOut::none;
+    Side &mine = present_side(state, left_out), &theirs = other.present_side(other_state, left_out);
     mine.begin(state, false, options.clearance);
     theirs.begin(other_state, false, options.other_clearance);
     for (std::size_t u = mine.blocks().first_entry(); u < mine.layout().entries.size(); ++u) mine.refresh(u, state);
@@ -211,7 +212,7 @@ class Simd {
     };
   }
 
-  /// True when the query asks for collisions only: primitives whose thresholds are all 0 can be skipped.
+  /// True when the query asks for collisions only: primitives that cannot collide can be skipped.
   template <Collector C>
   static bool without_margin(const C& collector, const QueryOptions& options) noexcept {
     return IsPointLike<P> && asks_collisions(collector) && !options.adds_clearance();
@@ -224,8 +225,8 @@ class Simd {
     return by_trees(rules.first) && other.by_trees(rules.second) && trees_->fits(*other.trees_);
   }
 
-  Side& present_side(const State<P>& state, bool without_margin) {
-    return sides_.side(state.model(), filter_, matrix_, state.groups_may_deform(), without_margin);
+  Side& present_side(const State<P>& state, detail::LeftOut left_out) {
+    return sides_.side(state.model(), filter_, matrix_, state.groups_may_deform(), left_out);
   }
 
   /// The margin covers the cutoff and the float error: no pair with d - M <= cutoff is lost. Clearances are added per

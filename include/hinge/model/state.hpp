@@ -116,6 +116,9 @@ class State {
   /// Returns true when pairs inside one rigid group must be tested.
   bool groups_may_deform() const noexcept { return coordinates_given_; }
 
+  /// Returns true when the poses of the groups follow from the values of the joints.
+  bool follows_joints() const noexcept { return !coordinates_given_ && !kinematics_.poses_given(); }
+
   /// Returns true when the distance of the two groups may have changed in the last update.
   bool moved_apart(GroupId g, GroupId h) const noexcept {
     return coordinates_given_ || kinematics_.component(g) != kinematics_.component(h);

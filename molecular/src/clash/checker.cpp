@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "hinge/core/error.hpp"
+#include "hinge/detail/model/out_of_reach.hpp"
 #include "hinge/detail/primitive/grid_point.hpp"
 #include "hinge/policy/collector.hpp"
 
@@ -217,6 +218,15 @@ bool Checker::constant(std::uint32_t i, std::uint32_t j) const {
   return std::visit(
       [&](const auto& hierarchy) { return hierarchy.model().constant(id<PrimitiveId>(i), id<PrimitiveId>(j)); },
       *hierarchy_);
+}
+
+std::vector<std::uint32_t> Checker::out_of_reach() const {
+  const std::vector<std::uint8_t> flags = std::visit(
+      [&](const auto& hierarchy) { return detail::out_of_reach(hierarchy.model(), thresholds_->matrix); }, *hierarchy_);
+  std::vector<std::uint32_t> atoms;
+  for (std::uint32_t i = 0; i < flags.size(); ++i)
+    if (flags[i] != 0) atoms.push_back(i);
+  return atoms;
 }
 
 Verdict Checker::check(std::span<const double> q, const Mode& mode) {

@@ -109,6 +109,10 @@ class HINGE_API Checker {
   GroupId group_of(std::uint32_t atom) const;
   /// True if the selection cannot change the distance of atoms i and j.
   bool constant(std::uint32_t i, std::uint32_t j) const;
+  /// The atoms of the fixed rigid group that no moving atom can bring within a threshold, for any values of the free
+  /// torsions, in increasing order. It is proved from the lengths of the chains between torsions. Modes any and all of
+  /// engine simd leave these atoms out.
+  std::vector<std::uint32_t> out_of_reach() const;
 
   /// Tests the conformation at q. q: dof_count() values, angles in rad and slides in angstrom, relative to the
   /// reference. Throws ConfigurationError if their number is wrong or a value is not finite.
