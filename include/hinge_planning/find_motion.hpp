@@ -35,7 +35,7 @@ struct MotionSearch {
   double range = 1.0;               ///< longest motion that is added to a tree, in the unit of MotionProblem::distance
   std::uint64_t most_motions = 1;   ///< largest number of motions to test before a first solution
   std::uint64_t seed = 1;           ///< of the random configurations
-  std::function<bool()> stop = {};  ///< called before every draw; if it returns true, the search ends
+  std::function<bool()> stop = {};  ///< called before every draw and motion; if it returns true, the search ends
 };
 
 using Waypoints = std::vector<std::vector<double>>;
@@ -62,13 +62,15 @@ class StateIsFree : public ompl::base::StateValidityChecker {
   const MotionProblem& problem_;
 };
 
-/// A motion is valid if all of it is proved free.
+/// A motion is valid if all of it is proved free. After the search was stopped, none is: RRT-Connect asks nothing else
+/// while one tree grows towards the other.
 class MotionIsFree : public ompl::base::MotionValidator {
  public:
-  MotionIsFree(const ompl::base::SpaceInformationPtr& information, const MotionProblem& problem)
-      : ompl::base::MotionValidator(information), problem_(problem) {}
+  MotionIsFree(const ompl::base::SpaceInformationPtr& information, const MotionProblem& problem,
+               std::function<bool()> stop)
+      : ompl::base::MotionValidator(information), problem_(problem), stop_(std::move(stop)) {}
   bool checkMotion(const ompl::base::State* from, const ompl::base::State* to) const override {
-    const bool free = problem_.is_motion_free(JointSpace::values(from), JointSpace::values(to));
+    const bool free = !(stop_ && stop_()) && problem_.is_motion_free(JointSpace::values(from), JointSpace::values(to));
     ++(free ? valid_ : invalid_);
     return free;
   }
@@ -83,6 +85,7 @@ class MotionIsFree : public ompl::base::MotionValidator {
 
  private:
   const MotionProblem& problem_;
+  std::function<bool()> stop_;
 };
 
 /// OMPL's simplifier with a seed of its own.
@@ -145,7 +148,7 @@ class MotionSpace {
   MotionSpace(const MotionProblem& problem, const MotionSearch& search)
       : information_(
             std::make_shared<ompl::base::SpaceInformation>(std::make_shared<JointSpace>(problem, search.seed))),
-        motions_(std::make_shared<MotionIsFree>(information_, problem)) {
+        motions_(std::make_shared<MotionIsFree>(information_, problem, search.stop)) {
     information_->setStateValidityChecker(std::make_shared<StateIsFree>(information_, problem));
     information_->setMotionValidator(motions_);
     information_->setup();

@@ -173,7 +173,7 @@ Exit run(int argc, char** argv) {
   add_number(*relax, "--seed", o.seed, seed_range, "seed of the restarts")->type_name("SEED");
   relax->callback([&, relaxed] {
     o.keep_closures = o.keep_closures.value_or(true);
-    if (relaxed->count() == 0) o.free = o.loop.empty() ? "chi" : "(" + o.loop + ") and chi";
+    if (relaxed->count() == 0 && o.loop.empty()) o.free = "chi";
     command = biocd::run_relax;
   });
 

@@ -49,9 +49,10 @@ void add_free_options(CLI::App& command, Options& o) {
       .add_option("--loop", o.loop,
                   "loops such as A:40-52, free between two fixed ends; everything outside the loops is fixed")
       ->type_name("RESIDUES");
-  command.parse_complete_callback([&o, free] {
+  const bool searches = command.get_name() == "plan" || command.get_name() == "relax";
+  command.parse_complete_callback([&o, free, searches] {
     if (o.loop.empty() || free->count() > 0) return;
-    o.free = o.collision_free ? "(" + o.loop + ") and chi" : "none";
+    o.free = searches || o.collision_free ? "(" + o.loop + ") and chi" : "none";
     o.free_by_loop = true;
   });
   command.add_flag("--keep-hbonds", o.keep_hydrogen_bonds,

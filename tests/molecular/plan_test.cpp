@@ -134,6 +134,55 @@ TEST(Plan, MotionsOfALoopStayClosed) {
   EXPECT_GE(reached, 3U);
 }
 
+TEST(Plan, SearchesForLoopsEnd) {
+  constexpr std::uint64_t seed = 3;
+  RecordProperty("seed", static_cast<int>(seed));
+  // Short, so that closing turns most random steps aside.
+  Chain chain("none", "A:7-11");
+  chain.how.most_motions = 300;
+  std::size_t missed = 0;
+  for (const std::vector<double>& to : chain.draw_free(3, 2.0, seed)) {
+    const PlannedMotion motion = plan(*chain.checker, {chain.reference()}, {to}, chain.how);
+    expect_ends(motion, chain.reference(), to);
+    chain.expect_free(motion, 4);
+    EXPECT_LT(motion.motions, 1000U);
+    missed += motion.reached ? 0 : 1;
+    EXPECT_LE(motion.remaining, motion.straight);
+    // The search asks stop() before every motion.
+    std::uint64_t asked = 0;
+    const PlannedMotion stopped =
+        plan(*chain.checker, {chain.reference()}, {to}, chain.how, [&] { return ++asked > 20; });
+    EXPECT_EQ(stopped.stopped, !stopped.reached);
+    EXPECT_LT(stopped.motions, 40U);
+  }
+  EXPECT_GE(missed, 1U);
+}
+
+TEST(Plan, CountsTheAtomsThatMove) {
+  // The end's coordinates belong to a conformation of a tail that lies in the chain: all atoms are near it long before
+  // the tail is.
+  Chain chain("A:74-76:phi,psi");
+  const auto ends = chain.draw_free(1, 2.0, 12);
+  chain.brute->check(ends.front(), Mode{});
+  MotionEnd end{ends.front(), all_atoms(chain.brute->positions())};
+  for (Vec3& at : end.target.positions) at += Vec3(0.002, -0.002, 0.002);
+  end.target.positions.back() += Vec3(0.1, 0.1, 0.1);
+  chain.how.most_motions = 3000;
+  const PlannedMotion motion = plan(*chain.checker, {chain.reference()}, end, chain.how);
+  std::size_t moved = 0;
+  double square = 0.0;
+  chain.brute->check(motion.waypoints.back(), Mode{});
+  for (std::size_t a = 0; a < end.target.positions.size(); ++a) {
+    if (chain.checker->group_of(static_cast<std::uint32_t>(a)) == GroupId{0}) continue;
+    ++moved;
+    square += (chain.brute->positions()[a] - end.target.positions[a]).squaredNorm();
+  }
+  EXPECT_GT(moved, 5U);
+  EXPECT_LT(moved, 40U);
+  EXPECT_TRUE(motion.reached);
+  EXPECT_LE(std::sqrt(square / static_cast<double>(moved)), 1.05);
+}
+
 TEST(Plan, FollowsCoordinatesWithAllTorsionsFree) {
   constexpr std::uint64_t seed = 1616;
   RecordProperty("seed", static_cast<int>(seed));

@@ -13,6 +13,8 @@ namespace {
 
 constexpr double closed_step = 0.05;  // rad or angstrom
 constexpr double part_range = 10.0;   // angstrom
+// Share of its length by which a closed walk has to come nearer to its end.
+constexpr double least_progress = 0.1;
 constexpr double pi = std::numbers::pi;
 
 }  // namespace
@@ -112,16 +114,19 @@ void ConformationProblem::go(std::span<const double> from, std::span<const doubl
                              std::span<double> q) {
   const std::vector<double> end = end_of(from, to);
   planning::go_straight(from, end, share, q);
-  if (!solver_) return;
-  // An incomplete walk leaves q open, so it is not free.
+  if (!solver_ || share == 0.0) return;
+  // An incomplete walk leaves q open, so it is not free. So does a walk that closing turns aside: a planner that takes
+  // its next step from the nearest configuration would repeat it for ever.
   const std::size_t count = count_steps(from, to);
-  const auto last = static_cast<std::size_t>(std::lround(share * static_cast<double>(count)));
+  const auto last = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(share * static_cast<double>(count))));
   std::vector<double> reached(from.begin(), from.end());
   const bool complete = walk(from, to, count, last, [&](const auto&, const std::vector<double>& next) {
     reached = next;
     return true;
   });
-  if (complete) std::ranges::copy(reached, q.begin());
+  const double before = distance(from, to);
+  if (complete && distance(reached, to) <= (1.0 - least_progress * share) * before)
+    std::ranges::copy(reached, q.begin());
 }
 
 std::vector<std::vector<double>> ConformationProblem::steps(std::span<const double> from, std::span<const double> to) {
@@ -137,6 +142,7 @@ std::vector<std::vector<double>> ConformationProblem::steps(std::span<const doub
 
 bool ConformationProblem::is_motion_free(std::span<const double> from, std::span<const double> to) {
   if (!solver_) return is_certified(from, end_of(from, to));
+  if (!is_closed(to)) return false;
   const std::size_t count = count_steps(from, to);
   return walk(from, to, count, count, [&](const std::vector<double>& here, const std::vector<double>& next) {
     return is_certified(here, next);

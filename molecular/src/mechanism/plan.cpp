@@ -3,6 +3,7 @@
 #include "hinge/molecular/plan.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -24,7 +25,7 @@ namespace {
 
 constexpr double range_share = 0.1;         // of the straight distance: the longest motion that is added to a tree
 constexpr std::uint64_t few_motions = 100;  // of RRT-Connect before coordinates are followed
-constexpr double near_rmsd = 1.0;           // angstrom
+constexpr double near_rmsd = 1.0;           // angstrom, of the atoms that the selection moves
 
 class Planner {
  public:
@@ -59,6 +60,8 @@ class Planner {
   double target_rmsd(const MotionEnd& end, std::span<const double> q) {
     return end.target.atoms.empty() ? 0.0 : superpose(all_.place(q), end.target).rmsd;
   }
+  /// The largest distance of a replaced end from its target.
+  double near(const MotionEnd& end);
   double distance(std::span<const double> a, std::span<const double> b) {
     all_.aim(all_.place(a));
     return all_.rmsd(b);
@@ -73,6 +76,13 @@ class Planner {
   ConformationProblem problem_;
   CoordinateDescent all_;  // with a target of all atoms
 };
+
+double Planner::near(const MotionEnd& end) {
+  const auto moved = std::ranges::count_if(end.target.atoms,
+                                           [&](std::uint32_t atom) { return checker_.group_of(atom) != GroupId{0}; });
+  const double share = static_cast<double>(moved) / static_cast<double>(end.target.atoms.size());
+  return std::max(near_rmsd * std::sqrt(share), target_rmsd(end, end.q));
+}
 
 void Planner::check_end(std::span<const double> q, const char* which) {
   if (checker_.check(q, Mode{}).collides) {
@@ -104,8 +114,7 @@ PlannedMotion Planner::one_way(const MotionEnd& from, const MotionEnd& to) {
     Followed way = follow(problem_, some ? *some : all_, from.q, target, options_.most_motions - found.motions, stop_);
     found.waypoints = std::move(way.waypoints);
     found.motions += way.motions;
-    found.reached =
-        replaceable && target_rmsd(to, found.waypoints.back()) <= std::max(near_rmsd, target_rmsd(to, to.q));
+    found.reached = replaceable && target_rmsd(to, found.waypoints.back()) <= near(to);
   }
   if (!found.reached && end_is_free && found.motions < options_.most_motions) {
     planning::FoundMotion rest = connect(found.waypoints.back(), options_.most_motions - found.motions);
@@ -123,7 +132,13 @@ PlannedMotion Planner::one_way(const MotionEnd& from, const MotionEnd& to) {
       planned.reached = false;
     }
   planned.straight = distance(from.q, to.q);
-  if (!planned.reached) planned.remaining = distance(planned.waypoints.back(), to.q);
+  if (!planned.reached) {  // ends where it comes nearest
+    std::vector<double> left;
+    for (const std::vector<double>& q : planned.waypoints) left.push_back(distance(q, to.q));
+    const auto least = std::ranges::min_element(left) - left.begin();
+    planned.waypoints.resize(static_cast<std::size_t>(least) + 1);
+    planned.remaining = left[static_cast<std::size_t>(least)];
+  }
   for (std::size_t k = 1; k < planned.waypoints.size(); ++k) {
     const std::vector<double>&a = planned.waypoints[k - 1], &b = planned.waypoints[k];
     planned.length += distance(a, b);

@@ -14,7 +14,7 @@ from .._planning import Motion, seconds_of
 from ._molecule import Molecule, one_of, residues_of
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class Walk:
     """The result of Checker.walk().
 
@@ -28,8 +28,11 @@ class Walk:
     accepted: int
     unclosed: int
 
+    def __repr__(self):
+        return f"<Walk: accepted: {self.accepted} of {self.steps}, configurations: {len(self.configurations)}>"
 
-@dataclasses.dataclass(frozen=True)
+
+@dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class Relaxation:
     """The result of Checker.relax(), for one configuration or for n of them (arrays of shape (n,)).
 
@@ -45,8 +48,13 @@ class Relaxation:
     energy: "float | np.ndarray"
     restarts: "int | np.ndarray"
 
+    def __repr__(self):
+        if self.q.ndim == 1:
+            return f"<Relaxation: collisions: {self.collisions_before} before, {self.collisions} left>"
+        return f"<Relaxation: free: {np.count_nonzero(self.collisions == 0)} of {len(self.q)}>"
 
-@dataclasses.dataclass(frozen=True)
+
+@dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class CoordinateFit:
     """The result of Checker.fit_coordinates().
 
@@ -64,6 +72,9 @@ class CoordinateFit:
     x: np.ndarray
     collisions: int
     stopped: bool
+
+    def __repr__(self):
+        return f"<CoordinateFit: rmsd: {self.rmsd:.4g} A, atoms: {len(self.atoms)}, collisions: {self.collisions}>"
 
 
 def _integer(name, value, least):
@@ -307,11 +318,11 @@ class Checker(_core.CheckerBase):
 
         start, end: shape (dof,), rad and angstrom; None: the reference; or a CoordinateFit. Both have to be free, and
         cycles that the checker keeps are closed at them. But if a CoordinateFit is more than 0.002 angstrom from its
-        coordinates, the motion may have another conformation there, within 1 angstrom of them or as near as the fit:
-        look at `start_rmsd` and `end_rmsd`. Only one is replaced: `end` if it is such a fit, otherwise `start`.
-        tries: largest number of motions to test before one is found. seed: of the random conformations. seconds: the
-        search ends after this time. Returns a Motion; look at `reached`.
-        No motion is no proof that there is none. Torsions may reach the end with whole turns more or less.
+        coordinates, the motion may have another conformation there, within 1 angstrom of them (counted over the atoms
+        that the selection moves) or as near as the fit: look at `start_rmsd` and `end_rmsd`. Only one is replaced:
+        `end` if it is such a fit, otherwise `start`. tries: largest number of motions to test before one is found.
+        seed: of the random conformations. seconds: the search ends after this time. Returns a Motion; look at
+        `reached`. No motion is no proof that there is none. Torsions may reach the end with whole turns more or less.
         Raises ConfigurationError, with the pair, if an end collides.
         """
 

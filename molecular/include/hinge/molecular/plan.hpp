@@ -54,8 +54,8 @@ struct PlannedMotion {
 /// The motion is shortened. Angles have no end: a motion may reach the end with whole turns more or less than it has.
 ///
 /// If q of an end is more than 0.002 angstrom from its target, the motion may have another conformation there. That one
-/// is within 1 angstrom of the target, or as near as q. Only one end is replaced: `to` if it has such a target,
-/// otherwise `from`. This end may collide at q.
+/// is within 1 angstrom of the target, counted over the atoms that the selection moves, or as near as q. Only one end
+/// is replaced: `to` if it has such a target, otherwise `from`. This end may collide at q.
 ///
 /// Distances are root mean square displacements of all atoms (of a target: of its atoms) after superposition. With
 /// closures, a motion goes in steps of at most 0.05 rad or angstrom per value, and ClosureSolver closes each of them;
