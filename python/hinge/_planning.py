@@ -8,7 +8,7 @@ import numbers
 import numpy as np
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class Motion:
     """The result of Checker.plan().
 
@@ -32,6 +32,10 @@ class Motion:
     stopped: bool
     start_rmsd: float = 0.0
     end_rmsd: float = 0.0
+
+    def __repr__(self):
+        end = "reached" if self.reached else f"{self.remaining:.4g} from the end"
+        return f"<Motion: {end}, waypoints: {len(self.waypoints)}, length: {self.length:.4g}>"
 
     def steps(self, step):
         """Return configurations along the motion, shape (m, dof), with all waypoints.

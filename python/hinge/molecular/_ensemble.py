@@ -9,7 +9,7 @@ from .._core import molecular as _core
 from ._molecule import Molecule
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class RigidGroups:
     """The result of find_rigid_groups(): sets of atoms that keep their shape, and the torsions between them.
 
@@ -25,6 +25,9 @@ class RigidGroups:
     torsions: np.ndarray
     torsion_spreads: np.ndarray
     held: np.ndarray
+
+    def __repr__(self):
+        return f"<RigidGroups: groups: {len(self.segments)}, torsions between them: {len(self.torsions)}>"
 
 
 def find_rigid_groups(molecule, x, *, tolerance=0.5, free="all", omega=False, progress=None):

@@ -16,7 +16,7 @@ from ._robot import Robot
 from ._shapes import Shape, matrix
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class PathAnswer:
     """The answer of Checker.check_path().
 
@@ -41,7 +41,7 @@ class PathAnswer:
         return self.verdict == "free"
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class Relaxation:
     """The result of Checker.relax(), for one configuration or for n of them (arrays of shape (n,)).
 
@@ -54,6 +54,11 @@ class Relaxation:
     is_free: "bool | np.ndarray"
     distance: "float | np.ndarray"
     tries: "int | np.ndarray"
+
+    def __repr__(self):
+        if self.q.ndim == 1:
+            return f"<Relaxation: {'free' if self.is_free else 'not free'}, distance: {self.distance:.4g}>"
+        return f"<Relaxation: free: {np.count_nonzero(self.is_free)} of {len(self.q)}>"
 
 
 class Checker(_core.CheckerBase):
