@@ -2,43 +2,27 @@
 // find_motion: finds a free motion between two configurations with OMPL's RRT-Connect, and shortens it.
 #pragma once
 
-#include <ompl/base/MotionValidator.h>
 #include <ompl/base/Planner.h>
+#include <ompl/base/PlannerTerminationCondition.h>
 #include <ompl/base/ProblemDefinition.h>
-#include <ompl/base/SpaceInformation.h>
-#include <ompl/base/StateSampler.h>
-#include <ompl/base/StateValidityChecker.h>
 #include <ompl/base/goals/GoalState.h>
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/geometric/PathSimplifier.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "hinge/core/philox.hpp"
 #include "hinge_planning/joint_space.hpp"
 #include "hinge_planning/motion_problem.hpp"
+#include "hinge_planning/motion_space.hpp"
 
 namespace hinge::planning {
-
-/// Options of find_motion().
-struct MotionSearch {
-  double range = 1.0;               ///< longest motion that is added to a tree, in the unit of MotionProblem::distance
-  std::uint64_t most_motions = 1;   ///< largest number of motions to test before a first solution
-  std::uint64_t seed = 1;           ///< of the random configurations
-  std::function<bool()> stop = {};  ///< called before every draw and motion; if it returns true, the search ends
-};
-
-using Waypoints = std::vector<std::vector<double>>;
 
 /// The result of find_motion() and connect().
 struct FoundMotion {
@@ -51,42 +35,6 @@ struct FoundMotion {
 };
 
 namespace detail {
-
-class StateIsFree : public ompl::base::StateValidityChecker {
- public:
-  StateIsFree(const ompl::base::SpaceInformationPtr& information, const MotionProblem& problem)
-      : ompl::base::StateValidityChecker(information), problem_(problem) {}
-  bool isValid(const ompl::base::State* state) const override { return problem_.is_free(JointSpace::values(state)); }
-
- private:
-  const MotionProblem& problem_;
-};
-
-/// A motion is valid if all of it is proved free. After the search was stopped, none is: RRT-Connect asks nothing else
-/// while one tree grows towards the other.
-class MotionIsFree : public ompl::base::MotionValidator {
- public:
-  MotionIsFree(const ompl::base::SpaceInformationPtr& information, const MotionProblem& problem,
-               std::function<bool()> stop)
-      : ompl::base::MotionValidator(information), problem_(problem), stop_(std::move(stop)) {}
-  bool checkMotion(const ompl::base::State* from, const ompl::base::State* to) const override {
-    const bool free = !(stop_ && stop_()) && problem_.is_motion_free(JointSpace::values(from), JointSpace::values(to));
-    ++(free ? valid_ : invalid_);
-    return free;
-  }
-  /// Of a motion that is not free only the start is known to be free.
-  bool checkMotion(const ompl::base::State* from, const ompl::base::State* to,
-                   std::pair<ompl::base::State*, double>& last) const override {
-    if (checkMotion(from, to)) return true;
-    if (last.first != nullptr) si_->copyState(last.first, from);
-    last.second = 0.0;
-    return false;
-  }
-
- private:
-  const MotionProblem& problem_;
-  std::function<bool()> stop_;
-};
 
 /// OMPL's simplifier with a seed of its own.
 class Shortener : public ompl::geometric::PathSimplifier {
@@ -119,73 +67,11 @@ class Connect : public ompl::geometric::RRTConnect {
   }
 };
 
-/// Suppresses OMPL's messages while an object exists, then restores the handler of the program.
-class QuietOmpl {
- public:
-  QuietOmpl() {
-    const std::scoped_lock lock(mutex_);
-    if (count_++ > 0) return;
-    handler_ = ompl::msg::getOutputHandler();
-    ompl::msg::noOutputHandler();
-  }
-  ~QuietOmpl() {
-    const std::scoped_lock lock(mutex_);
-    if (--count_ == 0) ompl::msg::useOutputHandler(handler_);
-  }
-  QuietOmpl(const QuietOmpl&) = delete;
-  QuietOmpl& operator=(const QuietOmpl&) = delete;
-
- private:
-  inline static std::mutex mutex_;
-  inline static int count_ = 0;
-  inline static ompl::msg::OutputHandler* handler_ = nullptr;
-};
-
-/// The state space of a problem, with the tests of its states and motions.
-class MotionSpace {
- public:
-  /// Both must outlive this object.
-  MotionSpace(const MotionProblem& problem, const MotionSearch& search)
-      : information_(
-            std::make_shared<ompl::base::SpaceInformation>(std::make_shared<JointSpace>(problem, search.seed))),
-        motions_(std::make_shared<MotionIsFree>(information_, problem, search.stop)) {
-    information_->setStateValidityChecker(std::make_shared<StateIsFree>(information_, problem));
-    information_->setMotionValidator(motions_);
-    information_->setup();
-  }
-  const ompl::base::SpaceInformationPtr& information() const { return information_; }
-  /// Number of motions that were tested.
-  std::uint64_t tested() const {
-    return std::uint64_t{motions_->getValidMotionCount()} + motions_->getInvalidMotionCount();
-  }
-  ompl::base::ScopedState<> state(std::span<const double> q) const {
-    ompl::base::ScopedState<> made(information_);
-    std::ranges::copy(q, JointSpace::values(made.get()).begin());
-    return made;
-  }
-  static Waypoints waypoints(const ompl::geometric::PathGeometric& path) {
-    Waypoints all;
-    for (std::size_t k = 0; k < path.getStateCount(); ++k) {
-      const std::span<const double> q = JointSpace::values(path.getState(static_cast<unsigned>(k)));
-      all.emplace_back(q.begin(), q.end());
-    }
-    return all;
-  }
-
- private:
-  QuietOmpl quiet_;
-  ompl::base::SpaceInformationPtr information_;
-  std::shared_ptr<MotionIsFree> motions_;
-};
-
-}  // namespace detail
-
-/// Plans from `from` to `to`, both free, by RRT-Connect (Kuffner & LaValle, ICRA 2000). The straight motion is tried
-/// first. The motion is not shortened.
-inline FoundMotion connect(const MotionProblem& problem, std::span<const double> from, std::span<const double> to,
-                           const MotionSearch& search) {
+/// Plans from `from` to `to` by RRT-Connect. The straight motion is tried first.
+inline FoundMotion search_tree(const MotionProblem& problem, std::span<const double> from, std::span<const double> to,
+                               const MotionSearch& search, Proof proof) {
   namespace ob = ompl::base;
-  const detail::MotionSpace space(problem, search);
+  const MotionSpace space(problem, search, proof);
   const auto start = space.state(from), end = space.state(to);
   FoundMotion found;
   if (space.information()->checkMotion(start.get(), end.get())) {
@@ -194,7 +80,7 @@ inline FoundMotion connect(const MotionProblem& problem, std::span<const double>
   } else {
     const auto definition = std::make_shared<ob::ProblemDefinition>(space.information());
     definition->setStartAndGoalStates(start, end, std::numeric_limits<double>::epsilon());
-    detail::Connect planner(space.information());
+    Connect planner(space.information());
     planner.setRange(search.range);
     planner.setProblemDefinition(definition);
     planner.setup();
@@ -206,10 +92,49 @@ inline FoundMotion connect(const MotionProblem& problem, std::span<const double>
       path = static_cast<const ompl::geometric::PathGeometric&>(*definition->getSolutionPath());
     else
       planner.append_nearest(end.get(), path);
-    found.waypoints = detail::MotionSpace::waypoints(path);
+    found.waypoints = MotionSpace::waypoints(path);
   }
   found.motions = space.tested();
   return found;
+}
+
+/// Proves a motion that seems free. A part without a proof is replaced by a detour: at most `most` motions are tested
+/// for it. Adds the motions that it tests to `found.motions`. Returns false if a part has no detour; then the motion
+/// ends before it.
+inline bool prove(const MotionProblem& problem, FoundMotion& found, const MotionSearch& search, std::uint64_t most) {
+  Waypoints proved{found.waypoints.front()};
+  for (std::size_t k = 1; k < found.waypoints.size(); ++k) {
+    MotionSearch near = search;
+    near.most_motions = most;
+    const FoundMotion part = search_tree(problem, proved.back(), found.waypoints[k], near, Proof::needed);
+    found.motions += part.motions;
+    proved.insert(proved.end(), part.waypoints.begin() + 1, part.waypoints.end());
+    if (part.reached) continue;
+    found.reached = false;
+    break;
+  }
+  const bool whole = proved.back() == found.waypoints.back();
+  found.waypoints = std::move(proved);
+  return whole;
+}
+
+}  // namespace detail
+
+/// Plans from `from` to `to`, both free, by RRT-Connect (Kuffner & LaValle, ICRA 2000). The straight motion is tried
+/// first. The motion is not shortened. If the problem has the test seems_free, the search uses it alone, and what it
+/// finds is proved; only if that fails, a second search proves every motion at once.
+inline FoundMotion connect(const MotionProblem& problem, std::span<const double> from, std::span<const double> to,
+                           const MotionSearch& search) {
+  constexpr std::uint64_t most_of_a_detour = 200;
+  if (!problem.seems_free) return detail::search_tree(problem, from, to, search, detail::Proof::needed);
+  FoundMotion found = detail::search_tree(problem, from, to, search, detail::Proof::later);
+  const bool whole = detail::prove(problem, found, search, most_of_a_detour);
+  if (whole || found.motions >= search.most_motions || (search.stop && search.stop())) return found;
+  MotionSearch rest = search;
+  rest.most_motions -= found.motions;
+  FoundMotion proved = detail::search_tree(problem, from, to, rest, detail::Proof::needed);
+  proved.motions += found.motions;
+  return proved;
 }
 
 /// Shortens a motion by shortcuts until two rounds in a row gain less than 1 percent, and leaves out each waypoint

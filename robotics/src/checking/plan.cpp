@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -21,6 +22,8 @@ namespace {
 
 // Of the largest distance: the longest motion that is added to a tree.
 constexpr double range_share = 0.2;
+// Of the longest motion: the distance between the configurations that are tested before a motion is proved.
+constexpr double tested_share = 0.02;
 // A motion is given up as not free if no shorter part of it than this share can be proved.
 constexpr double smallest_planned_step = 0x1p-12;
 constexpr double few_share = 0.5;  // of the draws that keep the joints that need not move
@@ -33,10 +36,12 @@ class RobotMotions {
                std::span<const double> to, const std::function<bool()>& stop)
       : robot_(checker.robot()),
         environment_(environment),
+        checker_(checker),
         paths_(environment == nullptr ? PathChecker(checker) : PathChecker(checker, *environment)),
         from_(from.begin(), from.end()),
         to_(to.begin(), to.end()),
         stop_(stop) {
+    if (environment != nullptr) bodies_ = *environment;
     refuse_bad_end("start", from_);
     refuse_bad_end("end", to_);
     find_bounds();
@@ -51,7 +56,8 @@ class RobotMotions {
     problem.largest_distance = largest_distance();
     problem.distance = [this](Values a, Values b) { return distance(a, b); };
     problem.draw = [this](SampleStream& stream, std::span<double> q) { draw(stream, q); };
-    problem.is_free = [this](Values q) { return paths_.certify(q, q).is_free(); };
+    problem.is_free = [this](Values q) { return is_free(q); };
+    problem.seems_free = [this](Values a, Values b) { return seems_free(a, b); };
     problem.is_motion_free = [this](Values a, Values b) { return is_motion_free(a, b); };
     return problem;
   }
@@ -71,10 +77,14 @@ class RobotMotions {
   void refuse_bad_end(const std::string& end, const std::vector<double>& q);
   void find_bounds();
   void draw(SampleStream& stream, std::span<double> q) const;
+  bool is_free(std::span<const double> q);
+  bool seems_free(std::span<const double> a, std::span<const double> b);
   bool is_motion_free(std::span<const double> a, std::span<const double> b);
 
   const Robot& robot_;
   const Environment* environment_;
+  RobotChecker checker_;
+  std::optional<Environment> bodies_;
   PathChecker paths_;
   std::vector<double> from_, to_;
   std::vector<double> lower_, upper_;  // of the configurations that are drawn
@@ -109,6 +119,17 @@ void RobotMotions::draw(SampleStream& stream, std::span<double> q) const {
     const double value = std::min(lower_[j] + stream.uniform() * (upper_[j] - lower_[j]), upper_[j]);
     q[j] = moves_all || from_[j] != to_[j] ? value : from_[j];
   }
+}
+
+bool RobotMotions::is_free(std::span<const double> q) {
+  checker_.update(q);
+  return !checker_.collides() && !(bodies_ && checker_.collides(*bodies_));
+}
+
+bool RobotMotions::seems_free(std::span<const double> a, std::span<const double> b) {
+  const double step = tested_share * range_share * largest_distance();
+  const auto count = static_cast<std::size_t>(std::ceil(distance(a, b) / step));
+  return planning::test_along(a, b, count, [this](std::span<const double> q) { return is_free(q); });
 }
 
 bool RobotMotions::is_motion_free(std::span<const double> a, std::span<const double> b) {
