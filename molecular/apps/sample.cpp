@@ -205,7 +205,9 @@ Exit run_sample(const Options& options) {
     throw;
   }
   const std::chrono::duration<double> checking = std::chrono::steady_clock::now() - start;
-  print_summary(options, summary.json(true));
+  Json total = summary.json(true);
+  shortfall.add_to(total);
+  print_summary(options, std::move(total));
   note_left_out(options, left_out);
   if (options.output == Output::table) print_table(job, summary, options.collision_free, checking.count());
   if (options.view && choice.best()) {

@@ -21,6 +21,23 @@ void Shortfall::add(std::span<const hinge::Hit> blockers, bool stopped) {
     blockers_.add((std::uint64_t{residue(hit.first)} << 32U) + residue(hit.second));
 }
 
+std::vector<Shortfall::Pair> Shortfall::top(std::size_t most) const {
+  std::vector<Pair> pairs;
+  for (const auto& [key, count] : blockers_.top(most))
+    pairs.push_back({residue_label(structure_, static_cast<std::uint32_t>(key >> 32U)),
+                     residue_label(structure_, static_cast<std::uint32_t>(key)), count});
+  return pairs;
+}
+
+void Shortfall::add_to(Json& summary) const {
+  if (missing_ == 0) return;
+  summary["out_of_time"] = stopped_;
+  Json pairs = Json::array();
+  for (const Pair& pair : top(10))
+    pairs.push_back({{"residue_i", pair.first}, {"residue_j", pair.second}, {"count", pair.count}});
+  summary["in_the_way"] = std::move(pairs);
+}
+
 void Shortfall::print(bool collision_free, std::uint64_t asked, std::uint64_t most_starts) const {
   if (missing_ == 0) return;
   std::string text =
@@ -32,9 +49,7 @@ void Shortfall::print(bool collision_free, std::uint64_t asked, std::uint64_t mo
                         collision_free ? "gave a conformation without a collision" : "closed");
   if (stopped_ > 0) text += begin + fmt::format("for {} of them, the time of --time was over", stopped_);
   begin = "; most often in the way: ";
-  for (const auto& [key, count] : blockers_.top(3))
-    text += std::exchange(begin, ", ") + residue_label(structure_, static_cast<std::uint32_t>(key >> 32U)) + " and " +
-            residue_label(structure_, static_cast<std::uint32_t>(key));
+  for (const Pair& pair : top(3)) text += std::exchange(begin, ", ") + pair.first + " and " + pair.second;
   std::fputs((text + '\n').c_str(), stderr);
 }
 

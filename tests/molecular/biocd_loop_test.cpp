@@ -133,6 +133,14 @@ TEST(BiocdLoop, SaysHowManySamplesAreMissingAndWhy) {
   const Json json = Json::parse(run_biocd(question + " --tries 3 --json 2>/dev/null").out);
   EXPECT_EQ(json.at("summary").at("missing"), 4);
   EXPECT_EQ(json.at("summary").at("closed_refused"), 12);
+  EXPECT_EQ(json.at("summary").at("out_of_time"), 0);
+  const Json& pairs = json.at("summary").at("in_the_way");
+  ASSERT_GT(pairs.size(), 1U);
+  ASSERT_LE(pairs.size(), 10U);
+  const auto often = [&](std::size_t k) { return pairs[k].at("count").get<std::uint64_t>(); };
+  for (std::size_t k = 1; k < pairs.size(); ++k) EXPECT_GE(often(k - 1), often(k));
+  for (const char* residue : {"residue_i", "residue_j"})
+    EXPECT_NE(said.out.find(pairs[0].at(residue).get<std::string>()), std::string::npos) << said.out;
   // The time ends a run that would not end.
   const auto late = run_biocd(question + " --tries 1000000000 --time 0.5 2>&1 >/dev/null");
   EXPECT_EQ(late.status, 5);
@@ -177,6 +185,7 @@ TEST(BiocdLoop, IsNotNeededForCollisionFreeSamples) {
   const Json json = Json::parse(said.out);
   EXPECT_EQ(json.at("conformations").size(), 5U);
   EXPECT_EQ(json.at("summary").at("colliding"), 0);
+  EXPECT_FALSE(json.at("summary").contains("in_the_way"));  // nothing is missing
 }
 
 TEST(BiocdLoop, RefusesWhatIsNoLoop) {

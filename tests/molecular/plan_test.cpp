@@ -99,7 +99,8 @@ TEST(Plan, MotionsOfATailAreFree) {
   constexpr std::uint64_t seed = 4711;
   RecordProperty("seed", static_cast<int>(seed));
   Chain chain("A:72-76:phi,psi");
-  const std::size_t wanted = std::getenv("HINGE_TEST_ALL") != nullptr ? 60 : 12;
+  // In the long run a thousand motions between waypoints.
+  const std::size_t wanted = std::getenv("HINGE_TEST_ALL") != nullptr ? 200 : 12;
   std::size_t reached = 0, motions = 0;
   for (const std::vector<double>& to : chain.draw_free(wanted, 1.5, seed)) {
     chain.how.most_motions = 3000;
@@ -113,7 +114,7 @@ TEST(Plan, MotionsOfATailAreFree) {
     EXPECT_GE(motion.length, (1.0 - 1e-9) * motion.straight);
   }
   EXPECT_GE(2 * reached, wanted);  // some have none: phi of an amino acid does not pass 0
-  EXPECT_GT(motions, wanted);
+  EXPECT_GT(motions, wanted > 12 ? 1000 : wanted);
 }
 
 TEST(Plan, MotionsOfALoopStayClosed) {
