@@ -2,11 +2,13 @@
 // Writes the parts that several outputs share.
 #include "report.hpp"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -176,9 +178,10 @@ std::string csv_rows(const Job& job, std::uint64_t index, const Verdict& verdict
   const auto add = [&](const Contact& pair) {
     const hinge::Hit& hit = pair.hit;
     const Severity of = severity(job, pair);
-    rows += fmt::format("{},{:d},{},{},{},{},{},{},{:d},{}", index, verdict.collides, atom(hit.first), atom(hit.second),
-                        csv_field(label(structure, atom(hit.first))), csv_field(label(structure, atom(hit.second))),
-                        hit.distance, hit.threshold, pair.collides, of.overlap);
+    fmt::format_to(std::back_inserter(rows), FMT_COMPILE("{},{:d},{},{},{},{},{},{},{:d},{}"), index, verdict.collides,
+                   atom(hit.first), atom(hit.second), csv_field(label(structure, atom(hit.first))),
+                   csv_field(label(structure, atom(hit.second))), hit.distance, hit.threshold, pair.collides,
+                   of.overlap);
     if (has_classes(rules)) rows += fmt::format(",{}", of.kind);
     if (has_relative_distance(rules))
       rows += of.relative_distance ? fmt::format(",{}", *of.relative_distance) : std::string(",");
@@ -194,9 +197,10 @@ std::string csv_rows(const Job& job, std::uint64_t index, const Verdict& verdict
 
 std::string with_columns(const std::string& rows, const std::string& columns) {
   std::string text;
-  for (const char c : rows) {
-    if (c == '\n') text += columns;
-    text += c;
+  for (std::size_t at = 0; at < rows.size();) {
+    const std::size_t end = rows.find('\n', at);
+    text.append(rows, at, end - at).append(columns) += '\n';
+    at = end + 1;
   }
   return text;
 }
