@@ -134,9 +134,8 @@ void run_robot(const test::PlanningScene& scene, std::uint64_t seeds, double sec
   Row proved;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     const Clock::time_point start = Clock::now();
-    const robotics::PlannedMotion motion =
-        plan(checker, &around, scene.from, scene.to, {.most_motions = UINT64_MAX, .seed = seed},
-             [&] { return seconds_since(start) > seconds; });
+    const robotics::PlannedMotion motion = plan(paths, scene.from, scene.to, {.most_motions = UINT64_MAX, .seed = seed},
+                                                [&] { return seconds_since(start) > seconds; });
     proved.seconds.push_back(seconds_since(start));
     ++proved.asked;
     proved.tested.push_back(static_cast<double>(motion.motions));
@@ -171,8 +170,6 @@ void run_robot(const test::PlanningScene& scene, std::uint64_t seeds, double sec
     return q;
   };
   FclScene fcl(scene);
-  robotics::RobotChecker ours = checker;
-  robotics::Environment bodies = around;
   const auto ask = [&](const std::string& way, const bench::OmplPlanner::IsFree& is_free, double resolution) {
     const bench::OmplPlanner planner(of_group(robot.lower()), of_group(robot.upper()), is_free, resolution);
     Row row;
@@ -198,11 +195,7 @@ void run_robot(const test::PlanningScene& scene, std::uint64_t seeds, double sec
     const double with_fcl = ask(
         "OMPL, FCL" + at, [&](std::span<const double> part) { return fcl.is_free(all_joints(part)); }, resolution);
     ask(
-        "OMPL, RobotChecker" + at,
-        [&](std::span<const double> part) {
-          ours.update(all_joints(part));
-          return !ours.collides() && !ours.collides(bodies);
-        },
+        "OMPL, RobotChecker" + at, [&](std::span<const double> part) { return paths.is_free(all_joints(part)); },
         resolution);
     std::printf("ratio plan %s fcl%s %.1f\n", scene.name.c_str(), resolution == 0.01 ? "-1%" : "-0.1%",
                 with_fcl / plan_seconds);

@@ -13,12 +13,14 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/philox.hpp"
+#include "hinge/robotics/path_checker.hpp"
 #include "hinge/robotics/random_configuration.hpp"
 #include "robotics/planning_scenes.hpp"
 #include "robotics/random_robot.hpp"
@@ -153,6 +155,32 @@ TEST(PlanRobot, DependsOnTheArgumentsAlone) {
   EXPECT_EQ(found[1], expected);
   const Environment bodies = make_wall("simd", 1.0);
   EXPECT_NE(plan(make_checker(robot, "simd"), &bodies, from, to, {.seed = 2}).waypoints, expected);
+}
+
+TEST(PlanRobot, UsesOnePathCheckerForManyMotions) {
+  const auto robot = std::make_shared<const Robot>(sliders());
+  const RobotChecker checker = make_checker(robot, "simd");
+  const std::vector<double> from{-1.0, 0.0}, to{1.0, 0.0}, inside{0.0, 0.0};
+  std::optional<PathChecker> paths;
+  {
+    Environment bodies = make_wall("simd", 1.0);
+    paths.emplace(checker, bodies);
+    bodies.set_pose(bodies.bodies().front(), {Mat3::Identity(), Vec3(9.0, 0.0, 0.0)});  // the copy stays
+  }
+  EXPECT_TRUE(paths->is_free(from));
+  EXPECT_FALSE(paths->is_free(inside));
+  EXPECT_THROW(paths->is_free(std::vector<double>{1.0}), ConfigurationError);
+  EXPECT_EQ(&paths->checker().robot(), robot.get());
+  ASSERT_NE(paths->environment(), nullptr);
+  EXPECT_EQ(paths->environment()->bodies().size(), 1U);
+  EXPECT_EQ(PathChecker(checker).environment(), nullptr);
+  const Environment bodies = make_wall("simd", 1.0);
+  PathChecker copy = *paths;
+  for (std::uint64_t k = 1; k <= 5; ++k) {
+    const auto expected = plan(checker, &bodies, from, to, {.seed = k}).waypoints;
+    EXPECT_EQ(plan(*paths, from, to, {.seed = k}).waypoints, expected);
+    EXPECT_EQ(plan(copy, from, to, {.seed = k}).waypoints, expected);
+  }
 }
 
 TEST(PlanRobot, SaysThatThereIsNone) {

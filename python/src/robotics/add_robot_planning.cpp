@@ -27,8 +27,10 @@ py::tuple planned(RobotCheckerHandle& self, const py::object& start, const py::o
   const Doubles from = as_doubles(start, "start", one, "(dof,)"), to = as_doubles(end, "end", one, "(dof,)");
   const TimeLimit limit(seconds);
   PlannedMotion found;
-  run_robot(self, 1, py::int_(1), py::none(), [&](RobotWorker& worker, Environment* bodies, std::size_t) {
-    found = plan(worker.checker, bodies, std::span(from.data(), self.dof()), std::span(to.data(), self.dof()),
+  RobotCall call(self);
+  const auto checkers = self.path_checkers(call.shared_pool());
+  run_slices(*checkers, 1, 1, py::none(), [&](PathChecker& paths, std::size_t, std::size_t) {
+    found = plan(paths, std::span(from.data(), self.dof()), std::span(to.data(), self.dof()),
                  {.most_motions = tries, .seed = seed}, [&] { return limit.has_passed(); });
   });
   return py::make_tuple(to_rows(found.waypoints), found.reached, found.length, found.straight, found.remaining, 0.0,

@@ -130,18 +130,26 @@ PathChecker::Scene PathChecker::with_bodies(const RobotChecker& checker, const E
 }
 
 PathChecker::PathChecker(const RobotChecker& checker)
-    : PathChecker(Scene{checker.shared_robot(), own_links(checker.robot()), checker.tested(), checker.margins(), {}}) {}
+    : PathChecker(checker, {},
+                  Scene{checker.shared_robot(), own_links(checker.robot()), checker.tested(), checker.margins(), {}}) {}
 
 PathChecker::PathChecker(const RobotChecker& checker, const Environment& environment)
-    : PathChecker(with_bodies(checker, environment)) {}
+    : PathChecker(checker, environment, with_bodies(checker, environment)) {}
 
-PathChecker::PathChecker(Scene scene)
-    : robot_(std::move(scene.robot)),
+PathChecker::PathChecker(const RobotChecker& checker, std::optional<Environment> bodies, Scene scene)
+    : checker_(checker),
+      bodies_(std::move(bodies)),
+      robot_(std::move(scene.robot)),
       owners_(std::move(scene.owners)),
       always_(scene.always),
       hierarchy_(robot_->model(), LinkPairFilter(*robot_, std::move(scene.tested)), std::move(scene.margins)),
       solid_pairs_(std::make_shared<const SolidPairs>(hierarchy_, *robot_, hierarchy_.filter().tested())),
       certified_(hierarchy_) {}
+
+bool PathChecker::is_free(std::span<const double> q) {
+  checker_.update(q);
+  return !checker_.collides() && !(bodies_ && checker_.collides(*bodies_));
+}
 
 PathContact PathChecker::contact(const Hit& hit) const {
   const auto owner = [&](PrimitiveId i) { return owners_[index(robot_->model().links()[index(i)])]; };

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -32,16 +31,13 @@ struct SearchStopped {};
 
 class RobotMotions {
  public:
-  RobotMotions(const RobotChecker& checker, const Environment* environment, std::span<const double> from,
-               std::span<const double> to, const std::function<bool()>& stop)
-      : robot_(checker.robot()),
-        environment_(environment),
-        checker_(checker),
-        paths_(environment == nullptr ? PathChecker(checker) : PathChecker(checker, *environment)),
+  RobotMotions(PathChecker& paths, std::span<const double> from, std::span<const double> to,
+               const std::function<bool()>& stop)
+      : robot_(paths.checker().robot()),
+        paths_(paths),
         from_(from.begin(), from.end()),
         to_(to.begin(), to.end()),
         stop_(stop) {
-    if (environment != nullptr) bodies_ = *environment;
     refuse_bad_end("start", from_);
     refuse_bad_end("end", to_);
     find_bounds();
@@ -56,7 +52,7 @@ class RobotMotions {
     problem.largest_distance = largest_distance();
     problem.distance = [this](Values a, Values b) { return distance(a, b); };
     problem.draw = [this](SampleStream& stream, std::span<double> q) { draw(stream, q); };
-    problem.is_free = [this](Values q) { return is_free(q); };
+    problem.is_free = [this](Values q) { return paths_.is_free(q); };
     problem.seems_free = [this](Values a, Values b) { return seems_free(a, b); };
     problem.is_motion_free = [this](Values a, Values b) { return is_motion_free(a, b); };
     return problem;
@@ -77,15 +73,11 @@ class RobotMotions {
   void refuse_bad_end(const std::string& end, const std::vector<double>& q);
   void find_bounds();
   void draw(SampleStream& stream, std::span<double> q) const;
-  bool is_free(std::span<const double> q);
   bool seems_free(std::span<const double> a, std::span<const double> b);
   bool is_motion_free(std::span<const double> a, std::span<const double> b);
 
   const Robot& robot_;
-  const Environment* environment_;
-  RobotChecker checker_;
-  std::optional<Environment> bodies_;
-  PathChecker paths_;
+  PathChecker& paths_;
   std::vector<double> from_, to_;
   std::vector<double> lower_, upper_;  // of the configurations that are drawn
   std::vector<double> levers_;
@@ -103,7 +95,7 @@ void RobotMotions::refuse_bad_end(const std::string& end, const std::vector<doub
   if (answer.is_free()) return;
   const auto named = [&](const LinkOrBody& part) {
     if (const auto* link = std::get_if<LinkId>(&part)) return "link '" + robot_.link_name(*link) + "'";
-    return "body '" + environment_->name(std::get<BodyId>(part)) + "'";
+    return "body '" + paths_.environment()->name(std::get<BodyId>(part)) + "'";
   };
   std::string text = "the " + end;
   text +=
@@ -121,15 +113,10 @@ void RobotMotions::draw(SampleStream& stream, std::span<double> q) const {
   }
 }
 
-bool RobotMotions::is_free(std::span<const double> q) {
-  checker_.update(q);
-  return !checker_.collides() && !(bodies_ && checker_.collides(*bodies_));
-}
-
 bool RobotMotions::seems_free(std::span<const double> a, std::span<const double> b) {
   const double step = tested_share * range_share * largest_distance();
   const auto count = static_cast<std::size_t>(std::ceil(distance(a, b) / step));
-  return planning::test_along(a, b, count, [this](std::span<const double> q) { return is_free(q); });
+  return planning::test_along(a, b, count, [this](std::span<const double> q) { return paths_.is_free(q); });
 }
 
 bool RobotMotions::is_motion_free(std::span<const double> a, std::span<const double> b) {
@@ -164,10 +151,10 @@ void RobotMotions::find_bounds() {
 
 }  // namespace
 
-PlannedMotion plan(const RobotChecker& checker, const Environment* environment, std::span<const double> from,
-                   std::span<const double> to, const PlanOptions& options, const std::function<bool()>& stop) {
+PlannedMotion plan(PathChecker& paths, std::span<const double> from, std::span<const double> to,
+                   const PlanOptions& options, const std::function<bool()>& stop) {
   if (options.most_motions == 0) throw ModelError("0 motions, expected at least one");
-  RobotMotions motions(checker, environment, from, to, stop);
+  RobotMotions motions(paths, from, to, stop);
   planning::MotionSearch search;
   search.range = range_share * motions.largest_distance();
   search.most_motions = options.most_motions;
@@ -185,6 +172,12 @@ PlannedMotion plan(const RobotChecker& checker, const Environment* environment, 
   for (std::size_t k = 0; k + 1 < planned.waypoints.size(); ++k)
     planned.length += motions.distance(planned.waypoints[k], planned.waypoints[k + 1]);
   return planned;
+}
+
+PlannedMotion plan(const RobotChecker& checker, const Environment* environment, std::span<const double> from,
+                   std::span<const double> to, const PlanOptions& options, const std::function<bool()>& stop) {
+  PathChecker paths = environment == nullptr ? PathChecker(checker) : PathChecker(checker, *environment);
+  return plan(paths, from, to, options, stop);
 }
 
 }  // namespace hinge::robotics

@@ -17,14 +17,14 @@
 #include "hinge/primitive/triangle.hpp"
 #include "hinge/robotics/any_hierarchy.hpp"
 #include "hinge/robotics/contact.hpp"
+#include "hinge/robotics/environment.hpp"
 #include "hinge/robotics/link_margins.hpp"
 #include "hinge/robotics/robot.hpp"
+#include "hinge/robotics/robot_checker.hpp"
 #include "hinge/robotics/tested_pairs.hpp"
 
 namespace hinge::robotics {
 
-class Environment;
-class RobotChecker;
 class SolidPairs;
 
 /// One side of a contact: a link of the robot or a body.
@@ -80,14 +80,25 @@ class HINGE_API PathChecker {
   RobotPathAnswer sample(std::span<const double> from, std::span<const double> to, double resolution,
                          const std::function<void()>& between = {});
 
+  /// Returns true if the configuration is free: RobotChecker's verdict, links and bodies. Throws ConfigurationError if
+  /// the length is wrong or a value is not finite.
+  bool is_free(std::span<const double> q);
+
+  /// The checker as it was at construction.
+  const RobotChecker& checker() const noexcept { return checker_; }
+  /// The bodies as they were at construction; null if none were given. Valid as long as this object.
+  const Environment* environment() const noexcept { return bodies_ ? &*bodies_ : nullptr; }
+
  private:
   struct Scene;
-  explicit PathChecker(Scene scene);
+  PathChecker(const RobotChecker& checker, std::optional<Environment> bodies, Scene scene);
   static Scene with_bodies(const RobotChecker& checker, const Environment& environment);
   PathContact contact(const Hit& hit) const;
   template <class Check>
   RobotPathAnswer answer(std::span<const double> from, std::span<const double> to, const Check& check);
 
+  RobotChecker checker_;
+  std::optional<Environment> bodies_;
   std::shared_ptr<const Robot> robot_;  // the robot, with every body added as a link
   std::vector<LinkOrBody> owners_;      // by link of robot_
   std::optional<PathContact> always_;   // a contact that no joint can change

@@ -9,6 +9,7 @@
 
 #include "hinge/core/api.hpp"
 #include "hinge/robotics/environment.hpp"
+#include "hinge/robotics/path_checker.hpp"
 #include "hinge/robotics/robot_checker.hpp"
 
 namespace hinge::robotics {
@@ -45,11 +46,15 @@ struct PlannedMotion {
 /// it is prismatic. Every joint ends at the given value, also a continuous one that is a turn away.
 ///
 /// The result depends on the arguments alone, unless stop() returns true; the engine of the checker does not matter.
-/// from, to: one value per independent joint. environment: null if there is none; bodies keep their poses, held bodies
-/// follow their link. stop: called between tests; if it returns true, the search ends with what it has. The arguments
-/// do not change. Throws ConfigurationError, naming the end and the two links or bodies, if an end collides or is so
-/// near to a collision that it is not proved free; ConfigurationError if an end has the wrong length or a value that is
-/// not finite; ModelError if most_motions is 0 or the environment uses another engine.
+/// paths: the robot and the bodies; one PathChecker serves many calls. from, to: one value per independent joint. stop:
+/// called between tests; if it returns true, the search ends with what it has. Throws ConfigurationError, naming the
+/// end and the two links or bodies, if an end collides or is so near to a collision that it is not proved free;
+/// ConfigurationError if an end has the wrong length or a value that is not finite; ModelError if most_motions is 0.
+HINGE_API PlannedMotion plan(PathChecker& paths, std::span<const double> from, std::span<const double> to,
+                             const PlanOptions& options = {}, const std::function<bool()>& stop = {});
+
+/// The same for one call: makes the PathChecker, which takes longer than a short search for robots of many triangles.
+/// environment: null if there is none. Throws ModelError, too, if the environment uses another engine.
 HINGE_API PlannedMotion plan(const RobotChecker& checker, const Environment* environment, std::span<const double> from,
                              std::span<const double> to, const PlanOptions& options = {},
                              const std::function<bool()>& stop = {});
