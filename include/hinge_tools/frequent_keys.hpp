@@ -19,9 +19,9 @@ class FrequentKeys {
   /// most: maximum number of keys in memory. 2^19 keys take about 25 MB.
   explicit FrequentKeys(std::size_t most = std::size_t{1} << 19U) : most_(std::max<std::size_t>(most, 1)) {}
 
-  /// Counts one occurrence of the key.
-  void add(std::uint64_t key) {
-    ++counts_[key];
+  /// Counts occurrences of the key.
+  void add(std::uint64_t key, std::uint64_t times = 1) {
+    counts_[key] += times;
     if (counts_.size() > most_) lower();
   }
 

@@ -6,6 +6,7 @@
 #include "hinge_tools/merge_parts.hpp"
 #include "options.hpp"
 #include "report.hpp"
+#include "shortfall.hpp"
 #include "summary.hpp"
 
 namespace biocd {
@@ -13,6 +14,7 @@ namespace biocd {
 Exit run_merge(const Options& options) {
   Summary summary;
   std::optional<ClashTable> clashes;
+  Shortfall shortfall;
   std::uint64_t colliding = 0, missing = 0;
   bool with_closures = false;
   hinge::tool::merge_parts<Json>(
@@ -22,6 +24,7 @@ Exit run_merge(const Options& options) {
         missing += counts.missing;
         with_closures = with_closures || unit.contains("worst_closure_residual");
         summary.add_closures(unit);
+        shortfall.add(counts.missing, unit);
         if (!unit.contains("clashes")) return;
         if (!clashes) clashes.emplace(unit.at("by") == "chain" ? By::chain : By::residue);
         clashes->add(unit.at("clashes"));
@@ -29,6 +32,7 @@ Exit run_merge(const Options& options) {
       [&] {
         Json all = summary.json(with_closures);
         if (clashes) clashes->add_to(all);
+        shortfall.add_to(all, most_in_the_way);
         return all;
       });
   if (colliding > 0) return Exit::collision;

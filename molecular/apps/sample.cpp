@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -110,7 +111,6 @@ Exit run_sample(const Options& options) {
            std::chrono::steady_clock::now() - start >= std::chrono::duration<double>(*options.seconds);
   };
   Worker worker{job.checker, {}, {}};
-  Shortfall shortfall(s);
   ViewChoice choice;
   MoleculePage page(options, job, false, lists_pairs(mode));
   std::uint64_t left_out = 0;  // pairs that are not printed
@@ -132,10 +132,10 @@ Exit run_sample(const Options& options) {
     if (sample.found && pair_text) sample.pairs = pair_text->list(pairs_to_print(options, sample.verdict.pairs));
     return sample;
   };
-  const auto report = [&](std::uint64_t k, const Sample& sample, Rows& rows, Summary& summary) {
+  const auto report = [&](std::uint64_t k, const Sample& sample, Rows& rows, Summary& summary, Shortfall& shortfall) {
     if (options.output == Output::npy) rows.add_verdict(!sample.found ? 2 : sample.verdict.collides ? 1 : 0);
     if (closed) summary.add(Starts{sample.found ? 0U : 1U, sample.unclosed, sample.refused});
-    if (!sample.found) return shortfall.add(sample.blockers, sample.stopped);
+    if (!sample.found) return shortfall.add(s, sample.blockers, sample.stopped);
     summary.add(s, sample.verdict);
     choice.offer(k, sample.verdict);
     page.offer(k, sample.verdict);
@@ -158,12 +158,12 @@ Exit run_sample(const Options& options) {
     torsions.add(sample.torsions);
     file.add(sample.positions, static_cast<int>(k) + 1, sample.verdict.collides);
   };
-  const auto run = [&](std::uint64_t begin, std::uint64_t end, Rows& rows, Summary& summary) {
+  const auto run = [&](std::uint64_t begin, std::uint64_t end, Rows& rows, Summary& summary, Shortfall& shortfall) {
     const auto count = static_cast<std::size_t>(end - begin);
     std::optional<hinge::tool::ProgressBar> bar;
     if (!options.parts.wanted()) bar.emplace(count);
     const auto take = [&](std::size_t n, const Sample& sample) {
-      report(begin + n, sample, rows, summary);
+      report(begin + n, sample, rows, summary, shortfall);
       if (bar) bar->show(n + 1);
     };
     if (in_blocks)
@@ -189,15 +189,19 @@ Exit run_sample(const Options& options) {
     run_units(options.parts, question_of(options, "sample", rows_head, head),
               [&](std::uint64_t begin, std::uint64_t end, Rows& rows) {
                 Summary summary = counts();
-                run(begin, end, rows, summary);
-                return counts_of(options, summary, summary.json(true));
+                Shortfall shortfall;
+                run(begin, end, rows, summary, shortfall);
+                Json all = summary.json(true);
+                shortfall.add_to(all, std::numeric_limits<std::size_t>::max());
+                return counts_of(options, summary, all);
               });
     return Exit::free;
   }
   Summary summary = counts();
+  Shortfall shortfall;
   Rows rows = hinge::tool::printed_rows();
   try {
-    run(0, options.count, rows, summary);
+    run(0, options.count, rows, summary, shortfall);
     file.finish();
     torsions.finish();
   } catch (const hinge::Error& error) {  // for example a full disk
@@ -206,7 +210,7 @@ Exit run_sample(const Options& options) {
   }
   const std::chrono::duration<double> checking = std::chrono::steady_clock::now() - start;
   Json total = summary.json(true);
-  shortfall.add_to(total);
+  shortfall.add_to(total, most_in_the_way);
   print_summary(options, std::move(total));
   note_left_out(options, left_out);
   if (options.output == Output::table) print_table(job, summary, options.collision_free, checking.count());

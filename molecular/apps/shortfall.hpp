@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "hinge/molecular/structure.hpp"
@@ -15,30 +16,35 @@
 
 namespace biocd {
 
-/// Counts missing samples. The structure must outlive this object.
+/// Number of pairs of residues in the JSON summary of a run.
+inline constexpr std::size_t most_in_the_way = 10;
+
+/// Counts missing samples, of a run or of its units.
 class Shortfall {
  public:
-  explicit Shortfall(const hinge::molecular::Structure& structure) : structure_(structure) {}
-
   /// Adds a missing sample. blockers: see FreeSample. stopped: the time was over.
-  void add(std::span<const hinge::Hit> blockers, bool stopped);
+  void add(const hinge::molecular::Structure& structure, std::span<const hinge::Hit> blockers, bool stopped);
+  /// Adds the missing samples of a unit by what add_to() wrote, all pairs included.
+  void add(std::uint64_t missing, const Json& summary);
+
   /// Prints to standard error how many samples are missing and why; nothing if none is. asked: number of samples.
   /// most_starts: for each of them.
   void print(bool collision_free, std::uint64_t asked, std::uint64_t most_starts) const;
-  /// Adds to a JSON summary how many samples --time cut off, and the pairs of residues in the way of the others.
-  void add_to(Json& summary) const;
+  /// Adds to a JSON summary how many samples --time cut off, and the pairs of residues that were most often in the way
+  /// of the others; nothing if none is missing.
+  void add_to(Json& summary, std::size_t most_pairs) const;
 
  private:
   struct Pair {
-    std::string first, second;  ///< residues
-    std::uint64_t count;        ///< of their pairs of atoms, in the last start of each sample
+    std::uint32_t first, second;  ///< residues
+    std::uint64_t count;          ///< of their pairs of atoms, in the last start of each sample
   };
   /// Returns the pairs that were most often in the way.
   std::vector<Pair> top(std::size_t most) const;
 
-  const hinge::molecular::Structure& structure_;
   std::uint64_t missing_ = 0, stopped_ = 0;
-  hinge::tool::FrequentKeys blockers_;  // pairs of residues
+  hinge::tool::FrequentKeys blockers_;                     // keys are (first residue << 32) + second residue
+  std::unordered_map<std::uint32_t, std::string> labels_;  // of the residues in blockers_
 };
 
 }  // namespace biocd

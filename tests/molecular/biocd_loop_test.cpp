@@ -139,7 +139,7 @@ TEST(BiocdLoop, SaysHowManySamplesAreMissingAndWhy) {
   ASSERT_LE(pairs.size(), 10U);
   const auto often = [&](std::size_t k) { return pairs[k].at("count").get<std::uint64_t>(); };
   for (std::size_t k = 1; k < pairs.size(); ++k) EXPECT_GE(often(k - 1), often(k));
-  for (const char* residue : {"residue_i", "residue_j"})
+  for (const char* residue : {"label_i", "label_j"})
     EXPECT_NE(said.out.find(pairs[0].at(residue).get<std::string>()), std::string::npos) << said.out;
   // The time ends a run that would not end.
   const auto late = run_biocd(question + " --tries 1000000000 --time 0.5 2>&1 >/dev/null");
