@@ -99,21 +99,27 @@ inline FoundMotion search_tree(const MotionProblem& problem, std::span<const dou
 }
 
 /// Proves a motion that seems free. A part without a proof is replaced by a detour: at most `most` motions are tested
-/// for it. Adds the motions that it tests to `found.motions`. Returns false if a part has no detour; then the motion
-/// ends before it.
+/// for it. After the search was stopped, there are no detours. Adds the motions that it tests to `found.motions`.
+/// Returns false if a part is not proved; then the motion ends before it.
 inline bool prove(const MotionProblem& problem, FoundMotion& found, const MotionSearch& search, std::uint64_t most) {
   Waypoints proved{found.waypoints.front()};
-  for (std::size_t k = 1; k < found.waypoints.size(); ++k) {
-    MotionSearch near = search;
-    near.most_motions = most;
-    const FoundMotion part = search_tree(problem, proved.back(), found.waypoints[k], near, Proof::needed);
-    found.motions += part.motions;
-    proved.insert(proved.end(), part.waypoints.begin() + 1, part.waypoints.end());
-    if (part.reached) continue;
-    found.reached = false;
-    break;
+  bool whole = true;
+  for (std::size_t k = 1; k < found.waypoints.size() && whole; ++k) {
+    const std::vector<double>& next = found.waypoints[k];
+    if (search.stop && search.stop()) {
+      ++found.motions;
+      whole = problem.is_motion_free(proved.back(), next);
+      if (whole) proved.push_back(next);
+    } else {
+      MotionSearch near = search;
+      near.most_motions = most;
+      const FoundMotion part = search_tree(problem, proved.back(), next, near, Proof::needed);
+      found.motions += part.motions;
+      proved.insert(proved.end(), part.waypoints.begin() + 1, part.waypoints.end());
+      whole = part.reached;
+    }
   }
-  const bool whole = proved.back() == found.waypoints.back();
+  found.reached = found.reached && whole;
   found.waypoints = std::move(proved);
   return whole;
 }

@@ -42,7 +42,8 @@ struct MotionProblem {
   std::function<void(SampleStream& stream, std::span<double> q)> draw;
   /// True if the configuration is allowed and does not collide.
   std::function<bool(std::span<const double> q)> is_free;
-  /// True if every configuration of the motion is proved free.
+  /// True if every configuration of the motion is proved free. It is also asked after the search was stopped, to prove
+  /// what was found until then.
   std::function<bool(std::span<const double> from, std::span<const double> to)> is_motion_free;
   /// False if some configuration of the motion is not free; true proves nothing. It is asked first, because it costs
   /// less than is_motion_free. Empty: there is no such test.

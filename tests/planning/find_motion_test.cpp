@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -124,6 +125,23 @@ TEST(FindMotion, ReturnsThePartThatIsProved) {
   expect_free(found, room);
   EXPECT_GE(found.motions, 1000U);
   EXPECT_LT(found.motions, 1400U);
+}
+
+TEST(FindMotion, KeepsWhatWasFoundWhenItIsStopped) {
+  Room room{{{0.5, 0.0, 1.0}}, 0.0};
+  MotionProblem problem = room.problem();
+  // The sample sees the wall, so the search goes on until it is stopped.
+  problem.seems_free = [&](Values a, Values b) { return !room.walls.front().meets(a, b); };
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    std::uint64_t asked = 0;
+    const MotionSearch search{0.1, 1'000'000, seed, [&] { return ++asked > 500; }};
+    const FoundMotion found = find_motion(problem, from, to, search);
+    EXPECT_FALSE(found.reached);
+    EXPECT_LT(asked, 700U);
+    EXPECT_LT(found.remaining, 0.6);  // from 0.8; the wall is 0.4 from the end
+    expect_free(found, room);
+  }
 }
 
 TEST(FindMotion, TestsStatesOnTheWay) {

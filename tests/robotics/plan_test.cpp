@@ -203,6 +203,7 @@ TEST(PlanRobot, SaysThatThereIsNone) {
            [&] { return ++calls > 1000; });
   EXPECT_TRUE(stopped.stopped);
   EXPECT_FALSE(stopped.reached);
+  EXPECT_LT(stopped.remaining, 0.75 * stopped.straight);  // what was found is kept
   expect_free(stopped, brute, make_wall("brute", 3.0), 20);
 }
 

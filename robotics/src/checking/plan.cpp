@@ -119,12 +119,14 @@ bool RobotMotions::seems_free(std::span<const double> a, std::span<const double>
   return planning::test_along(a, b, count, [this](std::span<const double> q) { return paths_.is_free(q); });
 }
 
+/// A proof that begins before the search is stopped ends with it.
 bool RobotMotions::is_motion_free(std::span<const double> a, std::span<const double> b) {
+  const bool stopped_before = stops();
   try {
     return paths_
         .certify(a, b, smallest_planned_step,
-                 [this] {
-                   if (stops()) throw SearchStopped();
+                 [this, stopped_before] {
+                   if (stops() && !stopped_before) throw SearchStopped();
                  })
         .is_free();
   } catch (const SearchStopped&) {

@@ -47,9 +47,10 @@ struct PlannedMotion {
 ///
 /// The result depends on the arguments alone, unless stop() returns true; the engine of the checker does not matter.
 /// paths: the robot and the bodies; one PathChecker serves many calls. from, to: one value per independent joint. stop:
-/// called between tests; if it returns true, the search ends with what it has. Throws ConfigurationError, naming the
-/// end and the two links or bodies, if an end collides or is so near to a collision that it is not proved free;
-/// ConfigurationError if an end has the wrong length or a value that is not finite; ModelError if most_motions is 0.
+/// called between tests; if it returns true, the search ends, and what it has is proved and returned. Throws
+/// ConfigurationError, naming the end and the two links or bodies, if an end collides or is so near to a collision that
+/// it is not proved free; ConfigurationError if an end has the wrong length or a value that is not finite; ModelError
+/// if most_motions is 0.
 HINGE_API PlannedMotion plan(PathChecker& paths, std::span<const double> from, std::span<const double> to,
                              const PlanOptions& options = {}, const std::function<bool()>& stop = {});
 
