@@ -43,6 +43,10 @@ Worker make_worker(const Options& options, Job& job) {
   return worker;
 }
 
+PathChecker path_checker(const Worker& worker) {
+  return worker.environment ? PathChecker(worker.checker, *worker.environment) : PathChecker(worker.checker);
+}
+
 Answer ask(Worker& worker, std::span<const double> q, const Mode& mode, bool contained) {
   RobotChecker& checker = worker.checker;
   Answer answer;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hinge/robotics/environment.hpp"
+#include "hinge/robotics/path_checker.hpp"
 #include "hinge/robotics/robot_checker.hpp"
 #include "options.hpp"
 
@@ -39,6 +40,8 @@ struct Worker {
 /// Makes the robot's checker and the environment. Appends notes about the environment's meshes to job.notes. Throws
 /// ModelError for a bad engine, clearance or body, LoadError for a bad mesh file.
 Worker make_worker(const Options& options, Job& job);
+/// Returns the checker of paths for this robot among these bodies.
+hinge::robotics::PathChecker path_checker(const Worker& worker);
 
 /// Answers for one configuration. q: one value (rad or m) per independent joint. contained: also list links and bodies
 /// inside closed meshes.

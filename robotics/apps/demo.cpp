@@ -110,8 +110,7 @@ Exit run_demo(const Options& options) {
   fmt::print("{}", heading(options, job));
   const int different = time_random_configurations(options, job, worker.checker);
 
-  PathChecker paths =
-      worker.environment ? PathChecker(worker.checker, *worker.environment) : PathChecker(worker.checker);
+  PathChecker paths = path_checker(worker);
   const RobotPathAnswer path = paths.certify(from, to);
   std::set<std::string> hit;
   std::vector<double> shown = to;

@@ -81,8 +81,7 @@ DialSection path_section(const Options& options, const Worker& worker) {
   const auto motions = std::make_shared<Motions>(worker, options.seed);
   using Ends = std::pair<std::vector<double>, std::vector<double>>;
   const auto ends = std::make_shared<std::map<std::uint64_t, Ends>>();
-  const auto checker = std::make_shared<PathChecker>(
-      worker.environment ? PathChecker(worker.checker, *worker.environment) : PathChecker(worker.checker));
+  const auto checker = std::make_shared<PathChecker>(path_checker(worker));
   motions->choose_length(*checker);
   section.population = fmt::format(
       "straight from a free configuration towards a random one{}, seed {}",

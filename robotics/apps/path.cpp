@@ -160,8 +160,7 @@ Exit run_path(const Options& options) {
   print_notes(job);
 
   RobotPage page(options, job, worker, Mode{Mode::Kind::all}, true);
-  PathChecker paths =
-      worker.environment ? PathChecker(worker.checker, *worker.environment) : PathChecker(worker.checker);
+  PathChecker paths = path_checker(worker);
   for (std::size_t k = 0; k + 1 < asked.waypoints.size(); ++k) {
     const std::vector<double>&from = asked.waypoints[k], &to = asked.waypoints[k + 1];
     RobotPathAnswer found =

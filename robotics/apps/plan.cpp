@@ -100,8 +100,9 @@ Exit run_plan(const Options& options) {
     return options.seconds &&
            std::chrono::steady_clock::now() - begin >= std::chrono::duration<double>(*options.seconds);
   };
-  const PlannedMotion planned = plan(worker.checker, worker.environment ? &*worker.environment : nullptr, from, to,
-                                     {.most_motions = options.motions, .seed = options.seed}, out_of_time);
+  PathChecker paths = path_checker(worker);
+  const PlannedMotion planned =
+      plan(paths, from, to, {.most_motions = options.motions, .seed = options.seed}, out_of_time);
   std::size_t written = 0;
   if (file.wanted()) {
     write_header(file.stream(), *job.robot);
