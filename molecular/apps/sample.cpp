@@ -60,9 +60,9 @@ void print_table(const Job& job, const Summary& summary, bool collision_free, do
     fmt::print("closures: not solved, so cycles open (--closures keep closes them)\n");
   }
   print_closures(job, summary.worst_residuals());
-  const std::vector<Offender> offenders = summary.top();
+  const std::vector<PairCount> offenders = summary.top();
   if (!offenders.empty()) fmt::print("  {:<18} {:<18} conformations\n", "atom 1", "atom 2");
-  for (const Offender& o : offenders) fmt::print("  {:<18} {:<18} {:13}\n", o.label_i, o.label_j, o.count);
+  for (const PairCount& o : offenders) fmt::print("  {:<18} {:<18} {:13}\n", o.label_i, o.label_j, o.count);
   if (summary.count_error() > 0)
     fmt::print("  counts of pairs may be too low by up to {}: there were too many different pairs\n",
                summary.count_error());

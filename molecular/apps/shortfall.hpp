@@ -5,13 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
-#include <unordered_map>
-#include <vector>
 
 #include "hinge/molecular/structure.hpp"
 #include "hinge/policy/collector.hpp"
-#include "hinge_tools/frequent_keys.hpp"
+#include "pair_counts.hpp"
 #include "report.hpp"
 
 namespace biocd {
@@ -22,7 +19,8 @@ inline constexpr std::size_t most_in_the_way = 10;
 /// Counts missing samples, of a run or of its units.
 class Shortfall {
  public:
-  /// Adds a missing sample. blockers: see FreeSample. stopped: the time was over.
+  /// Adds a missing sample. blockers: see FreeSample. stopped: the time was over. The structure must outlive this
+  /// object.
   void add(const hinge::molecular::Structure& structure, std::span<const hinge::Hit> blockers, bool stopped);
   /// Adds the missing samples of a unit by what add_to() wrote, all pairs included.
   void add(std::uint64_t missing, const Json& summary);
@@ -35,16 +33,8 @@ class Shortfall {
   void add_to(Json& summary, std::size_t most_pairs) const;
 
  private:
-  struct Pair {
-    std::uint32_t first, second;  ///< residues
-    std::uint64_t count;          ///< of their pairs of atoms, in the last start of each sample
-  };
-  /// Returns the pairs that were most often in the way.
-  std::vector<Pair> top(std::size_t most) const;
-
   std::uint64_t missing_ = 0, stopped_ = 0;
-  hinge::tool::FrequentKeys blockers_;                     // keys are (first residue << 32) + second residue
-  std::unordered_map<std::uint32_t, std::string> labels_;  // of the residues in blockers_
+  PairCounts blockers_;  // residues
 };
 
 }  // namespace biocd

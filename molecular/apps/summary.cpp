@@ -10,7 +10,7 @@ namespace biocd {
 
 namespace {
 
-constexpr std::uint64_t key_of(std::uint32_t i, std::uint32_t j) { return (std::uint64_t{i} << 32U) + j; }
+constexpr std::size_t most_offenders = 10;
 
 }  // namespace
 
@@ -27,11 +27,11 @@ void Summary::add(const hinge::molecular::Structure& structure, const hinge::mol
   for (std::size_t k = 0; k < worst_residuals_.size(); ++k)
     worst_residuals_[k] = std::max(worst_residuals_[k], verdict.closure_residuals[k]);
   if (!with_offenders_) return;
-  structure_ = &structure;
+  offenders_.set_labels([&structure](std::uint32_t atom) { return label(structure, atom); });
   for (const hinge::molecular::Contact& pair : verdict.pairs)
     if (pair.collides)
-      offenders_.add(key_of(static_cast<std::uint32_t>(hinge::index(pair.hit.first)),
-                            static_cast<std::uint32_t>(hinge::index(pair.hit.second))));
+      offenders_.add(static_cast<std::uint32_t>(hinge::index(pair.hit.first)),
+                     static_cast<std::uint32_t>(hinge::index(pair.hit.second)));
 }
 
 void Summary::add_clashscore(double clashscore) {
@@ -46,13 +46,8 @@ void Summary::add(const Json& row) {
   if (row.contains("clashscore")) add_clashscore(row.at("clashscore").get<double>());
   const auto pairs = row.find("pairs");
   if (pairs == row.end() || row.contains("other_atoms")) return;
-  for (const Json& pair : *pairs) {
-    if (!pair.at("collides").get<bool>()) continue;
-    const auto i = pair.at("i").get<std::uint32_t>(), j = pair.at("j").get<std::uint32_t>();
-    offenders_.add(key_of(i, j));
-    for (const auto& [atom, key] : {std::pair{i, "label_i"}, std::pair{j, "label_j"}})
-      if (!labels_.contains(atom)) labels_[atom] = pair.at(key).get<std::string>();
-  }
+  for (const Json& pair : *pairs)
+    if (pair.at("collides").get<bool>()) offenders_.add(pair);
 }
 
 void Summary::add(const Starts& starts) {
@@ -77,21 +72,9 @@ void Summary::add_closures(const Json& summary) {
                summary.at("closed_refused").get<std::uint64_t>()});
 }
 
-std::vector<Offender> Summary::top() const {
-  constexpr std::size_t most = 10;
-  const auto label_of = [&](std::uint32_t atom) { return structure_ ? label(*structure_, atom) : labels_.at(atom); };
-  std::vector<Offender> all;
-  for (const auto& [key, count] : offenders_.top(most)) {
-    const auto i = static_cast<std::uint32_t>(key >> 32U), j = static_cast<std::uint32_t>(key);
-    all.push_back({i, j, label_of(i), label_of(j), count});
-  }
-  return all;
-}
+std::vector<PairCount> Summary::top() const { return offenders_.top(most_offenders); }
 
 Json Summary::json(bool with_closures) const {
-  Json offenders = Json::array();
-  for (const Offender& o : top())
-    offenders.push_back({{"i", o.i}, {"j", o.j}, {"label_i", o.label_i}, {"label_j", o.label_j}, {"count", o.count}});
   Json summary{{"checked", checked_}, {"colliding", colliding_}};
   if (scored_ > 0) {
     summary["clashscore"] = clashscores_ / static_cast<double>(scored_);
@@ -103,7 +86,7 @@ Json Summary::json(bool with_closures) const {
     for (std::size_t k = 0; k < worst_residuals_.size(); ++k)
       closures.push_back({{"bond", closures_[k]}, {"residual", worst_residuals_[k]}});
   }
-  summary["offenders"] = offenders;
+  summary["offenders"] = offenders_.json(most_offenders);
   if (count_error() > 0) summary["offenders_count_error"] = count_error();
   if (starts_) {
     summary["missing"] = starts_->missing;

@@ -7,22 +7,14 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "hinge/molecular/checker.hpp"
-#include "hinge_tools/frequent_keys.hpp"
 #include "options.hpp"
+#include "pair_counts.hpp"
 #include "report.hpp"
 
 namespace biocd {
-
-/// A pair of atoms and the number of conformations in which it collides.
-struct Offender {
-  std::uint32_t i = 0, j = 0;
-  std::string label_i, label_j;
-  std::uint64_t count = 0;
-};
 
 /// Counts of random starts and of samples without a conformation.
 struct Starts {
@@ -60,7 +52,7 @@ class Summary {
   /// Returns the counts of starts; nothing if they are not counted.
   const std::optional<Starts>& starts() const { return starts_; }
   /// Returns the ten pairs that collide most often, most frequent first.
-  std::vector<Offender> top() const;
+  std::vector<PairCount> top() const;
   /// Returns the largest possible undercount of an offender: memory is bounded (FrequentKeys).
   std::uint64_t count_error() const { return offenders_.count_error(); }
   /// Returns the keys checked and colliding; clashscore (mean) and worst_clashscore if there are any;
@@ -79,9 +71,7 @@ class Summary {
   double clashscores_ = 0.0;  // sum over conformations
   double worst_clashscore_ = 0.0;
   bool with_offenders_ = true;
-  hinge::tool::FrequentKeys offenders_;  // keys are (i << 32) + j
-  const hinge::molecular::Structure* structure_ = nullptr;
-  std::unordered_map<std::uint32_t, std::string> labels_;  // label per atom, from rows
+  PairCounts offenders_;
 };
 
 /// Returns the exit status of a run with these counts.
