@@ -1,25 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Free conformations per second: growth residue by residue (biocd sample --collision-free) against plain samples of
 // which the free ones are kept (biocd sample, filtered). One thread. Argument: seconds per contestant and set-up.
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "clock.hpp"
 #include "hinge/molecular/checker.hpp"
 #include "hinge/molecular/closed_sampler.hpp"
 #include "hinge/molecular/free_sampler.hpp"
 #include "hinge/molecular/kept_closures.hpp"
-#include "hinge/molecular/loop.hpp"
-#include "hinge/molecular/molecule.hpp"
-#include "hinge/molecular/read_structure.hpp"
-#include "hinge/molecular/selection.hpp"
+#include "looped_molecule.hpp"
 
 namespace {
 
@@ -36,32 +32,20 @@ struct Rate {
 template <class Next>
 Rate measure(double seconds, std::uint64_t each, const Next& next) {
   Rate rate;
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = hinge::bench::Clock::now();
   while (rate.seconds < seconds) {
     rate.free += next(rate.tried);
     rate.tried += each;
-    rate.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    rate.seconds = hinge::bench::seconds_since(start);
   }
   return rate;
 }
 
 void run(const std::filesystem::path& file, const std::string& name, const std::string& loop, const std::string& free,
          double seconds) {
-  Structure structure = read_structure(file);
-  MoleculeOptions made;
-  if (!loop.empty()) made.loops = find_loops(structure, loop);
-  const auto molecule = std::make_shared<const Molecule>(std::move(structure), made);
-  CheckOptions options;
-  options.exempt_reference = true;
-  const auto chosen = [&](const std::string& side_chains) {
-    return find_kept_closures(
-        *molecule,
-        loop.empty() ? select_torsions(*molecule, free, false) : select_loop_torsions(*molecule, side_chains, false),
-        Closures::all);
-  };
-  // What each command frees by default: with --collision-free the side chains of a loop, too.
-  const KeptClosures plain = chosen("none"), grown = chosen("(" + loop + ") and chi");
-  Checker checker(molecule, molecule->select(plain.torsions), options);
+  const hinge::bench::LoopedMolecule subject(file, loop, free);
+  const KeptClosures plain = subject.plain(), grown = subject.grown();
+  Checker checker = subject.checker(plain);
   Rate rejection;
   if (plain.closures.empty()) {
     constexpr std::uint64_t block = 256;
@@ -76,13 +60,13 @@ void run(const std::filesystem::path& file, const std::string& name, const std::
       return found;
     });
   } else {
-    ClosedSampler sampler(*molecule, checker.selection(), {1, {}}, 100, plain.closures, {});
+    ClosedSampler sampler(subject.molecule(), checker.selection(), {1, {}}, 100, plain.closures, {});
     rejection = measure(seconds, 1, [&](std::uint64_t k) {
       const ClosedSample sample = sampler.sample(k);
       return sample.found() && !checker.check(sample.q, hinge::Mode::parse("any")).collides ? 1U : 0U;
     });
   }
-  const Checker other(molecule, molecule->select(grown.torsions), options);
+  const Checker other = subject.checker(grown);
   for (const Prior prior : {Prior::ramachandran, Prior::independent}) {
     FreeSampling how;
     how.prior = prior;

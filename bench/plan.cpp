@@ -2,18 +2,16 @@
 // Motions between two configurations. Robots among boxes: plan(), whose motions are proved free, against RRT-Connect of
 // OMPL that tests states by FCL or by RobotChecker at 1 % (OMPL's default) and 0.1 % of the space's diagonal. Every
 // motion found is judged by PathChecker::certify(). Molecules: plan() alone. One thread.
-// Arguments: number of seeds, and seconds for each of them.
+// Arguments: number of seeds, and the most seconds per motion (ten times as many for adenylate kinase).
 #include <ompl/util/Console.h>
 #include <ompl/util/RandomNumbers.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -21,11 +19,11 @@
 #include <utility>
 #include <vector>
 
+#include "clock.hpp"
 #include "hinge/molecular/checker.hpp"
 #include "hinge/molecular/fit_coordinates.hpp"
 #include "hinge/molecular/free_sampler.hpp"
 #include "hinge/molecular/kept_closures.hpp"
-#include "hinge/molecular/loop.hpp"
 #include "hinge/molecular/molecule.hpp"
 #include "hinge/molecular/plan.hpp"
 #include "hinge/molecular/read_structure.hpp"
@@ -34,6 +32,7 @@
 #include "hinge/robotics/path_checker.hpp"
 #include "hinge/robotics/plan.hpp"
 #include "hinge/robotics/tessellate.hpp"
+#include "looped_molecule.hpp"
 #include "robotics/planning_scenes.hpp"
 #include "robots/ompl_planner.hpp"
 #include "robots/subject.hpp"
@@ -41,14 +40,22 @@
 namespace {
 
 using namespace hinge;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+using bench::Clock;
+using bench::seconds_since;
 
 struct Row {
   std::size_t asked = 0, found = 0, colliding = 0, undecided = 0;
   std::vector<double> seconds, lengths, tested;  // tested: motions of plan(), states of OMPL
 
+  /// Adds a motion that was asked for. length: if it was found.
+  void add(double taken, std::uint64_t tests, std::optional<double> length) {
+    ++asked;
+    seconds.push_back(taken);
+    tested.push_back(static_cast<double>(tests));
+    if (!length) return;
+    ++found;
+    lengths.push_back(*length);
+  }
   static double median(std::vector<double> values) {
     if (values.empty()) return 0.0;
     std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
@@ -136,21 +143,12 @@ void run_robot(const test::PlanningScene& scene, std::uint64_t seeds, double sec
     const Clock::time_point start = Clock::now();
     const robotics::PlannedMotion motion = plan(paths, scene.from, scene.to, {.most_motions = UINT64_MAX, .seed = seed},
                                                 [&] { return seconds_since(start) > seconds; });
-    proved.seconds.push_back(seconds_since(start));
-    ++proved.asked;
-    proved.tested.push_back(static_cast<double>(motion.motions));
-    if (!motion.reached) continue;
-    ++proved.found;
+    const double taken = seconds_since(start);
     double length = 0.0;
-    for (std::size_t w = 1; w < motion.waypoints.size(); ++w) {
-      double square = 0.0;
-      for (std::size_t k = 0; k < scene.from.size(); ++k)
-        square += (motion.waypoints[w][k] - motion.waypoints[w - 1][k]) *
-                  (motion.waypoints[w][k] - motion.waypoints[w - 1][k]);
-      length += std::sqrt(square);
-    }
-    proved.lengths.push_back(length);
-    judge(motion.waypoints, proved);
+    for (std::size_t w = 1; w < motion.waypoints.size(); ++w)
+      length += bench::euclidean(motion.waypoints[w - 1], motion.waypoints[w]);
+    proved.add(taken, motion.motions, motion.reached ? std::optional(length) : std::nullopt);
+    if (motion.reached) judge(motion.waypoints, proved);
   }
   proved.print(scene.name, "plan(), proved");
 
@@ -176,12 +174,9 @@ void run_robot(const test::PlanningScene& scene, std::uint64_t seeds, double sec
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
       const Clock::time_point start = Clock::now();
       const bench::OmplMotion motion = planner.plan(of_group(scene.from), of_group(scene.to), seed, seconds);
-      row.seconds.push_back(seconds_since(start));
-      ++row.asked;
-      row.tested.push_back(static_cast<double>(motion.states));
-      if (motion.waypoints.empty()) continue;
-      ++row.found;
-      row.lengths.push_back(motion.length);
+      const double taken = seconds_since(start);
+      const bool reached = !motion.waypoints.empty();
+      row.add(taken, motion.states, reached ? std::optional(motion.length) : std::nullopt);
       std::vector<std::vector<double>> waypoints;
       for (const std::vector<double>& part : motion.waypoints) waypoints.push_back(all_joints(part));
       judge(waypoints, row);
@@ -202,20 +197,13 @@ void run_robot(const test::PlanningScene& scene, std::uint64_t seeds, double sec
   }
 }
 
-/// Ends: conformations that grow without collisions (FreeSampler), one per seed; or the coordinates of a file.
+/// From the file's conformation to others that grow without collisions (FreeSampler), one per seed.
 void run_molecule(const std::filesystem::path& file, const std::string& name, const std::string& loop,
                   const std::string& free, std::uint64_t seeds, double seconds) {
   using namespace hinge::molecular;
-  Structure structure = read_structure(file);
-  MoleculeOptions made;
-  if (!loop.empty()) made.loops = find_loops(structure, loop);
-  const auto molecule = std::make_shared<const Molecule>(std::move(structure), made);
-  CheckOptions options;
-  options.exempt_reference = true;
-  const auto torsions = loop.empty() ? select_torsions(*molecule, free, false)
-                                     : select_loop_torsions(*molecule, "(" + loop + ") and chi", false);
-  const KeptClosures kept = find_kept_closures(*molecule, torsions, Closures::all);
-  const Checker checker(molecule, molecule->select_placed(kept.torsions), options);
+  const bench::LoopedMolecule subject(file, loop, free);
+  const KeptClosures kept = subject.grown();
+  const Checker checker = subject.checker(kept);
   FreeSampling growth;
   growth.prior = Prior::ramachandran;  // as biocd sample --collision-free
   FreeSampler sampler(checker, growth, kept.closures, {});
@@ -230,12 +218,7 @@ void run_molecule(const std::filesystem::path& file, const std::string& name, co
     how.seed = k + 1;
     const PlannedMotion motion = plan(checker, {std::vector<double>(checker.dof_count(), 0.0)}, {end.q}, how,
                                       [&] { return seconds_since(start) > seconds; });
-    row.seconds.push_back(seconds_since(start));
-    ++row.asked;
-    row.tested.push_back(static_cast<double>(motion.motions));
-    if (!motion.reached) continue;
-    ++row.found;
-    row.lengths.push_back(motion.length);
+    row.add(seconds_since(start), motion.motions, motion.reached ? std::optional(motion.length) : std::nullopt);
   }
   row.print(name, std::to_string(checker.dof_count()) + " DOF");
 }
@@ -256,11 +239,7 @@ void run_kinase(const std::filesystem::path& folder, double seconds) {
   const PlannedMotion motion = plan(checker, {std::vector<double>(checker.dof_count(), 0.0)}, open, {},
                                     [&] { return seconds_since(start) > seconds; });
   Row row;
-  row.asked = 1;
-  row.found = motion.reached ? 1 : 0;
-  row.seconds = {seconds_since(start)};
-  row.tested = {static_cast<double>(motion.motions)};
-  row.lengths = {motion.length};
+  row.add(seconds_since(start), motion.motions, motion.reached ? std::optional(motion.length) : std::nullopt);
   row.print("adenylate kinase", std::to_string(checker.dof_count()) + " DOF");
   std::printf("adenylate kinase: %.1f s of it fit the open coordinates; straight %.2f A, end %.2f A from them\n",
               fitted, motion.straight, motion.end_rmsd);

@@ -3,7 +3,6 @@
 // relax). Says how many become free, how far atoms move and how long it takes; then the time of an energy with its
 // gradient beside that of a list of colliding pairs. One thread. Argument: number of conformations per row.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -15,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "clock.hpp"
 #include "hinge/core/philox.hpp"
 #include "hinge/core/vec3.hpp"
 #include "hinge/molecular/checker.hpp"
@@ -27,9 +27,8 @@
 namespace {
 
 using namespace hinge::molecular;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+using hinge::bench::Clock;
+using hinge::bench::seconds_since;
 
 std::vector<hinge::Vec3> positions_at(Checker& checker, const std::vector<double>& q) {
   checker.check(q, Mode{});

@@ -12,16 +12,11 @@
 #include <utility>
 #include <vector>
 
+#include "clock.hpp"
 #include "contestant.hpp"
 #include "scene.hpp"
 
 namespace hinge::bench {
-
-using Clock = std::chrono::steady_clock;
-
-inline double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// Time of one call in microseconds.
 template <class Work>

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -25,6 +26,13 @@
 #include "hinge_planning/motion_problem.hpp"
 
 namespace hinge::bench {
+
+/// Returns the Euclidean distance of two configurations.
+inline double euclidean(std::span<const double> a, std::span<const double> b) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
+  return std::sqrt(sum);
+}
 
 struct OmplMotion {
   std::vector<std::vector<double>> waypoints;  ///< empty if none was found
@@ -41,13 +49,8 @@ class OmplPlanner {
 
   OmplPlanner(std::vector<double> lower, std::vector<double> upper, IsFree is_free, double resolution)
       : lower_(std::move(lower)), upper_(std::move(upper)), is_free_(std::move(is_free)), resolution_(resolution) {
-    using Values = std::span<const double>;
     problem_.dof_count = lower_.size();
-    problem_.distance = [](Values a, Values b) {
-      double sum = 0.0;
-      for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
-      return std::sqrt(sum);
-    };
+    problem_.distance = euclidean;
     problem_.largest_distance = problem_.distance(lower_, upper_);
     problem_.draw = [this](SampleStream& stream, std::span<double> q) {
       for (std::size_t k = 0; k < q.size(); ++k) q[k] = lower_[k] + stream.uniform() * (upper_[k] - lower_[k]);
