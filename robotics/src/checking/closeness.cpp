@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "hinge/core/finite.hpp"
 
@@ -18,27 +17,29 @@ constexpr double small = 0x1p-500;
 
 Triangle shrunk(const Triangle& t) { return {t.a * small, t.b * small, t.c * small}; }
 
-bool overflows(const Triangle& first, const Triangle& second) { return !is_finite(squared_distance(first, second)); }
+/// Distance and nearest points; the squares of the lengths may overflow.
+struct Nearest {
+  double distance = 0.0;
+  Vec3 p, q;
+};
 
-double distance_of(const Triangle& first, const Triangle& second) {
-  return overflows(first, second) ? std::sqrt(squared_distance(shrunk(first), shrunk(second))) / small
-                                  : std::sqrt(squared_distance(first, second));
-}
-
-std::pair<Vec3, Vec3> points_of(const Triangle& first, const Triangle& second) {
-  if (!overflows(first, second)) {
+Nearest nearest(const Triangle& first, const Triangle& second) {
+  const double squared = squared_distance(first, second);
+  if (is_finite(squared)) {
     const auto [p, q] = closest_points(first, second);
-    return {p, q};
+    return {std::sqrt(squared), p, q};
   }
-  const auto [p, q] = closest_points(shrunk(first), shrunk(second));
-  return {p / small, q / small};
+  const Triangle x = shrunk(first), y = shrunk(second);
+  const auto [p, q] = closest_points(x, y);
+  return {std::sqrt(squared_distance(x, y)) / small, p / small, q / small};
 }
 
 }  // namespace
 
 Closeness closeness(const Triangle& first, const Triangle& second, const RadiusSum& sum) {
   constexpr double smallest = std::numeric_limits<double>::denorm_min();
-  const double radii = sum.first + sum.second, between = distance_of(first, second);
+  const double radii = sum.first + sum.second;
+  const auto [between, p, q] = nearest(first, second);
   const bool meet = closer_than(first, second, RadiusSum{sum.first, sum.second, 0.0});
   Closeness result;
   result.collides = closer_than(first, second, sum);
@@ -47,7 +48,6 @@ Closeness closeness(const Triangle& first, const Triangle& second, const RadiusS
   if (result.collides && !meet) result.gap = std::min(result.gap, -smallest);
   if (!result.collides) result.gap = std::max(result.gap, 0.0);
 
-  const auto [p, q] = points_of(first, second);
   const Vec3 way = q - p;
   const double plain = std::sqrt(squared_norm(way));
   const double length = is_finite(plain) ? plain : std::sqrt(squared_norm(way * small)) / small;

@@ -27,13 +27,14 @@ void copy_numbers(const Closest& from, Clearance& to) {
   to.point2 = from.point2;
 }
 
-/// Fills the normal and, for inflated triangles that overlap, the depth. `clearance` holds the
-/// numbers of distances().
-void add_direction(Clearance& clearance, const Triangle& first, const Triangle& second, double radius1,
-                   double radius2) {
-  const auto [p, q] = closest_points(first, second);
+/// Fills the normal and, for inflated triangles that overlap, the depth. `clearance` holds the numbers of distances().
+/// points(): the nearest points of the triangles without their radii.
+template <class Points>
+void add_direction(Clearance& clearance, double radius1, double radius2, const Points& points) {
+  const double radii = radius1 + radius2;
+  const auto [p, q] = radii > 0.0 ? points() : std::pair(clearance.point1, clearance.point2);
   const Vec3 way = q - p;
-  const double between = norm(way), radii = radius1 + radius2;
+  const double between = norm(way);
   clearance.is_signed = radii > 0.0 && between > 0.0;
   // At distance 0 with surfaces apart, one is inside a solid of the other.
   if (clearance.distance == 0.0 && between > radii) clearance.is_signed = false;
@@ -98,8 +99,9 @@ std::vector<LinkClearance> RobotChecker::clearances(double influence) {
     copy_numbers(closest, row);
     std::visit(
         [&](auto& hierarchy) {
-          add_direction(row, triangle_at(hierarchy, closest.triangle1), triangle_at(hierarchy, closest.triangle2),
-                        margins_.radius(closest.triangle1), margins_.radius(closest.triangle2));
+          add_direction(row, margins_.radius(closest.triangle1), margins_.radius(closest.triangle2), [&] {
+            return closest_points(triangle_at(hierarchy, closest.triangle1), triangle_at(hierarchy, closest.triangle2));
+          });
         },
         *hierarchy_);
     rows.push_back(row);
@@ -119,8 +121,9 @@ std::vector<BodyClearance> RobotChecker::clearances(Environment& environment, do
     if (Environment::held_by(body, robot_.get())) row.body_holder = body.attachment->link;
     AnyHierarchy& mine = closest.held ? environment.at(*closest.held).hierarchy : *hierarchy_;
     with_same_engine(mine, body.hierarchy, [&](auto& first, auto& second) {
-      add_direction(row, triangle_at(first, closest.triangle1), triangle_at(second, closest.triangle2),
-                    first.matrix().radius(closest.triangle1), second.matrix().radius(closest.triangle2));
+      add_direction(row, first.matrix().radius(closest.triangle1), second.matrix().radius(closest.triangle2), [&] {
+        return closest_points(triangle_at(first, closest.triangle1), triangle_at(second, closest.triangle2));
+      });
     });
     rows.push_back(row);
   }

@@ -5,7 +5,6 @@
 #include <optional>
 #include <set>
 #include <span>
-#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -18,7 +17,6 @@
 #include "checking/find_inside.hpp"
 #include "hinge/core/id.hpp"
 #include "hinge/policy/collector.hpp"
-#include "hinge/query/link_pair_hits.hpp"
 #include "hinge/robotics/environment.hpp"
 #include "hinge/robotics/robot_checker.hpp"
 
@@ -28,96 +26,51 @@ namespace {
 
 using LinkPair = std::pair<LinkId, LinkId>;
 
-/// Collects for every pair of links the pair of triangles with the smallest d - M below the margin.
+/// Collects for every pair of links within the margin the pair of triangles with the smallest d - M. If no triangle has
+/// a radius, a contact ends the search of its pair of links, because no pair of triangles is closer.
 class ClosestOfPairs {
  public:
   static constexpr bool ranks = false;
-  ClosestOfPairs(std::span<const LinkId> links, std::span<const LinkId> other_links, double margin)
-      : links_(links), other_links_(other_links), margin_(margin) {}
+  /// For queries of one robot.
+  ClosestOfPairs(std::span<const LinkId> links, double margin, bool has_radii)
+      : ClosestOfPairs(links, links, margin, has_radii) {
+    between_ = false;
+  }
+  /// For queries between two models.
+  ClosestOfPairs(std::span<const LinkId> links, std::span<const LinkId> other_links, double margin, bool has_radii)
+      : links_(links), other_links_(other_links), margin_(margin), has_radii_(has_radii) {}
   void add(const Hit& hit) {
-    const auto [known, is_new] = best_.try_emplace({links_[index(hit.first)], other_links_[index(hit.second)]}, hit);
+    const auto [known, is_new] =
+        best_.try_emplace(pair(links_[index(hit.first)], other_links_[index(hit.second)]), hit);
     const auto key = [](const Hit& h) { return std::tuple(h.gap(), h.first, h.second); };
     if (key(hit) < key(known->second)) known->second = hit;
   }
+  bool wants(LinkId a, LinkId b) const noexcept {
+    if (has_radii_) return true;
+    const auto known = best_.find(pair(a, b));
+    return known == best_.end() || known->second.distance > 0.0;
+  }
   double cutoff() const noexcept { return margin_; }
+  double cutoff(LinkId a, LinkId b) const noexcept {
+    const auto known = best_.find(pair(a, b));
+    return known == best_.end() ? margin_ : std::min(margin_, known->second.gap());
+  }
   bool done() const noexcept { return false; }
   const std::map<LinkPair, Hit>& best() const noexcept { return best_; }
 
  private:
+  LinkPair pair(LinkId a, LinkId b) const noexcept {
+    // Pairs within one robot have no order.
+    return between_ ? LinkPair(a, b) : LinkPair(std::minmax(a, b));
+  }
+
   std::span<const LinkId> links_, other_links_;
   double margin_;
+  bool has_radii_, between_ = true;
   std::map<LinkPair, Hit> best_;
 };
 
-static_assert(Collector<ClosestOfPairs>);
-
-/// Collects the hit of one pair of links with the smallest d - M, the first one in the order of ClosestOfPairs. Ranked:
-/// the search goes to the nearest boxes first, and ends at a contact if no triangle has a radius, because no pair is
-/// closer. Not ranked: it looks at every hit that collides.
-template <bool ranked>
-class ClosestOfPair {
- public:
-  static constexpr bool ranks = ranked;
-  static constexpr bool keeps_smallest = ranked;
-  /// known: a hit of the pair.
-  ClosestOfPair(std::span<const LinkId> links, std::span<const LinkId> other_links, const Hit& known, bool has_radii)
-      : links_(links),
-        other_links_(other_links),
-        pair_{links[index(known.first)], other_links[index(known.second)]},
-        best_(known),
-        has_radii_(has_radii) {}
-  void add(const Hit& hit) {
-    if (!wants(links_[index(hit.first)], other_links_[index(hit.second)])) return;
-    const auto key = [](const Hit& h) { return std::tuple(h.gap(), h.first, h.second); };
-    if (key(hit) < key(best_)) best_ = hit;
-  }
-  bool wants(LinkId a, LinkId b) const noexcept {
-    return (a == pair_.first && b == pair_.second) ||
-           (links_.data() == other_links_.data() && b == pair_.first && a == pair_.second);
-  }
-  double cutoff() const noexcept { return ranked ? best_.gap() : 0.0; }
-  bool done() const noexcept { return ranked && !has_radii_ && best_.distance == 0.0; }
-  const Hit& best() const noexcept { return best_; }
-
- private:
-  std::span<const LinkId> links_, other_links_;
-  LinkPair pair_;
-  Hit best_;
-  bool has_radii_;
-};
-
-static_assert(RefusesLinks<ClosestOfPair<true>> && KeepsSmallest<ClosestOfPair<true>>);
-
-/// Returns for every pair of links within the margin (m) the hit with the smallest gap. query(collector) runs the
-/// engine. Fine meshes have millions of pairs of triangles within a margin, so the simd engine first lists the pairs of
-/// links and then searches the closest triangles of each. has_radii: a triangle may have a radius.
-template <class Query>
-std::map<LinkPair, Hit> closest_of_pairs(const std::string& engine, std::span<const LinkId> links,
-                                         std::span<const LinkId> other_links, double margin, bool has_radii,
-                                         const Query& query) {
-  if (engine != "simd") {
-    ClosestOfPairs all(links, other_links, margin);
-    query(all);
-    return all.best();
-  }
-  const bool self = links.data() == other_links.data();
-  LinkPairHits met = self ? LinkPairHits(links, margin) : LinkPairHits(links, other_links, margin);
-  query(met);
-  std::map<LinkPair, Hit> best;
-  for (const Hit& first : met.hits()) {
-    ClosestOfPair<true> nearest(links, other_links, first, has_radii);
-    if (!nearest.done() && (!has_radii || first.gap() > 0.0)) query(nearest);
-    Hit found = nearest.best();
-    // Of several contacts, take the deepest, the first of equal ones, as every engine does.
-    if (found.distance == 0.0 || (has_radii && !(found.gap() > 0.0))) {
-      ClosestOfPair<false> contacts(links, other_links, found, has_radii);
-      query(contacts);
-      found = contacts.best();
-    }
-    best.emplace(LinkPair(links[index(first.first)], other_links[index(first.second)]), found);
-  }
-  return best;
-}
+static_assert(RefusesLinks<ClosestOfPairs> && KeepsSmallestOfLinks<ClosestOfPairs>);
 
 }  // namespace
 
@@ -128,8 +81,9 @@ std::vector<ClosestLinks> RobotChecker::surfaces_nearby(LinkId link, double marg
         // Rounding differs in this frame: enlarge the margin to keep the pairs that were within it.
         const double wider = margin * (1.0 + 0x1p-20) + 0x1p-20;
         std::vector<ClosestLinks> all;
-        const auto ask = [&](auto& collector) { hierarchy.self_query(collector); };
-        for (const auto& [pair, hit] : closest_of_pairs(engine_, links, links, wider, margins_.has_radii(), ask))
+        ClosestOfPairs found(links, wider, margins_.has_radii());
+        hierarchy.self_query(found);
+        for (const auto& [pair, hit] : found.best())
           if (pair.first == link)
             all.push_back(answer(pair.first, pair.second, hit,
                                  measure(hierarchy, hierarchy, hit, margins_.sum(hit.first, hit.second))));
@@ -143,10 +97,11 @@ std::vector<ClosestLinks> RobotChecker::distances(double margin) {
   const std::span<const LinkId> links = robot_->model().links();
   return std::visit(
       [&](auto& hierarchy) {
-        const auto ask = [&](auto& collector) { hierarchy.self_query(collector); };
         std::map<LinkPair, ClosestLinks> found;
         std::set<LinkId> far;  // first links of the pairs far from the origin
-        for (const auto& [pair, hit] : closest_of_pairs(engine_, links, links, margin, margins_.has_radii(), ask)) {
+        ClosestOfPairs surfaces(links, margin, margins_.has_radii());
+        hierarchy.self_query(surfaces);
+        for (const auto& [pair, hit] : surfaces.best()) {
           found[pair] = answer(pair.first, pair.second, hit,
                                measure(hierarchy, hierarchy, hit, margins_.sum(hit.first, hit.second)));
           if (is_far(found[pair])) far.insert(pair.first);
@@ -182,9 +137,9 @@ std::vector<ClosestBody> RobotChecker::distances(Environment& environment, doubl
     const std::size_t before = found.size();
     ask(pair, environment, [&](auto& mine, auto& theirs, const auto& filter, const QueryOptions& options) {
       const std::span<const LinkId> links = mine.model().model().links(), others = theirs.model().model().links();
-      const auto query = [&](auto& collector) { mine.query(theirs, collector, filter, options); };
-      const bool has_radii = mine.matrix().has_radii() || theirs.matrix().has_radii();
-      for (const auto& [links_of_hit, hit] : closest_of_pairs(engine_, links, others, margin, has_radii, query)) {
+      ClosestOfPairs surfaces(links, others, margin, mine.matrix().has_radii() || theirs.matrix().has_radii());
+      mine.query(theirs, surfaces, filter, options);
+      for (const auto& [links_of_hit, hit] : surfaces.best()) {
         const double more = detail::clearance_of(options.clearance, mine.model().group_of(hit.first));
         const Closeness n =
             measure(mine, theirs, hit, mine.matrix().sum(hit.first, theirs.matrix(), hit.second) + more);

@@ -76,6 +76,12 @@ struct TriangleLeaf {
     return {Float16(at + 3 * c * n), Float16(at + (3 * c + 1) * n), Float16(at + (3 * c + 2) * n)};
   }
 
+  /// Returns the largest projection of each triangle on an axis.
+  [[gnu::always_inline]] static Float16 top(const float* at, const One3& axis) noexcept {
+    const Lanes3 wide{axis.x, axis.y, axis.z};
+    return max(max(along(wide, corner(at, 0)), along(wide, corner(at, 1))), along(wide, corner(at, 2)));
+  }
+
   /// Sixteen triangles of another tree, transformed to this tree's frame.
   class Turned {
    public:

@@ -11,9 +11,9 @@
 
 namespace hinge::detail {
 
-/// Lower and upper bounds of sixteen distances.
+/// Lower and upper bounds of sixteen distances, and the differences of the points that give the upper bounds.
 struct Bounds16 {
-  alignas(64) std::array<float, simd::width> lower, upper;
+  alignas(64) std::array<float, simd::width> lower, upper, x, y, z;
 };
 
 /// An upper bound is the distance of two points on the triangles: the best of nine edge pairs and six pairs of corner
@@ -42,6 +42,9 @@ class TrianglePairs {
     }
     const Float16 error(error_.data());
     const Lanes3 axis = difference(best.q, best.p);
+    axis.x.store(bounds.x.data());
+    axis.y.store(bounds.y.data());
+    axis.z.store(bounds.z.data());
     const Float16 square = along(axis, axis), length = root(square);
     (length * Float16(1.0F + 0x1p-20F) + error * Float16(4.0F)).store(bounds.upper.data());
     const auto project = [&](const Corners3& c) __attribute__((always_inline)) {

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "hinge/core/id.hpp"
@@ -32,20 +34,49 @@ class ClosestSearch {
   template <Collector C, class PairTest, class List>
   void run(const TreeOperand<P>& a, const TreeOperand<P>& b, NearSearch<P>& near, Witnesses<P>& witnesses,
            const PairTest& pair_test, C& collector, QueryCounts& counts, const List& list) {
-    const double scale = a.trees.parts().scale;
     double bound = collector.cutoff();
-    // Witnesses may belong to links that the collector refuses.
-    if constexpr (KeepsSmallest<C> && !RefusesLinks<C>)
-      bound = std::min(bound, witnesses.bound(a.state, b.state, pair_test));
+    if constexpr (KeepsSmallest<C>) bound = std::min(bound, witnesses.bound(a.state, b.state, pair_test));
     pairs_.clear();
     list(bound, pairs_);
-    if constexpr (RefusesLinks<C>)
-      std::erase_if(pairs_, [&](const PartPair& pair) {
-        return !collector.wants(a.part(pair.first).link, b.part(pair.second).link);
-      });
-    std::sort(pairs_.begin(), pairs_.end(), [](const PartPair& x, const PartPair& y) {
+    const auto nearest_first = [](const PartPair& x, const PartPair& y) {
       return std::tie(x.gap, x.first, x.second) < std::tie(y.gap, y.first, y.second);
-    });
+    };
+    if constexpr (KeepsSmallestOfLinks<C>) {
+      const auto links = [&](const PartPair& pair) {
+        return std::pair(a.part(pair.first).link, b.part(pair.second).link);
+      };
+      std::sort(pairs_.begin(), pairs_.end(), [&](const PartPair& x, const PartPair& y) {
+        const auto p = links(x), q = links(y);
+        return p != q ? p < q : nearest_first(x, y);
+      });
+      for (std::size_t first = 0, last = 0; first < pairs_.size(); first = last) {
+        const auto both = links(pairs_[first]);
+        while (last < pairs_.size() && links(pairs_[last]) == both) ++last;
+        search(a, b, near, pair_test, collector, counts, std::span(pairs_).subspan(first, last - first), bound,
+               [&] { return collector.cutoff(both.first, both.second); });
+      }
+    } else {
+      std::sort(pairs_.begin(), pairs_.end(), nearest_first);
+      search(a, b, near, pair_test, collector, counts, std::span(pairs_), bound, [&] { return collector.cutoff(); });
+    }
+    if constexpr (KeepsSmallest<C> && requires { collector.hit()->first; })
+      if (collector.hit()) witnesses.remember(*collector.hit(), a.state, b.state);
+  }
+
+ private:
+  struct Candidate {
+    std::uint32_t slot_a, slot_b;
+    double lower;  // lower bound of d - M, model unit
+  };
+  static constexpr std::size_t most_candidates = 1024;
+
+  /// Searches pairs of tree parts that are sorted by their gaps. cutoff(): largest d - M of interest; bound: an upper
+  /// bound of it.
+  template <Collector C, class PairTest, class Cutoff>
+  void search(const TreeOperand<P>& a, const TreeOperand<P>& b, NearSearch<P>& near, const PairTest& pair_test,
+              C& collector, QueryCounts& counts, std::span<const PartPair> pairs, double bound, const Cutoff& cutoff) {
+    constexpr bool smallest = KeepsSmallest<C> || KeepsSmallestOfLinks<C>;
+    const double scale = a.trees.parts().scale;
     // Lower bound of d - M over all pairs.
     const double least = -std::max(a.trees.parts().largest_threshold, b.trees.parts().largest_threshold) -
                          a.largest_clearance() - b.largest_clearance();
@@ -54,23 +85,28 @@ class ClosestSearch {
       std::sort(candidates_.begin(), candidates_.end(),
                 [](const Candidate& x, const Candidate& y) { return x.lower < y.lower; });
       for (const Candidate& c : candidates_) {
-        if (c.lower > collector.cutoff() || (KeepsSmallest<C> && collector.cutoff() <= least)) break;
+        if (c.lower > cutoff() || (smallest && cutoff() <= least)) break;
         const PrimitiveId i = a.primitive(c.slot_a), j = b.primitive(c.slot_b);
-        pair_test.test_pair(i, j, a.state.alone(i), b.state.alone(j));
+        const P p = a.state.alone(i), q = b.state.alone(j);
+        // If the pair of links has a hit within a margin, exact decisions are no longer needed.
+        if (KeepsSmallestOfLinks<C> && collector.cutoff() > 0.0 && cutoff() < collector.cutoff())
+          pair_test.test_pair.rounded(i, j, p, q, cutoff());
+        else
+          pair_test.test_pair(i, j, p, q);
       }
       candidates_.clear();
-      bound = std::min(bound, collector.cutoff());
+      bound = std::min(bound, cutoff());
     };
-    if (KeepsSmallest<C> && least == 0.0) {
+    if (smallest && least == 0.0) {
       // A yes/no search is faster. If it finds a collision, no pair can be closer.
-      for (const PartPair& pair : pairs_) {
-        if (pair.gap > 0.0F || collector.cutoff() <= least) break;
+      for (const PartPair& pair : pairs) {
+        if (pair.gap > 0.0F || cutoff() <= least) break;
         near.run(a, a.part(pair.first), b, b.part(pair.second), 0.0, pair_test, collector, counts);
       }
-      bound = std::min(bound, collector.cutoff());
+      bound = std::min(bound, cutoff());
     }
-    for (const PartPair& pair : pairs_) {
-      if (collector.done() || (KeepsSmallest<C> && collector.cutoff() <= least)) break;
+    for (const PartPair& pair : pairs) {
+      if (collector.done() || (smallest && cutoff() <= least)) break;
       const double extra = a.clearance_at(pair.first) + b.clearance_at(pair.second);
       // Overlapping boxes give no bound of the penetration depth.
       if (pair.gap > 0.0F && static_cast<double>(pair.gap) / scale - extra > bound) {
@@ -89,28 +125,19 @@ class ClosestSearch {
                       if (reach_b != nullptr) reach += static_cast<double>(reach_b[slots_b[k]]) * ratio;
                       reach = reach / scale + extra;
                       const double upper = static_cast<double>(bounds.upper[k]) / scale;
-                      if (KeepsSmallest<C> && upper - reach < bound) {
+                      if (smallest && upper - reach < bound) {
                         const PrimitiveId i = a.primitive(slots_a[k]), j = b.primitive(slots_b[k]);
                         if (pair_test.admits(i, j)) bound = std::min(bound, upper - pair_test.threshold(i, j));
                       }
                       const double lower = static_cast<double>(bounds.lower[k]) / scale - reach;
                       if (lower <= bound) candidates_.push_back({slots_a[k], slots_b[k], lower});
                     }
-                    if (!KeepsSmallest<C> || candidates_.size() >= most_candidates) settle();
+                    if (!smallest || candidates_.size() >= most_candidates) settle();
                     return a.scaled(bound + extra);
                   });
     }
     settle();
-    if constexpr (KeepsSmallest<C> && requires { collector.hit()->first; })
-      if (collector.hit()) witnesses.remember(*collector.hit(), a.state, b.state);
   }
-
- private:
-  struct Candidate {
-    std::uint32_t slot_a, slot_b;
-    double lower;  // lower bound of d - M, model unit
-  };
-  static constexpr std::size_t most_candidates = 1024;
 
   ClosestFinder<P> finder_;
   std::vector<PartPair> pairs_;

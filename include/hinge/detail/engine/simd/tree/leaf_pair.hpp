@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -71,6 +73,34 @@ class LeafPair {
   const float* own() const noexcept { return own_.leaf(leaf_); }
   simd::Bits real() const noexcept { return own_.store.real[leaf_]; }
   const Nearness& nearness() const noexcept { return near_; }
+
+  /// Returns those of the lanes `ones` of the other leaf that are within the margin along an axis of length <= 1 from
+  /// the own tree to the other tree.
+  [[gnu::flatten]] simd::Bits separate(const Axis<float>& axis, simd::Bits ones) noexcept {
+    const float slack = near_.margin + std::abs(near_.margin) * 0x1p-20F + 1e-37F +
+                        2.0F * near_.error * (std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z));
+    simd::Float16 top = TriangleLeaf::top(own(), axis) + simd::Float16(slack);
+    simd::Float16 bottom = -TriangleLeaf::top(turned().coordinates(), {-axis.x, -axis.y, -axis.z});
+    constexpr float up = 1.0F + 0x1p-20F;
+    if (near_.reach != nullptr) top = top + simd::Float16(near_.reach) * simd::Float16(up);
+    if (near_.other_reach != nullptr) bottom = bottom - simd::Float16(near_.other_reach) * simd::Float16(up);
+    top.store(top_.data());
+    bottom.store(bottom_.data());
+    return ones & ~less(simd::Float16(largest(top)), bottom);
+  }
+  /// After separate(): lanes of the own leaf that may be near lane k of the other leaf.
+  [[gnu::always_inline]] simd::Bits lanes(std::size_t k) const noexcept {
+    return real() & ~less(simd::Float16(top_.data()), simd::Float16(bottom_[k]));
+  }
+  /// After separate(): the lane of `ones` (not 0) that is nearest along the axis.
+  std::size_t first_of(simd::Bits ones) const noexcept {
+    auto best = static_cast<std::size_t>(std::countr_zero(ones));
+    for (; ones != 0; ones &= ones - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(ones));
+      if (bottom_[k] < bottom_[best]) best = k;
+    }
+    return best;
+  }
   void set_margin(float margin) noexcept { near_.margin = margin; }
 
  private:
@@ -79,6 +109,7 @@ class LeafPair {
   std::uint32_t leaf_;
   simd::Bits ones_;
   Nearness near_;
+  alignas(64) std::array<float, simd::width> top_, bottom_;  // along the axis of separate()
 };
 
 }  // namespace hinge::detail

@@ -51,7 +51,7 @@ class TreeSide {
       return options.groups.holds_larger(g, h) && (!options.moved_only || state.moved_apart(g, h));
     };
     const double most = mine.largest_clearance();
-    if constexpr (C::ranks) {
+    if constexpr (C::ranks || KeepsSmallestOfLinks<C>) {
       const PlacedParts& placed = trees_.links();
       const std::size_t n = placed.set().size();
       closest_.run(
@@ -137,7 +137,7 @@ class TreeSide {
     closest_.reserve(depth);
     const std::size_t n = theirs.trees_.parts().links.size();
     const double most = mine.largest_clearance();
-    if constexpr (C::ranks) {
+    if constexpr (C::ranks || KeepsSmallestOfLinks<C>) {
       if (witnessed_.lock() != theirs.trees_.shared_parts()) cross_witnesses_.clear();
       witnessed_ = theirs.trees_.shared_parts();
       closest_.run(mine, others, near_, cross_witnesses_, pair_test, collector, counts,
