@@ -11,6 +11,7 @@
 #include "hinge/core/vec3.hpp"
 #include "hinge/detail/exact/error_free.hpp"
 #include "hinge/detail/primitive/triangle_corners.hpp"
+#include "hinge/detail/simd/lanes.hpp"
 
 namespace hinge::detail {
 
@@ -130,12 +131,55 @@ class TrianglePair {
     return {s, t};
   }
 
-  /// Returns the squared distance of p to the face of t, or infinity when the foot of the perpendicular is outside.
-  static double to_face(const Side& t, const Vec3& p) noexcept {
-    const Vec3 w = p - t.corner[0];
-    const double s = dot(w, t.to_first), r = dot(w, t.to_second), height = dot(w, t.normal);
-    const bool inside = s >= 0.0 && r >= 0.0 && s + r <= t.normal_square && t.normal_square > exact::lost_squares;
-    return inside ? height * height / t.normal_square : std::numeric_limits<double>::infinity();
+  /// Three vectors in lanes; the fourth lane repeats the first.
+  struct Three {
+    explicit Three(const std::array<Vec3, 3>& v) noexcept
+        : x(simd::Double4::of(v[0][0], v[1][0], v[2][0], v[0][0])),
+          y(simd::Double4::of(v[0][1], v[1][1], v[2][1], v[0][1])),
+          z(simd::Double4::of(v[0][2], v[1][2], v[2][2], v[0][2])) {}
+    simd::Double4 x, y, z;
+  };
+  static simd::Double4 lanes(const std::array<double, 3>& v) noexcept {
+    return simd::Double4::of(v[0], v[1], v[2], v[0]);
+  }
+  static simd::Double4 dots(const Three& a, const Vec3& b) noexcept {
+    return a.x * simd::Double4(b[0]) + a.y * simd::Double4(b[1]) + a.z * simd::Double4(b[2]);
+  }
+
+  /// Writes the squared distances of edge k of x and each edge of y, as on_edges.
+  void squares_of_edges(std::size_t k, const Three& corners, const Three& edges, const simd::Double4& square,
+                        const simd::Double4& inverse, double* squares) const noexcept {
+    using simd::Double4;
+    const Double4 zero(0.0), one(1.0);
+    const auto clamp = [&](const Double4& share) { return min(max(share, zero), one); };
+    const Vec3 &from = x_.corner[k], &u = x_.edge[k];
+    const Double4 rx = Double4(from[0]) - corners.x, ry = Double4(from[1]) - corners.y,
+                  rz = Double4(from[2]) - corners.z;
+    const Double4 a(x_.square[k]), ux(u[0]), uy(u[1]), uz(u[2]);
+    const Double4 b = ux * edges.x + uy * edges.y + uz * edges.z, c = ux * rx + uy * ry + uz * rz,
+                  f = edges.x * rx + edges.y * ry + edges.z * rz;
+    const Double4 determinant = a * square - b * b;
+    const Double4 start = clamp(choose_less(zero, determinant, (b * f - c * square) / determinant, zero));
+    const Double4 t = clamp((b * start + f) * inverse), s = clamp((b * t - c) * Double4(x_.inverse[k]));
+    const Double4 dx = rx + ux * s - edges.x * t, dy = ry + uy * s - edges.y * t, dz = rz + uz * s - edges.z * t;
+    (dx * dx + dy * dy + dz * dz).store(squares);
+  }
+
+  /// Writes the squared distances of three points to the face of t, or infinity where the foot of the perpendicular is
+  /// outside.
+  static void squares_to_face(const Side& t, const Three& points, double* squares) noexcept {
+    using simd::Double4;
+    const Double4 zero(0.0), infinite(std::numeric_limits<double>::infinity()), square(t.normal_square);
+    Three w = points;
+    w.x = w.x - Double4(t.corner[0][0]);
+    w.y = w.y - Double4(t.corner[0][1]);
+    w.z = w.z - Double4(t.corner[0][2]);
+    const Double4 s = dots(w, t.to_first), r = dots(w, t.to_second), height = dots(w, t.normal);
+    Double4 result = height * height / square;
+    result = choose_less(s, zero, infinite, result);
+    result = choose_less(r, zero, infinite, result);
+    result = choose_less(square, s + r, infinite, result);
+    (t.normal_square > exact::lost_squares ? result : infinite).store(squares);
   }
 
   static Vec3 foot(const Side& t, const Vec3& p) noexcept {
@@ -156,15 +200,17 @@ inline TrianglePair::Nearest TrianglePair::nearest() const noexcept {
     best = squared < least ? which : best;
     least = squared < least ? squared : least;
   };
+  std::array<double, 20> squares;  // four for each edge of x, for the corners of x, for the corners of y
+  const Three corners(y_.corner), edges(y_.edge);
+  const simd::Double4 lengths = lanes(y_.square), inverse = lanes(y_.inverse);
+  for (std::size_t k = 0; k < 3; ++k) squares_of_edges(k, corners, edges, lengths, inverse, squares.data() + 4 * k);
+  squares_to_face(y_, Three(x_.corner), squares.data() + 12);
+  squares_to_face(x_, corners, squares.data() + 16);
   for (std::size_t k = 0; k < 3; ++k)
-    for (std::size_t l = 0; l < 3; ++l) {
-      Vec3 apart;
-      on_edges(k, l, apart);
-      offer(3 * k + l, squared_norm(apart));
-    }
+    for (std::size_t l = 0; l < 3; ++l) offer(3 * k + l, squares[4 * k + l]);
   for (std::size_t k = 0; k < 3; ++k) {
-    offer(9 + k, to_face(y_, x_.corner[k]));
-    offer(12 + k, to_face(x_, y_.corner[k]));
+    offer(9 + k, squares[12 + k]);
+    offer(12 + k, squares[16 + k]);
   }
 
   Nearest n;
