@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <thread>
@@ -67,13 +68,16 @@ void expect_free(const PlannedMotion& motion, RobotChecker& brute, Environment b
   }
 }
 
-/// Joints are within their limits, or between a limit and an end that is outside.
+/// Joints are within their limits, or between a limit and an end that is outside. Continuous joints are at most half a
+/// turn beyond the ends.
 void expect_limits(const PlannedMotion& motion, const Robot& robot, const std::vector<double>& from,
                    const std::vector<double>& to) {
   for (const std::vector<double>& q : motion.waypoints)
     for (std::size_t j = 0; j < q.size(); ++j) {
-      EXPECT_GE(q[j], std::min({robot.lower()[j], from[j], to[j]}));
-      EXPECT_LE(q[j], std::max({robot.upper()[j], from[j], to[j]}));
+      const auto [least, most] = std::minmax(from[j], to[j]);
+      const bool turns = robot.description().joints[robot.independent_joints()[j]].type == JointType::continuous;
+      EXPECT_GE(q[j], turns ? least - std::numbers::pi : std::min(robot.lower()[j], least));
+      EXPECT_LE(q[j], turns ? most + std::numbers::pi : std::max(robot.upper()[j], most));
     }
 }
 
