@@ -420,6 +420,17 @@ def run(question, executor, folder, *, threads=1, ship=None, retries=3, in_fligh
     return call.summary
 
 
+def _end_with_parent():
+    """Ends this process when its parent has ended. A pool whose client was killed would wait for work for ever."""
+    import multiprocessing
+
+    def wait():
+        multiprocessing.parent_process().join()
+        os._exit(1)
+
+    threading.Thread(target=wait, daemon=True).start()
+
+
 def _executor_of(arguments):
     """Returns the executor that the command line asks for."""
     if arguments.scheduler:
@@ -433,7 +444,8 @@ def _executor_of(arguments):
     import concurrent.futures
     import multiprocessing
 
-    return concurrent.futures.ProcessPoolExecutor(arguments.local, mp_context=multiprocessing.get_context("spawn"))
+    return concurrent.futures.ProcessPoolExecutor(arguments.local, mp_context=multiprocessing.get_context("spawn"),
+                                                  initializer=_end_with_parent)
 
 
 def _parser():

@@ -200,7 +200,17 @@ def call(words, **more):
     return subprocess.run(words, env=environment(), capture_output=True, text=True, timeout=120, check=False, **more)
 
 
-def test_the_command_survives_kills_of_the_client():
+def processes_in(folder):
+    """The processes whose working directory is the folder."""
+    found = []
+    for link in pathlib.Path("/proc").glob("[0-9]*/cwd"):
+        with contextlib.suppress(OSError):  # ended meanwhile
+            if link.readlink() == folder:
+                found.append(int(link.parent.name))
+    return [number for number in found if number != os.getpid()]
+
+
+def test_the_command_survives_kills_of_the_client(place):
     seed = random.Random(25)
     for _ in range(3):
         client = subprocess.Popen(command("--local", "2"), env=environment(), stdout=subprocess.DEVNULL,
@@ -208,6 +218,10 @@ def test_the_command_survives_kills_of_the_client():
         time.sleep(seed.uniform(0.2, 0.8))
         client.kill()
         client.wait()
+    end = time.monotonic() + 20.0
+    while processes_in(place) and time.monotonic() < end:
+        time.sleep(0.1)
+    assert not processes_in(place)  # no worker and no tool waits for ever
     done = call(command("--local", "2"))
     assert done.returncode == 0, done.stderr
     assert "of 50 units computed" in done.stdout and "biocd merge parts prints the output" in done.stdout
