@@ -109,5 +109,19 @@ TEST(VectorSinCos, HasTheBitsOfTheScalarOne) {
   }
 }
 
+/// On every instruction set, also for types that ask for a whole cache line.
+TEST(AlignedVector, StartsAtACacheLine) {
+  struct alignas(64) Line {
+    std::array<float, 16> numbers;
+  };
+  AlignedVector<Line> lines;
+  for (std::size_t n = 1; n <= 1000; ++n) {
+    const AlignedVector<float> floats(n);
+    lines.resize(n);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(floats.data()) % 64, 0U);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(lines.data()) % 64, 0U);
+  }
+}
+
 }  // namespace lanes_test
 }  // namespace hinge::detail::simd

@@ -3,11 +3,11 @@
 // registers.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <experimental/simd>
+#include <new>
 #include <vector>
 
 namespace hinge::detail::simd {
@@ -186,9 +186,25 @@ class Lanes {
   std::array<Vector, parts> v_;
 };
 
+/// Allocates memory at multiples of a cache line. Eigen's allocator aligns to the registers of the instruction set, so
+/// code for two instruction sets could not exchange vectors.
+template <class T>
+struct LineAllocator {
+  using value_type = T;
+  static constexpr std::align_val_t line{64};
+  static_assert(alignof(T) <= 64);
+
+  LineAllocator() = default;
+  template <class U>
+  LineAllocator(const LineAllocator<U>&) noexcept {}
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), line)); }
+  void deallocate(T* at, std::size_t) noexcept { ::operator delete(at, line); }
+  friend bool operator==(const LineAllocator&, const LineAllocator&) noexcept { return true; }
+};
+
 /// A vector with aligned storage. Register loads then never cross a cache line, which would halve their rate.
 template <class T>
-using AlignedVector = std::vector<T, Eigen::aligned_allocator<T>>;
+using AlignedVector = std::vector<T, LineAllocator<T>>;
 
 /// Width of blocks, nodes and candidate groups on every instruction set. In measurements it also pays where sixteen
 /// floats need four registers.
