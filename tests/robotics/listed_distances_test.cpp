@@ -75,6 +75,29 @@ TEST(ListedDistances, AreTheSameFromEveryEngine) {
   EXPECT_GT(with_body, 200U);
 }
 
+/// Boxes have no radii: nothing is closer than a contact. With margin 0 nothing else is listed.
+TEST(ListedDistances, OfContactsWithoutRadii) {
+  const PlacedShape box{BoxShape{{1, 1, 1}}};
+  RobotDescription boxes{"boxes", {{"a", {box}}, {"b", {box}}, {"c", {box}}}, {}};
+  boxes.joints.push_back({"slide", JointType::prismatic, "a", "b", {Mat3::Identity(), Vec3(0.5, 0.25, 0.125)}});
+  boxes.joints.push_back({"away", JointType::prismatic, "b", "c", {Mat3::Identity(), Vec3(0.25, 0.5, 0.25)}});
+  const auto robot = std::make_shared<const Robot>(boxes);
+  for (const std::string engine : {"brute", "lazy", "simd"}) {
+    SCOPED_TRACE(engine);
+    RobotChecker checker = checker_of(robot, engine, 0.0);
+    Environment environment(0.0, engine);
+    environment.add(BoxShape{{0.5, 0.5, 0.5}}, {Mat3::Identity(), Vec3(0.5, 0.5, 0.5)}, "box");
+    checker.update(std::vector<double>{0.0, 0.0});
+    for (const double margin : {0.0, 0.01}) {
+      const auto links = checker.distances(margin);
+      ASSERT_EQ(links.size(), 1U);  // a and c
+      EXPECT_EQ(links[0].distance, 0.0);
+      EXPECT_EQ(checker.distances(environment, margin).size(), 3U);
+      for (const ClosestBody& pair : checker.distances(environment, margin)) EXPECT_EQ(pair.distance, 0.0);
+    }
+  }
+}
+
 /// Two meshes of 10 580 triangles each. All triangle pairs, 112 million, are within the margin.
 TEST(ListedDistances, OfFineMeshesAreQuick) {
   const Tessellation fine{Tessellation::Manner::circumscribed, 3e-4};

@@ -143,8 +143,7 @@ struct Plainest : NeverDone {
   static constexpr bool stops_at_first = false, keeps_smallest = true;  // keeps_smallest without ranks
   void add_measured(const Hit&) {}                                      // without the error
   int wants(LinkId, LinkId) const noexcept { return 1; }                // not a bool
-  using NeverDone::cutoff;
-  int cutoff(LinkId, LinkId) const noexcept { return 0; }  // not a double
+  int smallest(LinkId, LinkId) const noexcept { return 0; }             // not a double
 };
 static_assert(Collector<Plainest> && !StopsAtFirst<Plainest> && !KeepsSmallest<Plainest>);
 static_assert(!RefusesLinks<Plainest> && !KeepsSmallestOfLinks<Plainest> && !detail::TakesMeasured<Plainest>);

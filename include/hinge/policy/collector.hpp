@@ -65,11 +65,11 @@ concept RefusesLinks = Collector<C> && requires(const C& collector, LinkId a, Li
 };
 
 /// Optional refinement of collectors that do not rank: of each pair of links only the pair with the smallest d - M
-/// matters. cutoff(a, b): the smallest d - M that add() has received for this pair of links, else cutoff(). An engine
-/// may leave out pairs of primitives above it.
+/// matters. smallest(a, b): the smallest d - M that add() has received for this pair of links, infinity before the
+/// first. An engine may leave out pairs of primitives above it.
 template <class C>
 concept KeepsSmallestOfLinks = Collector<C> && !C::ranks && requires(const C& collector, LinkId a, LinkId b) {
-  { collector.cutoff(a, b) }
+  { collector.smallest(a, b) }
   noexcept->std::same_as<double>;
 };
 

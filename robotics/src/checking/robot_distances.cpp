@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Computes the closest points of every pair of links, or of a link and a body, within a margin.
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -51,9 +52,9 @@ class ClosestOfPairs {
     return known == best_.end() || known->second.distance > 0.0;
   }
   double cutoff() const noexcept { return margin_; }
-  double cutoff(LinkId a, LinkId b) const noexcept {
+  double smallest(LinkId a, LinkId b) const noexcept {
     const auto known = best_.find(pair(a, b));
-    return known == best_.end() ? margin_ : std::min(margin_, known->second.gap());
+    return known == best_.end() ? std::numeric_limits<double>::infinity() : known->second.gap();
   }
   bool done() const noexcept { return false; }
   const std::map<LinkPair, Hit>& best() const noexcept { return best_; }

@@ -53,7 +53,7 @@ class ClosestSearch {
         const auto both = links(pairs_[first]);
         while (last < pairs_.size() && links(pairs_[last]) == both) ++last;
         search(a, b, near, pair_test, collector, counts, std::span(pairs_).subspan(first, last - first), bound,
-               [&] { return collector.cutoff(both.first, both.second); });
+               [&] { return collector.smallest(both.first, both.second); });
       }
     } else {
       std::sort(pairs_.begin(), pairs_.end(), nearest_first);
@@ -70,26 +70,29 @@ class ClosestSearch {
   };
   static constexpr std::size_t most_candidates = 1024;
 
-  /// Searches pairs of tree parts that are sorted by their gaps. cutoff(): largest d - M of interest; bound: an upper
-  /// bound of it.
-  template <Collector C, class PairTest, class Cutoff>
+  /// Searches pairs of tree parts that are sorted by their gaps. bound: upper bound of the d - M of interest.
+  /// smallest(): the smallest d - M so far, or, if the collector does not keep it, its cutoff.
+  template <Collector C, class PairTest, class Smallest>
   void search(const TreeOperand<P>& a, const TreeOperand<P>& b, NearSearch<P>& near, const PairTest& pair_test,
-              C& collector, QueryCounts& counts, std::span<const PartPair> pairs, double bound, const Cutoff& cutoff) {
-    constexpr bool smallest = KeepsSmallest<C> || KeepsSmallestOfLinks<C>;
+              C& collector, QueryCounts& counts, std::span<const PartPair> pairs, double bound,
+              const Smallest& smallest) {
+    constexpr bool keeps_smallest = KeepsSmallest<C> || KeepsSmallestOfLinks<C>;
+    const auto cutoff = [&] { return std::min(collector.cutoff(), smallest()); };
     const double scale = a.trees.parts().scale;
     // Lower bound of d - M over all pairs.
     const double least = -std::max(a.trees.parts().largest_threshold, b.trees.parts().largest_threshold) -
                          a.largest_clearance() - b.largest_clearance();
+    const auto is_settled = [&] { return keeps_smallest && smallest() <= least; };
     candidates_.clear();
     const auto settle = [&] {
       std::sort(candidates_.begin(), candidates_.end(),
                 [](const Candidate& x, const Candidate& y) { return x.lower < y.lower; });
       for (const Candidate& c : candidates_) {
-        if (c.lower > cutoff() || (smallest && cutoff() <= least)) break;
+        if (c.lower > cutoff() || is_settled()) break;
         const PrimitiveId i = a.primitive(c.slot_a), j = b.primitive(c.slot_b);
         const P p = a.state.alone(i), q = b.state.alone(j);
         // If the pair of links has a hit within a margin, exact decisions are no longer needed.
-        if (KeepsSmallestOfLinks<C> && collector.cutoff() > 0.0 && cutoff() < collector.cutoff())
+        if (KeepsSmallestOfLinks<C> && collector.cutoff() > 0.0 && smallest() <= collector.cutoff())
           pair_test.test_pair.rounded(i, j, p, q, cutoff());
         else
           pair_test.test_pair(i, j, p, q);
@@ -97,16 +100,16 @@ class ClosestSearch {
       candidates_.clear();
       bound = std::min(bound, cutoff());
     };
-    if (smallest && least == 0.0) {
+    if (keeps_smallest && least == 0.0) {
       // A yes/no search is faster. If it finds a collision, no pair can be closer.
       for (const PartPair& pair : pairs) {
-        if (pair.gap > 0.0F || cutoff() <= least) break;
+        if (pair.gap > 0.0F || is_settled()) break;
         near.run(a, a.part(pair.first), b, b.part(pair.second), 0.0, pair_test, collector, counts);
       }
       bound = std::min(bound, cutoff());
     }
     for (const PartPair& pair : pairs) {
-      if (collector.done() || (smallest && cutoff() <= least)) break;
+      if (collector.done() || is_settled()) break;
       const double extra = a.clearance_at(pair.first) + b.clearance_at(pair.second);
       // Overlapping boxes give no bound of the penetration depth.
       if (pair.gap > 0.0F && static_cast<double>(pair.gap) / scale - extra > bound) {
@@ -125,14 +128,14 @@ class ClosestSearch {
                       if (reach_b != nullptr) reach += static_cast<double>(reach_b[slots_b[k]]) * ratio;
                       reach = reach / scale + extra;
                       const double upper = static_cast<double>(bounds.upper[k]) / scale;
-                      if (smallest && upper - reach < bound) {
+                      if (keeps_smallest && upper - reach < bound) {
                         const PrimitiveId i = a.primitive(slots_a[k]), j = b.primitive(slots_b[k]);
                         if (pair_test.admits(i, j)) bound = std::min(bound, upper - pair_test.threshold(i, j));
                       }
                       const double lower = static_cast<double>(bounds.lower[k]) / scale - reach;
                       if (lower <= bound) candidates_.push_back({slots_a[k], slots_b[k], lower});
                     }
-                    if (!smallest || candidates_.size() >= most_candidates) settle();
+                    if (!keeps_smallest || candidates_.size() >= most_candidates) settle();
                     return a.scaled(bound + extra);
                   });
     }
