@@ -3,7 +3,6 @@
 // distance of every pair whose boxes are within 0.1 m. FCL gets its poses for nothing, and neither witness points nor
 // derivatives are asked of it. Argument: configurations per robot.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -20,6 +19,7 @@
 #include "hinge/core/philox.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 #include "hinge/robotics/robot_checker.hpp"
+#include "hinge_tools/clock.hpp"
 #include "oracle/fcl_robots.hpp"
 #include "robots/make_subject.hpp"
 
@@ -53,10 +53,9 @@ template <class Ask>
 double time_of(std::size_t count, const Ask& ask) {
   double least = std::numeric_limits<double>::infinity();
   for (int round = 0; round < 5; ++round) {
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = tool::Clock::now();
     for (std::size_t k = 0; k < count; ++k) ask(k);
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-    least = std::min(least, taken.count() / static_cast<double>(count));
+    least = std::min(least, tool::seconds_since(start) / static_cast<double>(count));
   }
   return least;
 }

@@ -6,7 +6,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -31,13 +30,15 @@
 #include "hinge/molecular/selection.hpp"
 #include "hinge/molecular/trajectory.hpp"
 #include "hinge/molecular/write_trajectory.hpp"
+#include "hinge_tools/clock.hpp"
 #include "molecular/trajectory_files.hpp"
 
 namespace {
 
 using namespace hinge;
 using namespace hinge::molecular;
-using Clock = std::chrono::steady_clock;
+using tool::Clock;
+using tool::seconds_since;
 
 constexpr std::uint64_t seed = 1;
 constexpr double sigma = 0.0005;  // rad; most conformations are free at this value
@@ -127,8 +128,6 @@ Measured measure(const Work& work) {
   return measured;
 }
 
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
 Told read_bytes_of(const std::filesystem::path& path) {
   const auto start = Clock::now();
   std::ifstream file(path, std::ios::binary);
@@ -136,7 +135,7 @@ Told read_bytes_of(const std::filesystem::path& path) {
   std::uint64_t sum = 0;
   while (file.read(chunk.data(), static_cast<std::streamsize>(chunk.size())) || file.gcount() > 0)
     sum += static_cast<unsigned char>(chunk[0]);
-  return {since(start), sum != 0 ? 1U : 0U};
+  return {seconds_since(start), sum != 0 ? 1U : 0U};
 }
 
 Told read_frames(const std::filesystem::path& path, std::size_t residues) {
@@ -145,7 +144,7 @@ Told read_frames(const std::filesystem::path& path, std::size_t residues) {
   const Trajectory frames(path, molecule->structure());
   double sum = 0.0;
   for (std::size_t k = 0; k < frames.size(); ++k) sum += frames.frame(k).back()[0];
-  return {since(start), sum > 0.0 ? 1U : 0U};
+  return {seconds_since(start), sum > 0.0 ? 1U : 0U};
 }
 
 /// Times opening the file and checking all frames. Free frames are written to `out` unless it is empty.
@@ -178,7 +177,7 @@ Told check_frames(const std::filesystem::path& path, std::size_t residues, unsig
           },
           8);
   if (!out.empty()) writer.finish();
-  told.seconds = since(start);
+  told.seconds = seconds_since(start);
   return told;
 }
 
@@ -186,7 +185,7 @@ void run(const Files& files, std::size_t count, std::size_t residues) {
   const Measured made = measure([&] {
     const auto start = Clock::now();
     generate(files, residues, count);
-    return Told{since(start), 0};
+    return Told{seconds_since(start), 0};
   });
   const Measured alone = measure([&] {
     const auto molecule = protein(residues);

@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "clock.hpp"
 #include "hinge/molecular/checker.hpp"
 #include "hinge/molecular/closed_sampler.hpp"
 #include "hinge/molecular/free_sampler.hpp"
 #include "hinge/molecular/kept_closures.hpp"
+#include "hinge_tools/clock.hpp"
 #include "looped_molecule.hpp"
 
 namespace {
@@ -32,11 +32,11 @@ struct Rate {
 template <class Next>
 Rate measure(double seconds, std::uint64_t each, const Next& next) {
   Rate rate;
-  const auto start = hinge::bench::Clock::now();
+  const auto start = hinge::tool::Clock::now();
   while (rate.seconds < seconds) {
     rate.free += next(rate.tried);
     rate.tried += each;
-    rate.seconds = hinge::bench::seconds_since(start);
+    rate.seconds = hinge::tool::seconds_since(start);
   }
   return rate;
 }

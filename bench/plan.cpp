@@ -19,7 +19,6 @@
 #include <utility>
 #include <vector>
 
-#include "clock.hpp"
 #include "hinge/molecular/checker.hpp"
 #include "hinge/molecular/fit_coordinates.hpp"
 #include "hinge/molecular/free_sampler.hpp"
@@ -32,6 +31,7 @@
 #include "hinge/robotics/path_checker.hpp"
 #include "hinge/robotics/plan.hpp"
 #include "hinge/robotics/tessellate.hpp"
+#include "hinge_tools/clock.hpp"
 #include "looped_molecule.hpp"
 #include "robotics/planning_scenes.hpp"
 #include "robots/ompl_planner.hpp"
@@ -40,8 +40,8 @@
 namespace {
 
 using namespace hinge;
-using bench::Clock;
-using bench::seconds_since;
+using tool::Clock;
+using tool::seconds_since;
 
 struct Row {
   std::size_t asked = 0, found = 0, colliding = 0, undecided = 0;

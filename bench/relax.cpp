@@ -14,7 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "clock.hpp"
 #include "hinge/core/philox.hpp"
 #include "hinge/core/vec3.hpp"
 #include "hinge/molecular/checker.hpp"
@@ -23,12 +22,13 @@
 #include "hinge/molecular/read_structure.hpp"
 #include "hinge/molecular/relax.hpp"
 #include "hinge/molecular/selection.hpp"
+#include "hinge_tools/clock.hpp"
 
 namespace {
 
 using namespace hinge::molecular;
-using hinge::bench::Clock;
-using hinge::bench::seconds_since;
+using hinge::tool::Clock;
+using hinge::tool::seconds_since;
 
 std::vector<hinge::Vec3> positions_at(Checker& checker, const std::vector<double>& q) {
   checker.check(q, Mode{});

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -12,11 +11,14 @@
 #include <utility>
 #include <vector>
 
-#include "clock.hpp"
 #include "contestant.hpp"
+#include "hinge_tools/clock.hpp"
 #include "scene.hpp"
 
 namespace hinge::bench {
+
+using tool::Clock;
+using tool::seconds_since;
 
 /// Time of one call in microseconds.
 template <class Work>

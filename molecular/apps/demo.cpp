@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -20,6 +19,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/sampler.hpp"
 #include "hinge/molecular/selection.hpp"
+#include "hinge_tools/clock.hpp"
 #include "hinge_tools/complete_file.hpp"
 #include "hinge_tools/counted.hpp"
 #include "options.hpp"
@@ -120,7 +120,7 @@ Exit run_demo(const Options& options) {
       std::uint64_t colliding = 0;
       for (std::size_t m = 0; m < plots[n].curves.size(); ++m) {
         hinge::Ensemble workers(simd, threads);
-        const auto start = std::chrono::steady_clock::now();
+        const auto start = hinge::tool::Clock::now();
         const Mode mode = Mode::parse(modes[m]);
         const Sampling& sampling = samplings[n].sampling;
         colliding = 0;
@@ -138,8 +138,8 @@ Exit run_demo(const Options& options) {
               worst.pairs.clear();
               for (const Contact& pair : verdict.pairs) worst.pairs.push_back(pair.hit);
             });
-        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-        const double rate = static_cast<double>(options.count) / seconds.count();
+        const double seconds = hinge::tool::seconds_since(start);
+        const double rate = static_cast<double>(options.count) / seconds;
         plots[n].curves[m].values.push_back(rate);
         if (most_clashes_at) {
           simd.check(sample_configuration(sampling, *most_clashes_at, simd.dof_count()), mode);

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -18,6 +17,7 @@
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/fit_coordinates.hpp"
 #include "hinge/molecular/path_checker.hpp"
+#include "hinge_tools/clock.hpp"
 #include "hinge_tools/counted.hpp"
 #include "hinge_tools/json_text.hpp"
 #include "molecule_page.hpp"
@@ -178,10 +178,9 @@ Exit run_plan(const Options& options) {
   const Structure& s = job.molecule->structure();
   ConformationFile file(options, s, s.atoms.size(), false);
   MoleculePage page(options, job, true);
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = hinge::tool::Clock::now();
   const OutOfTime out_of_time = [&] {
-    return options.seconds &&
-           std::chrono::steady_clock::now() - start >= std::chrono::duration<double>(*options.seconds);
+    return options.seconds && hinge::tool::seconds_since(start) >= *options.seconds;
   };
 
   const FitOptions fit{job.kept.closures, true};

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -16,6 +15,7 @@
 #include "conformation_file.hpp"
 #include "hinge/core/vec3.hpp"
 #include "hinge/molecular/severity.hpp"
+#include "hinge_tools/clock.hpp"
 #include "hinge_tools/counted.hpp"
 #include "hinge_tools/json_text.hpp"
 #include "molecule_page.hpp"
@@ -128,11 +128,8 @@ Exit run_relax(const Options& options) {
                counted(left, "pair collides", "pairs collide"));
   RelaxOptions how{.closures = job.kept.closures, .seed = options.seed};
   if (options.most_tries) how.most_restarts = *options.most_tries;
-  const auto start = std::chrono::steady_clock::now();
-  const auto out_of_time = [&] {
-    return options.seconds &&
-           std::chrono::steady_clock::now() - start >= std::chrono::duration<double>(*options.seconds);
-  };
+  const auto start = hinge::tool::Clock::now();
+  const auto out_of_time = [&] { return options.seconds && hinge::tool::seconds_since(start) >= *options.seconds; };
   const std::vector<double> reference(job.checker.dof_count(), 0.0);
   const Relaxation relaxed = relax(job.checker, reference, how, out_of_time);
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -18,6 +17,7 @@
 #include "hinge/batch/ensemble.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/sampler.hpp"
+#include "hinge_tools/clock.hpp"
 #include "hinge_tools/counted.hpp"
 #include "hinge_tools/parts.hpp"
 #include "hinge_tools/progress_bar.hpp"
@@ -105,11 +105,8 @@ Exit run_sample(const Options& options) {
 
   std::optional<PairText> pair_text;
   if (options.output == Output::json && lists_pairs(mode)) pair_text.emplace(job);
-  const auto start = std::chrono::steady_clock::now();
-  const auto out_of_time = [&] {
-    return options.seconds &&
-           std::chrono::steady_clock::now() - start >= std::chrono::duration<double>(*options.seconds);
-  };
+  const auto start = hinge::tool::Clock::now();
+  const auto out_of_time = [&] { return options.seconds && hinge::tool::seconds_since(start) >= *options.seconds; };
   Worker worker{job.checker, {}, {}};
   ViewChoice choice;
   MoleculePage page(options, job, false, lists_pairs(mode));
@@ -208,12 +205,12 @@ Exit run_sample(const Options& options) {
     print_summary(options, summary.json(true), error.what());
     throw;
   }
-  const std::chrono::duration<double> checking = std::chrono::steady_clock::now() - start;
+  const double checking = hinge::tool::seconds_since(start);
   Json total = summary.json(true);
   shortfall.add_to(total, most_in_the_way);
   print_summary(options, std::move(total));
   note_left_out(options, left_out);
-  if (options.output == Output::table) print_table(job, summary, options.collision_free, checking.count());
+  if (options.output == Output::table) print_table(job, summary, options.collision_free, checking);
   if (options.view && choice.best()) {
     const Sample shown = draw(worker, job, sampling, *choice.best(), Mode{Mode::Kind::all});
     write_view(options, job,

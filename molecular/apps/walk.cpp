@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -14,6 +13,7 @@
 #include "hinge/moves/move_checker.hpp"
 #include "hinge/moves/move_closer.hpp"
 #include "hinge/moves/random_move.hpp"
+#include "hinge_tools/clock.hpp"
 #include "hinge_tools/counted.hpp"
 #include "hinge_tools/json_text.hpp"
 #include "hinge_tools/progress_bar.hpp"
@@ -83,7 +83,7 @@ Exit run_walk(const Options& options) {
   std::uint64_t accepted = 0, unclosed = 0;
   MoleculePage page(options, job, true);
   const std::uint64_t shown_every = std::max<std::uint64_t>(1, options.steps / 100);
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = hinge::tool::Clock::now();
   for (std::uint64_t step = 0; step < options.steps; ++step) {
     hinge::random_move(options.seed, step, moves.configuration(), options.changes, sigma, changes);
     if (!closer.close(moves.configuration(), changes)) {
@@ -100,7 +100,7 @@ Exit run_walk(const Options& options) {
       page.add_next({step + 1, fmt::format("after step {}", step + 1), false, positions(moves), {}});
     bar.show(step + 1);
   }
-  const std::chrono::duration<double> walking = std::chrono::steady_clock::now() - start;
+  const double walking = hinge::tool::seconds_since(start);
   file.finish();
 
   // Checks the final conformation by a query that is independent of the moves.
@@ -124,7 +124,7 @@ Exit run_walk(const Options& options) {
     fmt::print("{} of {} accepted ({:.2f} %), {} rejected, {:.0f} steps per second\n", accepted,
                counted(options.steps, "step"),
                100.0 * static_cast<double>(accepted) / static_cast<double>(options.steps), rejected,
-               static_cast<double>(options.steps) / walking.count());
+               static_cast<double>(options.steps) / walking);
     if (file.size() > 0) fmt::print("{} written to {}\n", counted(file.size(), "conformation"), options.out);
     if (!job.kept.closures.empty())
       fmt::print("closures kept: {}; moves rejected because they did not close: {}\n", job.kept.closures.size(),

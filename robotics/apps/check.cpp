@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -17,6 +16,7 @@
 #include "configurations.hpp"
 #include "hinge/batch/ensemble.hpp"
 #include "hinge/core/error.hpp"
+#include "hinge_tools/clock.hpp"
 #include "hinge_tools/complete_file.hpp"
 #include "hinge_tools/counted.hpp"
 #include "hinge_tools/json_text.hpp"
@@ -91,7 +91,7 @@ Exit run_check(const Options& options) {
   const Columns columns{mode, !options.environment.empty(), options.contained, options.max_pairs};
   RobotPage page(options, job, worker, mode, false);
   hinge::Ensemble ensemble(worker, options.threads);
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = hinge::tool::Clock::now();
   const auto judge = [&](Worker& own, std::size_t k) {
     return ask(own, configurations.at(k), mode, options.contained);
   };
@@ -172,12 +172,12 @@ Exit run_check(const Options& options) {
     end(error.what());
     throw;
   }
-  const std::chrono::duration<double> checking = std::chrono::steady_clock::now() - start;
+  const double checking = hinge::tool::seconds_since(start);
   end("");
   if (left_out > 0)
     fmt::print(stderr, "note: --max-pairs {}: {} without a row\n", options.max_pairs.value_or(0),
                hinge::tool::counted(left_out, "pair"));
-  if (options.output == Output::table) print_table_end(summary, *job.robot, sampled, checking.count());
+  if (options.output == Output::table) print_table_end(summary, *job.robot, sampled, checking);
   for (const std::uint64_t k : page.chosen())
     page.add(fmt::format("configuration {}", k), configurations.at(static_cast<std::size_t>(k)));
   page.write(summary.colliding > 0 ? "collides" : "free",

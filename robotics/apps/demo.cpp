@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <set>
@@ -19,6 +18,7 @@
 #include "hinge/robotics/random_configuration.hpp"
 #include "hinge/robotics/robot.hpp"
 #include "hinge/robotics/tessellate.hpp"
+#include "hinge_tools/clock.hpp"
 #include "hinge_tools/complete_file.hpp"
 #include "hinge_tools/picture.hpp"
 #include "options.hpp"
@@ -69,13 +69,13 @@ int time_random_configurations(const Options& options, const Job& job, RobotChec
   const Robot& robot = *job.robot;
   std::vector<double> q(robot.independent_joints().size());
   std::uint64_t colliding = 0;
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = hinge::tool::Clock::now();
   for (std::uint64_t k = 0; k < timed; ++k) {
     random_configuration(robot, seed, k, q);
     checker.update(q);
     colliding += checker.collides() ? 1 : 0;
   }
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  const double seconds = hinge::tool::seconds_since(start);
   RobotChecker brute(job.robot, job.tested, LinkMargins(robot, options.clearance), CheckOptions{"brute"});
   int different = 0;
   for (std::uint64_t k = 0; k < verified; ++k) {
@@ -91,8 +91,8 @@ int time_random_configurations(const Options& options, const Job& job, RobotChec
   fmt::print(
       "{} random configurations, one thread: {:.0f} per second, {:.1f} % collide with the robot itself\n"
       "brute force on {} of them: {} differences\n",
-      timed, static_cast<double>(timed) / seconds.count(), 100.0 * static_cast<double>(colliding) / double{timed},
-      verified, different);
+      timed, static_cast<double>(timed) / seconds, 100.0 * static_cast<double>(colliding) / double{timed}, verified,
+      different);
   return different;
 }
 

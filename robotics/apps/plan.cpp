@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -14,6 +13,7 @@
 
 #include "answer.hpp"
 #include "configurations.hpp"
+#include "hinge_tools/clock.hpp"
 #include "hinge_tools/complete_file.hpp"
 #include "hinge_tools/counted.hpp"
 #include "hinge_tools/json_text.hpp"
@@ -95,11 +95,8 @@ Exit run_plan(const Options& options) {
   for (const auto& [q, which] : {std::pair{&from, "start"}, std::pair{&to, "end"}})
     if (report_end(options, job, worker, *q, which)) return Exit::collision;
 
-  const auto begin = std::chrono::steady_clock::now();
-  const auto out_of_time = [&] {
-    return options.seconds &&
-           std::chrono::steady_clock::now() - begin >= std::chrono::duration<double>(*options.seconds);
-  };
+  const auto begin = hinge::tool::Clock::now();
+  const auto out_of_time = [&] { return options.seconds && hinge::tool::seconds_since(begin) >= *options.seconds; };
   PathChecker paths = path_checker(worker);
   const PlannedMotion planned =
       plan(paths, from, to, {.most_motions = options.motions, .seed = options.seed}, out_of_time);

@@ -4,13 +4,13 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cstddef>
 #include <string>
 #include <vector>
 
 #include "answer.hpp"
 #include "configurations.hpp"
+#include "hinge_tools/clock.hpp"
 #include "hinge_tools/complete_file.hpp"
 #include "hinge_tools/counted.hpp"
 #include "hinge_tools/json_text.hpp"
@@ -53,11 +53,8 @@ Exit run_relax(const Options& options) {
   hinge::tool::CompleteFile file(options.out);
   RobotPage page(options, job, worker, Mode{Mode::Kind::all}, true);
 
-  const auto begin = std::chrono::steady_clock::now();
-  const auto out_of_time = [&] {
-    return options.seconds &&
-           std::chrono::steady_clock::now() - begin >= std::chrono::duration<double>(*options.seconds);
-  };
+  const auto begin = hinge::tool::Clock::now();
+  const auto out_of_time = [&] { return options.seconds && hinge::tool::seconds_since(begin) >= *options.seconds; };
   RelaxOptions how;
   how.seed = options.seed;
   how.most_tries = options.tries;
