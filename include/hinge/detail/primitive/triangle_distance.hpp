@@ -114,23 +114,6 @@ class TrianglePair {
     return d - rounding(d) >= m;
   }
 
-  struct Shares {
-    double s = 0.0, t = 0.0;
-  };
-
-  /// Returns the parameters of the nearest points of edge k of x and edge l of y (Lumelsky 1985, with one more
-  /// projection at the end). Degenerate and parallel edges are valid. Writes their difference to `apart`.
-  Shares on_edges(std::size_t k, std::size_t l, Vec3& apart) const noexcept {
-    const Vec3 &u = x_.edge[k], &v = y_.edge[l], r = x_.corner[k] - y_.corner[l];
-    const double a = x_.square[k], e = y_.square[l], b = dot(u, v), c = dot(u, r), f = dot(v, r);
-    const double determinant = a * e - b * b, numerator = b * f - c * e;
-    const double start = clamped(determinant > 0.0 ? numerator / determinant : 0.0);
-    const double t = clamped((b * start + f) * y_.inverse[l]);
-    const double s = clamped((b * t - c) * x_.inverse[k]);
-    apart = r + u * s - v * t;
-    return {s, t};
-  }
-
   /// Three vectors in lanes; the fourth lane repeats the first.
   struct Three {
     explicit Three(const std::array<Vec3, 3>& v) noexcept
@@ -146,9 +129,18 @@ class TrianglePair {
     return a.x * simd::Double4(b[0]) + a.y * simd::Double4(b[1]) + a.z * simd::Double4(b[2]);
   }
 
-  /// Writes the squared distances of edge k of x and each edge of y, as on_edges.
-  void squares_of_edges(std::size_t k, const Three& corners, const Three& edges, const simd::Double4& square,
-                        const simd::Double4& inverse, double* squares) const noexcept {
+  /// Squared distances of fifteen pairs of features, in rows of four lanes, of which the last repeats the first. Rows 0
+  /// to 2: an edge of x and the edges of y. Row 3: corners of x and the face of y. Row 4: corners of y and the face of
+  /// x. s and t: parameters of the nearest points of two edges.
+  struct Features {
+    std::array<double, 20> squares;
+    std::array<double, 12> s, t;
+  };
+
+  /// Fills row k: edge k of x and each edge of y, given by lanes (Lumelsky 1985, with one more projection at the end).
+  /// Degenerate and parallel edges are valid.
+  void add_edges(std::size_t k, const Three& corners, const Three& edges, const simd::Double4& square,
+                 const simd::Double4& inverse, Features& features) const noexcept {
     using simd::Double4;
     const Double4 zero(0.0), one(1.0);
     const auto clamp = [&](const Double4& share) { return min(max(share, zero), one); };
@@ -162,7 +154,9 @@ class TrianglePair {
     const Double4 start = clamp(choose_less(zero, determinant, (b * f - c * square) / determinant, zero));
     const Double4 t = clamp((b * start + f) * inverse), s = clamp((b * t - c) * Double4(x_.inverse[k]));
     const Double4 dx = rx + ux * s - edges.x * t, dy = ry + uy * s - edges.y * t, dz = rz + uz * s - edges.z * t;
-    (dx * dx + dy * dy + dz * dz).store(squares);
+    (dx * dx + dy * dy + dz * dz).store(features.squares.data() + 4 * k);
+    s.store(features.s.data() + 4 * k);
+    t.store(features.t.data() + 4 * k);
   }
 
   /// Writes the squared distances of three points to the face of t, or infinity where the foot of the perpendicular is
@@ -194,31 +188,32 @@ class TrianglePair {
 };
 
 inline TrianglePair::Nearest TrianglePair::nearest() const noexcept {
-  std::size_t best = 0;  // 0..8: edge pairs; 9..11: corner of x and face of y; 12..14: corner of y and face of x
+  Features features;
+  const Three corners(y_.corner), edges(y_.edge);
+  const simd::Double4 y_square = lanes(y_.square), y_inverse = lanes(y_.inverse);
+  for (std::size_t k = 0; k < 3; ++k) add_edges(k, corners, edges, y_square, y_inverse, features);
+  squares_to_face(y_, Three(x_.corner), features.squares.data() + 12);
+  squares_to_face(x_, corners, features.squares.data() + 16);
+
+  std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();
-  const auto offer = [&](std::size_t which, double squared) noexcept {
+  const auto offer = [&](std::size_t which) noexcept {
+    const double squared = features.squares[which];
     best = squared < least ? which : best;
     least = squared < least ? squared : least;
   };
-  std::array<double, 20> squares;  // four for each edge of x, for the corners of x, for the corners of y
-  const Three corners(y_.corner), edges(y_.edge);
-  const simd::Double4 lengths = lanes(y_.square), inverse = lanes(y_.inverse);
-  for (std::size_t k = 0; k < 3; ++k) squares_of_edges(k, corners, edges, lengths, inverse, squares.data() + 4 * k);
-  squares_to_face(y_, Three(x_.corner), squares.data() + 12);
-  squares_to_face(x_, corners, squares.data() + 16);
   for (std::size_t k = 0; k < 3; ++k)
-    for (std::size_t l = 0; l < 3; ++l) offer(3 * k + l, squares[4 * k + l]);
+    for (std::size_t l = 0; l < 3; ++l) offer(4 * k + l);
   for (std::size_t k = 0; k < 3; ++k) {
-    offer(9 + k, squares[12 + k]);
-    offer(12 + k, squares[16 + k]);
+    offer(12 + k);
+    offer(16 + k);
   }
 
   Nearest n;
   Vec3 direction;
-  if (best < 9) {
-    const std::size_t k = best / 3, l = best % 3;
-    Vec3 apart;
-    const auto [s, t] = on_edges(k, l, apart);
+  if (best < 12) {
+    const std::size_t k = best / 4, l = best % 4;
+    const double s = features.s[best], t = features.t[best];
     n.p = on_edge(x_.corner[k], x_.corner[(k + 1) % 3], s);
     n.q = on_edge(y_.corner[l], y_.corner[(l + 1) % 3], t);
     const bool inside_u = s > 0.0 && s<1.0, inside_v = t> 0.0 && t < 1.0;
@@ -232,8 +227,8 @@ inline TrianglePair::Nearest TrianglePair::nearest() const noexcept {
     else if (inside_v)
       direction -= y_.edge[l] * (dot(direction, y_.edge[l]) * y_.inverse[l]);
   } else {
-    const bool from_x = best < 12;
-    const std::size_t k = best % 3;
+    const bool from_x = best < 16;
+    const std::size_t k = best % 4;
     const Side& face = from_x ? y_ : x_;
     const Vec3 &corner = (from_x ? x_ : y_).corner[k], on = foot(face, corner);
     n.p = from_x ? corner : on;

@@ -35,10 +35,8 @@ struct SelfPairTest {
   /// Adds the pair if its rounded d - M is at most `cutoff`.
   template <Primitive P>
   bool rounded(PrimitiveId i, PrimitiveId j, const P& p, const P& q, double cutoff) const {
-    const bool turned = j < i;
-    const PrimitiveId first = turned ? j : i, second = turned ? i : j;
-    return test_rounded(collector, first, second, turned ? q : p, turned ? p : q, rules.threshold(first, second),
-                        cutoff, [&] { return admits(first, second); });
+    if (j < i) return rounded(j, i, q, p, cutoff);
+    return test_rounded(collector, i, j, p, q, rules.threshold(i, j), cutoff, [&] { return admits(i, j); });
   }
   /// Adds the pair with its measured distance, unless it surely lies outside the cutoff. See TakesMeasured.
   [[gnu::always_inline]] void add_measured(PrimitiveId i, PrimitiveId j, double measured,
@@ -56,10 +54,12 @@ struct CrossPairTest {
   C& collector;
   const Rules& rules;
 
+  /// The same as in SelfPairTest.
   template <Primitive P>
   bool operator()(PrimitiveId i, PrimitiveId j, const P& p, const P& q) const {
     return test_pair(collector, i, j, p, q, rules.threshold(i, j), [&] { return rules.admits(i, j); });
   }
+  /// The same as in SelfPairTest.
   template <Primitive P>
   bool rounded(PrimitiveId i, PrimitiveId j, const P& p, const P& q, double cutoff) const {
     return test_rounded(collector, i, j, p, q, rules.threshold(i, j), cutoff, [&] { return rules.admits(i, j); });
