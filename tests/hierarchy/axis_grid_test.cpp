@@ -62,15 +62,18 @@ TEST(AxisGrid, NamesEveryLineThroughAPoint) {
       std::size_t answered = 0;
       for (std::size_t k = 0; k < lines.size(); ++k) {
         bool found = false;
-        const bool inside = grid.visit_near(Aabb(points[k]), [&](std::size_t l) { found = found || l == k; });
+        const bool inside = grid.visit_near(Aabb(points[k]), [&](std::size_t l) {
+          found = found || l == k;
+          return true;
+        });
         ASSERT_TRUE(found || !inside) << "manner " << manner << " offset " << offset << " line " << k;
         answered += inside ? 1U : 0U;
       }
       EXPECT_EQ(answered, lines.size()) << "manner " << manner << " offset " << offset;
-      EXPECT_FALSE(grid.visit_near(Aabb(Vec3::Constant(1e300)), [](std::size_t) {}));
+      EXPECT_FALSE(grid.visit_near(Aabb(Vec3::Constant(1e300)), [](std::size_t) { return true; }));
     }
   const detail::AxisGrid nothing({}, Aabb());
-  EXPECT_FALSE(nothing.visit_near(Aabb(Vec3::Zero()), [](std::size_t) {}));
+  EXPECT_FALSE(nothing.visit_near(Aabb(Vec3::Zero()), [](std::size_t) { return true; }));
 }
 
 TEST(AxisGrid, NamesFewOthers) {
@@ -85,7 +88,10 @@ TEST(AxisGrid, NamesFewOthers) {
     const detail::AxisGrid grid(lines, box);
     std::size_t visited = 0, asked = 0;
     for (std::size_t k = 0; k < n; k += 97, ++asked)
-      ASSERT_TRUE(grid.visit_near(Aabb(lines[k].point), [&](std::size_t) { ++visited; }));
+      ASSERT_TRUE(grid.visit_near(Aabb(lines[k].point), [&](std::size_t) {
+        ++visited;
+        return true;
+      }));
     std::cout << n << " lines: " << visited / asked << " looked at for a point\n";
     EXPECT_LT(static_cast<double>(visited), 8.0 * std::cbrt(static_cast<double>(n)) * static_cast<double>(asked));
   }
@@ -135,6 +141,16 @@ void expect_the_same_as_from_all(const Make& make, std::size_t n) {
 TEST(AxisGrid, LeavesAStarOfJointsItsAnswers) {
   expect_the_same_as_from_all<Point>([](const Vec3& x) { return Point{x}; }, 600);
   expect_the_same_as_from_all<Sphere>([](const Vec3& x) { return Sphere{x, 0.25}; }, 600);
+}
+
+/// A model of n links with one common axis depends on it: visits of all axes would take n^2 steps.
+TEST(AxisGrid, StopsWhenTheVisitorReturnsFalse) {
+  const std::vector<detail::AxisGrid::Line> lines(1000, {Vec3::Zero(), Vec3::UnitZ()});
+  Aabb box(Vec3::Zero());
+  box.extend(Vec3::UnitZ());
+  std::size_t visited = 0;
+  EXPECT_TRUE(detail::AxisGrid(lines, box).visit_near(Aabb(Vec3::Zero()), [&](std::size_t) { return ++visited < 7; }));
+  EXPECT_EQ(visited, 7U);
 }
 
 }  // namespace axis_grid_test

@@ -196,13 +196,14 @@ void SelectedModel<P>::find_axis_primitives() {
           stops.push_back({parent, there});
         const std::vector<GroupId>& below = children[index(here.group)];
         const auto try_child = [&](std::size_t k) {
-          if (P there = here.primitive;
-              stops.size() <= most_listed && unseen(below[k]) && cross_to_child(there, below[k]))
+          if (P there = here.primitive; unseen(below[k]) && cross_to_child(there, below[k]))
             stops.push_back({below[k], there});
+          return stops.size() <= most_listed;
         };
         const auto grid = grids.find(here.group);
         if (grid == grids.end() || !grid->second.visit_near(here.primitive.bounds(), try_child))
-          for (std::size_t k = 0; k < below.size() && stops.size() <= most_listed; ++k) try_child(k);
+          for (std::size_t k = 0; k < below.size() && try_child(k); ++k) {
+          }
       }
       if (stops.size() > most_listed)
         unlisted_.push_back(id<PrimitiveId>(i));

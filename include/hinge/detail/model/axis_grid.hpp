@@ -47,8 +47,9 @@ class AxisGrid {
       for_each_cell(lines[l], [&](std::size_t cell) { lines_[next[cell]++] = static_cast<std::uint32_t>(l); });
   }
 
-  /// Calls visit(line index) for every line that meets the box, and for some others; an index may repeat. Returns false
-  /// without any call when the box is not inside the grid's box or spans too many cells: any line may then meet it.
+  /// Calls visit(line index) for every line that meets the box, and for some others, until it returns false; an index
+  /// may repeat. Returns false without any call when the box is not inside the grid's box or spans too many cells: any
+  /// line may then meet it.
   template <class Visit>
   bool visit_near(const Aabb& box, const Visit& visit) const {
     constexpr std::ptrdiff_t most_cells = 27;
@@ -59,7 +60,8 @@ class AxisGrid {
     for (std::ptrdiff_t x = r[0].first; x <= r[0].last; ++x)
       for (std::ptrdiff_t y = r[1].first; y <= r[1].last; ++y)
         for (std::ptrdiff_t z = r[2].first; z <= r[2].last; ++z)
-          for (std::size_t k = start_[cell(x, y, z)]; k < start_[cell(x, y, z) + 1]; ++k) visit(lines_[k]);
+          for (std::size_t k = start_[cell(x, y, z)]; k < start_[cell(x, y, z) + 1]; ++k)
+            if (!visit(lines_[k])) return true;
     return true;
   }
 
