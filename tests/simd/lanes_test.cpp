@@ -69,12 +69,16 @@ TEST(Lanes, RoundDoublesAsACastDoes) {
 }
 
 TEST(AppendLanes, ListsTheSetBits) {
-  std::array<std::uint32_t, width> found;
+  std::array<std::uint32_t, width> found, values;
+  for (std::uint32_t k = 0; k < width; ++k) values[k] = 1000 + k;
   for (Bits mask = 0; mask <= all_bits; mask += mask < 300 ? 1 : 97) {
     std::vector<std::uint32_t> expected;
     for (std::uint32_t k = 0; k < width; ++k)
       if ((mask >> k & 1U) != 0) expected.push_back(1000 + k);
     const std::size_t n = append_lanes(mask, 1000, found.data());
+    EXPECT_EQ(std::vector<std::uint32_t>(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(n)), expected);
+    found.fill(0);
+    EXPECT_EQ(append_chosen(mask, values.data(), found.data()), n);
     EXPECT_EQ(std::vector<std::uint32_t>(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(n)), expected);
   }
 }

@@ -2,6 +2,7 @@
 // Converts bit masks to index lists, and looks up small tables. Standard SIMD types lack both operations.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +15,26 @@
 
 namespace hinge::detail::simd {
 
+#if defined(__AVX2__) && !defined(__AVX512F__)
+/// Lists the set bits of a mask without a branch: how many there are is unpredictable.
+class BitLists {
+ public:
+  constexpr BitLists() noexcept {
+    for (std::size_t byte = 0; byte < lists_.size(); ++byte)
+      for (std::size_t bit = 0, n = 0; bit < 8; ++bit)
+        if ((byte >> bit & 1U) != 0) lists_[byte][n++] = static_cast<std::uint8_t>(bit);
+  }
+  /// Returns the numbers of the set bits of a byte, lowest first, then zeros.
+  [[gnu::always_inline]] __m256i of(std::size_t byte) const noexcept {
+    return _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(lists_[byte].data())));
+  }
+
+ private:
+  alignas(64) std::array<std::array<std::uint8_t, 8>, 256> lists_{};
+};
+inline constexpr BitLists bit_lists;
+#endif
+
 /// Writes base + lane for every set bit to `to`, lowest lane first, and returns the number of set bits. It may write up
 /// to `width` entries for any mask, so `to` needs that much space.
 [[gnu::always_inline]] inline std::size_t append_lanes(Bits mask, std::uint32_t base, std::uint32_t* to) noexcept {
@@ -22,6 +43,14 @@ namespace hinge::detail::simd {
                                          _mm512_set1_epi32(static_cast<int>(base)));
   // Compress into a register: the form that writes to memory is slow on some CPUs.
   _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(mask), lanes));
+  return static_cast<std::size_t>(std::popcount(mask));
+#elif defined(__AVX2__)
+  const auto half = [&](std::size_t byte, std::uint32_t first, std::uint32_t * out) __attribute__((always_inline)) {
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(out),
+                        _mm256_add_epi32(bit_lists.of(byte), _mm256_set1_epi32(static_cast<int>(first))));
+  };
+  half(mask & 0xffU, base, to);
+  half(mask >> 8, base + 8, to + std::popcount(mask & 0xffU));
   return static_cast<std::size_t>(std::popcount(mask));
 #else
   std::size_t n = 0;
@@ -35,6 +64,15 @@ namespace hinge::detail::simd {
                                                         std::uint32_t* to) noexcept {
 #if defined(__AVX512F__)
   _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(mask), _mm512_loadu_si512(values)));
+  return static_cast<std::size_t>(std::popcount(mask));
+#elif defined(__AVX2__)
+  const auto half = [&](std::size_t byte, const std::uint32_t* from, std::uint32_t* out)
+      __attribute__((always_inline)) {
+    const __m256i chosen = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), _mm256_permutevar8x32_epi32(chosen, bit_lists.of(byte)));
+  };
+  half(mask & 0xffU, values, to);
+  half(mask >> 8, values + 8, to + std::popcount(mask & 0xffU));
   return static_cast<std::size_t>(std::popcount(mask));
 #else
   std::size_t n = 0;
