@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -28,6 +29,7 @@
 #include "hinge/molecular/ideal_protein.hpp"
 #include "hinge/molecular/sampler.hpp"
 #include "hinge/molecular/selection.hpp"
+#include "hinge/policy/laws.hpp"
 #include "molecular/run_biocd.hpp"
 #include "molecular/test_files.hpp"
 
@@ -317,6 +319,27 @@ TEST(BondExclusions, EqualsBondDistance) {
           EXPECT_EQ(filter.admits(id<PrimitiveId>(i), id<PrimitiveId>(j)), distance < 0 || distance >= k);
         }
   }
+}
+
+/// Excluded atoms lie up to 63 places before or after an atom, or farther away: both have their own store.
+TEST(BondExclusions, HoldAtEveryDistanceInTheFile) {
+  const auto structure = build_ideal_protein("ACPWKACPWKACPWKACPWKACPWKACPWK", std::string(30, 'C'));
+  const auto atoms = static_cast<std::uint32_t>(structure.atoms.size());
+  ASSERT_GT(atoms, 200U);
+  std::vector<std::pair<PrimitiveId, PrimitiveId>> exempt;
+  for (const std::uint32_t far : {32U, 62U, 63U, 64U, 65U, 100U, 127U, 128U, 129U, 150U})
+    exempt.emplace_back(PrimitiveId{20}, id<PrimitiveId>(20 + far));
+  const BondExclusions filter(structure, 4, exempt), plain(structure, 4);
+  EXPECT_EQ(filter.excluded_pairs(), plain.excluded_pairs() + exempt.size());
+  EXPECT_EQ(laws::check_pair_filter(filter, atoms), laws::Violations{});
+  for (std::uint32_t i = 0; i < atoms; ++i)
+    for (std::uint32_t j = 0; j < atoms; ++j) {
+      if (i == j) continue;
+      const auto listed = filter.excluded(id<PrimitiveId>(i));
+      EXPECT_EQ(filter.admits(id<PrimitiveId>(i), id<PrimitiveId>(j)),
+                std::find(listed.begin(), listed.end(), id<PrimitiveId>(j)) == listed.end())
+          << i << " " << j;
+    }
 }
 
 TEST(Checker, ExemptsPairsOfTheReferenceOnRequest) {

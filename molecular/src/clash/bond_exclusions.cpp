@@ -87,6 +87,15 @@ BondExclusions::BondExclusions(const Structure& structure, MinBonds min_bonds,
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
     data.excluded.insert(data.excluded.end(), list.begin(), list.end());
+    Window window;
+    for (const PrimitiveId j : list) {
+      const std::size_t bit = index(j) - atom + 64;
+      if (bit < 128)
+        window.bits[bit / 64] |= std::uint64_t{1} << bit % 64;
+      else
+        window.is_whole = false;
+    }
+    data.windows.push_back(window);
     data.start.push_back(data.excluded.size());
   }
   data_ = std::make_shared<const Data>(std::move(data));
