@@ -25,18 +25,22 @@ inline void sort_hits(std::vector<Hit>& hits) {
     return;
   }
   // Stable counting sort by second, then by first.
-  std::vector<std::uint32_t> order(hits.size()), sorted_order(hits.size()), end(buckets + 1);
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<std::uint32_t>(k);
-  for (const auto key : {&Hit::second, &Hit::first}) {
-    std::fill(end.begin(), end.end(), 0U);
-    for (const Hit& hit : hits) ++end[index(hit.*key) + 1];
-    for (std::size_t b = 0; b < buckets; ++b) end[b + 1] += end[b];
-    for (const std::uint32_t k : order) sorted_order[end[index(hits[k].*key)]++] = k;
-    order.swap(sorted_order);
+  struct Place {
+    std::uint32_t of_first, of_second;  // numbers of hits with a smaller primitive
+  };
+  std::vector<Place> places(buckets + 1);
+  for (const Hit& hit : hits) {
+    ++places[index(hit.first) + 1].of_first;
+    ++places[index(hit.second) + 1].of_second;
   }
-  std::vector<Hit> sorted;
-  sorted.reserve(hits.size());
-  for (const std::uint32_t k : order) sorted.push_back(hits[k]);
+  for (std::size_t b = 0; b < buckets; ++b) {
+    places[b + 1].of_first += places[b].of_first;
+    places[b + 1].of_second += places[b].of_second;
+  }
+  std::vector<std::uint32_t> by_second(hits.size());
+  for (std::uint32_t k = 0; k < by_second.size(); ++k) by_second[places[index(hits[k].second)].of_second++] = k;
+  std::vector<Hit> sorted(hits.size());
+  for (const std::uint32_t k : by_second) sorted[places[index(hits[k].first)].of_first++] = hits[k];
   hits.swap(sorted);
 }
 
