@@ -58,6 +58,10 @@ void expect_same_molecule(const Structure& a, const Structure& b) {
     ASSERT_EQ(a.atoms[i].element, b.atoms[i].element) << label(a, i);
     ASSERT_EQ(a.residues[a.atoms[i].residue].kind, b.residues[b.atoms[i].residue].kind) << label(a, i);
     ASSERT_EQ(a.models[0][i], b.models[0][i]) << label(a, i);
+    // The PDB format has two digits after the point, and five columns.
+    ASSERT_NEAR(std::clamp(a.atoms[i].b_factor, -99.99, 999.99), std::clamp(b.atoms[i].b_factor, -99.99, 999.99),
+                0.0051)
+        << label(a, i);
   }
   ASSERT_EQ(a.bonds.size(), b.bonds.size());
   for (std::size_t k = 0; k < a.bonds.size(); ++k) {
@@ -144,6 +148,22 @@ TEST(RoundTrip, EveryFile) {
   EXPECT_GE(files, shared ? 60U : 20U);
   // Its chain names have three letters.
   EXPECT_EQ(not_as_pdb, shared ? std::vector<std::string>{"6zu5.cif.gz"} : std::vector<std::string>{});
+}
+
+/// In predicted models the column holds the confidence, which selections such as plddt<70 read.
+TEST(RoundTrip, KeepsBFactors) {
+  Structure s = build_ideal_protein("AG", "CC");
+  const std::vector<double> values{0.0, 7.25, -3.5, 99.99, 100.0, 999.99, 1e-3, 54.321};
+  for (std::size_t i = 0; i < s.atoms.size(); ++i) s.atoms[i].b_factor = values[i % values.size()];
+  for (const TrajectoryFormat format : {TrajectoryFormat::pdb, TrajectoryFormat::cif}) {
+    const Structure other = again(written(s, format), format);
+    ASSERT_EQ(other.atoms.size(), s.atoms.size());
+    for (std::size_t i = 0; i < s.atoms.size(); ++i)
+      EXPECT_NEAR(other.atoms[i].b_factor, s.atoms[i].b_factor, format == TrajectoryFormat::pdb ? 0.00501 : 1e-5);
+  }
+  s.atoms.front().b_factor = 1e6;  // does not fit the PDB columns
+  EXPECT_EQ(again(written(s, TrajectoryFormat::pdb), TrajectoryFormat::pdb).atoms.front().b_factor,
+            static_cast<double>(999.99F));
 }
 
 /// Returns a cystine, a ligand with a double bond (a repeated CONECT) bonded to the protein, and a metal.

@@ -318,7 +318,7 @@ TEST(PdbModels, AreThoseOfTheWholeFile) {
   const auto changed = [](std::size_t k, std::string text) {
     const std::size_t end = text.find("ENDMDL");
     if (k == 1) text.insert(end, "HETATM 9999  O   HOH A 999      10.000  10.000  10.000  1.00  0.00           O  \n");
-    if (k == 2) text.replace(text.find("  1.00  0.00"), 12, "  0.50  0.00");
+    if (k == 2) text.replace(text.find("ATOM") + 54, 6, "  0.50");
     return text;
   };
   // The parser accepts record names in lower case.

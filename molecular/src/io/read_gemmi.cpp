@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <exception>
 #include <limits>
@@ -89,7 +90,7 @@ RawModel convert(const gemmi::Model& model, int number, const AtomIds& ids) {
         a.serial = ids.serials.at(id);
         a.record = static_cast<std::uint32_t>(atom.serial - first);
         a.occupancy = static_cast<double>(atom.occ);
-        a.b_factor = static_cast<double>(atom.b_iso);
+        a.b_factor = std::isfinite(atom.b_iso) ? static_cast<double>(atom.b_iso) : 0.0;
         a.position = Vec3(atom.pos.x, atom.pos.y, atom.pos.z);
         parts[ids.labels.empty() ? 0 : ids.labels.at(id)].push_back(std::move(a));
       }

@@ -187,12 +187,13 @@ void write_cif_model(std::ostream& out, const Structure& s, std::span<const Vec3
     const std::string behind_name =
         " . " + name + ' ' + value(labels[r]) + " ? " + sequence_id(s, r) + ' ' + insertion_code(residue) + ' ';
     const std::string behind =
-        " 1.0 0.0 " + std::to_string(residue.sequence_number) + ' ' + chain + ' ' + std::to_string(model) + "\n";
+        ' ' + std::to_string(residue.sequence_number) + ' ' + chain + ' ' + std::to_string(model) + "\n";
     for (std::uint32_t i = residue.first_atom; i < residue.last_atom; ++i) {
       const Vec3& x = positions[i];
       text += (is_hetero_record(residue) ? "HETATM " : "ATOM ") + std::to_string(first_id + i) + ' ' +
               value(s.atoms[i].element) + ' ' + value(s.atoms[i].name) + behind_name;
-      text += number_text(x[0]) + ' ' + number_text(x[1]) + ' ' + number_text(x[2]) + behind;
+      text += number_text(x[0]) + ' ' + number_text(x[1]) + ' ' + number_text(x[2]) + " 1.0 " +
+              number_text(static_cast<float>(s.atoms[i].b_factor)) + behind;
     }
   }
   out << text;

@@ -169,7 +169,7 @@ void write_pdb_model(std::ostream& out, const Structure& structure, std::span<co
                              " does not fit the PDB columns; write a .cif file instead");
           text += fixed(x, 3, 8);
         }
-        text += "  1.00  0.00      ";
+        text += "  1.00" + fixed(std::clamp(atom.b_factor, -99.99, 999.99), 2, 6) + "      ";
         text += left(copies[r] == 0 ? "" : hybrid36(copies[r], 4), 4) + element_field(atom.element) + "\n";
       }
       if (r + 1 == polymer_end) text += "TER\n";

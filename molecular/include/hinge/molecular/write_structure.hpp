@@ -25,7 +25,8 @@ HINGE_API void check_fits_pdb(const Structure& structure);
 /// check_fits_pdb does.
 HINGE_API void write_pdb_head(std::ostream& out, const Structure& structure);
 /// Writes one MODEL ... ENDMDL block. positions: angstrom, one per atom. number: model number. Serial numbers above
-/// 99999 and residue numbers above 9999 are hybrid-36. Throws ModelError as check_fits_pdb does, and if a coordinate
+/// 99999 and residue numbers above 9999 are hybrid-36. B factors have two digits after the point and are cut to
+/// -99.99 ... 999.99. Throws ModelError as check_fits_pdb does, and if a coordinate
 /// does not fit eight columns.
 HINGE_API void write_pdb_model(std::ostream& out, const Structure& structure, std::span<const Vec3> positions,
                                int number);
