@@ -178,10 +178,7 @@ Exit run_plan(const Options& options) {
   const Structure& s = job.molecule->structure();
   ConformationFile file(options, s, s.atoms.size(), false);
   MoleculePage page(options, job, true);
-  const auto start = hinge::tool::Clock::now();
-  const OutOfTime out_of_time = [&] {
-    return options.seconds && hinge::tool::seconds_since(start) >= *options.seconds;
-  };
+  const hinge::tool::TimeLimit out_of_time(options.seconds);
 
   const FitOptions fit{job.kept.closures, true};
   PathEnd from = read_path_end("--from", options.from, options, job, fit, out_of_time);

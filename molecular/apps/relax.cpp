@@ -128,8 +128,7 @@ Exit run_relax(const Options& options) {
                counted(left, "pair collides", "pairs collide"));
   RelaxOptions how{.closures = job.kept.closures, .seed = options.seed};
   if (options.most_tries) how.most_restarts = *options.most_tries;
-  const auto start = hinge::tool::Clock::now();
-  const auto out_of_time = [&] { return options.seconds && hinge::tool::seconds_since(start) >= *options.seconds; };
+  const hinge::tool::TimeLimit out_of_time(options.seconds);
   const std::vector<double> reference(job.checker.dof_count(), 0.0);
   const Relaxation relaxed = relax(job.checker, reference, how, out_of_time);
 

@@ -106,7 +106,7 @@ Exit run_sample(const Options& options) {
   std::optional<PairText> pair_text;
   if (options.output == Output::json && lists_pairs(mode)) pair_text.emplace(job);
   const auto start = hinge::tool::Clock::now();
-  const auto out_of_time = [&] { return options.seconds && hinge::tool::seconds_since(start) >= *options.seconds; };
+  const hinge::tool::TimeLimit out_of_time(options.seconds);
   Worker worker{job.checker, {}, {}};
   ViewChoice choice;
   MoleculePage page(options, job, false, lists_pairs(mode));

@@ -2,9 +2,9 @@
 // TimeLimit: ends a search after a time, and looks for Ctrl-C.
 #pragma once
 
-#include <chrono>
 #include <optional>
 
+#include "hinge_tools/clock.hpp"
 #include "run_slices.hpp"
 
 namespace hinge::python {
@@ -13,19 +13,15 @@ namespace hinge::python {
 class TimeLimit {
  public:
   /// seconds: 0 to 1e9; empty: no limit.
-  explicit TimeLimit(std::optional<double> seconds) {
-    using Clock = std::chrono::steady_clock;
-    if (seconds)
-      end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(*seconds));
-  }
+  explicit TimeLimit(std::optional<double> seconds) : limit_(seconds) {}
   /// Calls poll(). Returns true if the time has passed.
   bool has_passed() const {
     poll();
-    return end_ && std::chrono::steady_clock::now() >= *end_;
+    return limit_();
   }
 
  private:
-  std::optional<std::chrono::steady_clock::time_point> end_;
+  tool::TimeLimit limit_;
 };
 
 }  // namespace hinge::python

@@ -95,8 +95,7 @@ Exit run_plan(const Options& options) {
   for (const auto& [q, which] : {std::pair{&from, "start"}, std::pair{&to, "end"}})
     if (report_end(options, job, worker, *q, which)) return Exit::collision;
 
-  const auto begin = hinge::tool::Clock::now();
-  const auto out_of_time = [&] { return options.seconds && hinge::tool::seconds_since(begin) >= *options.seconds; };
+  const hinge::tool::TimeLimit out_of_time(options.seconds);
   PathChecker paths = path_checker(worker);
   const PlannedMotion planned =
       plan(paths, from, to, {.most_motions = options.motions, .seed = options.seed}, out_of_time);

@@ -53,8 +53,7 @@ Exit run_relax(const Options& options) {
   hinge::tool::CompleteFile file(options.out);
   RobotPage page(options, job, worker, Mode{Mode::Kind::all}, true);
 
-  const auto begin = hinge::tool::Clock::now();
-  const auto out_of_time = [&] { return options.seconds && hinge::tool::seconds_since(begin) >= *options.seconds; };
+  const hinge::tool::TimeLimit out_of_time(options.seconds);
   RelaxOptions how;
   how.seed = options.seed;
   how.most_tries = options.tries;
