@@ -16,7 +16,7 @@
 namespace hinge::detail::simd {
 
 #if defined(__AVX2__) && !defined(__AVX512F__)
-/// Lists the set bits of a mask without a branch: how many there are is unpredictable.
+/// Lists of the set bits of bytes. A loop over the set bits would end at an unpredictable place.
 class BitLists {
  public:
   constexpr BitLists() noexcept {
@@ -33,6 +33,15 @@ class BitLists {
   alignas(64) std::array<std::array<std::uint8_t, 8>, 256> lists_{};
 };
 inline constexpr BitLists bit_lists;
+
+/// Writes value(numbers of the set bits, first lane) for each half of the lanes, and returns the number of set bits.
+template <class Value>
+[[gnu::always_inline]] inline std::size_t append_halves(Bits mask, std::uint32_t* to, const Value& value) noexcept {
+  const std::size_t low = mask & 0xffU, high = mask >> 8;
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), value(bit_lists.of(low), 0));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to + std::popcount(low)), value(bit_lists.of(high), 8));
+  return static_cast<std::size_t>(std::popcount(mask));
+}
 #endif
 
 /// Writes base + lane for every set bit to `to`, lowest lane first, and returns the number of set bits. It may write up
@@ -45,13 +54,10 @@ inline constexpr BitLists bit_lists;
   _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(mask), lanes));
   return static_cast<std::size_t>(std::popcount(mask));
 #elif defined(__AVX2__)
-  const auto half = [&](std::size_t byte, std::uint32_t first, std::uint32_t * out) __attribute__((always_inline)) {
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(out),
-                        _mm256_add_epi32(bit_lists.of(byte), _mm256_set1_epi32(static_cast<int>(first))));
-  };
-  half(mask & 0xffU, base, to);
-  half(mask >> 8, base + 8, to + std::popcount(mask & 0xffU));
-  return static_cast<std::size_t>(std::popcount(mask));
+  return append_halves(
+      mask, to, [base](__m256i lanes, std::uint32_t first) __attribute__((always_inline)) {
+        return _mm256_add_epi32(lanes, _mm256_set1_epi32(static_cast<int>(base + first)));
+      });
 #else
   std::size_t n = 0;
   for (; mask != 0; mask &= mask - 1) to[n++] = base + static_cast<std::uint32_t>(std::countr_zero(mask));
@@ -66,14 +72,11 @@ inline constexpr BitLists bit_lists;
   _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(mask), _mm512_loadu_si512(values)));
   return static_cast<std::size_t>(std::popcount(mask));
 #elif defined(__AVX2__)
-  const auto half = [&](std::size_t byte, const std::uint32_t* from, std::uint32_t* out)
-      __attribute__((always_inline)) {
-    const __m256i chosen = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), _mm256_permutevar8x32_epi32(chosen, bit_lists.of(byte)));
-  };
-  half(mask & 0xffU, values, to);
-  half(mask >> 8, values + 8, to + std::popcount(mask & 0xffU));
-  return static_cast<std::size_t>(std::popcount(mask));
+  return append_halves(
+      mask, to, [values](__m256i lanes, std::uint32_t first) __attribute__((always_inline)) {
+        const __m256i half = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(values + first));
+        return _mm256_permutevar8x32_epi32(half, lanes);
+      });
 #else
   std::size_t n = 0;
   for (; mask != 0; mask &= mask - 1) to[n++] = values[std::countr_zero(mask)];
