@@ -321,7 +321,7 @@ TEST(BondExclusions, EqualsBondDistance) {
   }
 }
 
-/// Excluded atoms lie up to 63 places before or after an atom, or farther away: both have their own store.
+/// Excluded atoms from 64 places before an atom to 63 places after it are stored as bits, others only in a list.
 TEST(BondExclusions, HoldAtEveryDistanceInTheFile) {
   const auto structure = build_ideal_protein("ACPWKACPWKACPWKACPWKACPWKACPWK", std::string(30, 'C'));
   const auto atoms = static_cast<std::uint32_t>(structure.atoms.size());

@@ -89,11 +89,11 @@ BondExclusions::BondExclusions(const Structure& structure, MinBonds min_bonds,
     data.excluded.insert(data.excluded.end(), list.begin(), list.end());
     Window window;
     for (const PrimitiveId j : list) {
-      const std::size_t bit = index(j) - atom + 64;
-      if (bit < 128)
-        window.bits[bit / 64] |= std::uint64_t{1} << bit % 64;
+      const std::size_t place = Window::place(id<PrimitiveId>(atom), j);
+      if (place < Window::size)
+        window.bits[place / 64] |= std::uint64_t{1} << place % 64;
       else
-        window.is_whole = false;
+        window.holds_all = false;
     }
     data.windows.push_back(window);
     data.start.push_back(data.excluded.size());

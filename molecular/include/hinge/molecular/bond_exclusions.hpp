@@ -64,21 +64,25 @@ class HINGE_API BondExclusions {
   std::size_t excluded_pairs() const noexcept { return data_->excluded.size() / 2; }
 
  private:
-  /// Atoms i - 64 ... i + 63 have a bit, because nearly all excluded atoms are close in the file. Without a branch that
-  /// depends on the distance of i and j: a processor cannot predict it.
+  /// Bits of the atoms i - 64 ... i + 63 of an atom i. Nearly all excluded atoms are that close in the file. A look-up
+  /// needs no branch on the distance of two atoms in the file, which is unpredictable.
+  struct Window {
+    static constexpr std::size_t size = 128;
+    /// The place of atom j in the window of atom i; `size` or more if it is outside.
+    static std::size_t place(PrimitiveId i, PrimitiveId j) noexcept { return index(j) - index(i) + size / 2; }
+    std::array<std::uint64_t, size / 64> bits{};
+    bool holds_all = true;  // no atom outside is excluded
+  };
+
   bool excludes(PrimitiveId i, PrimitiveId j) const noexcept {
     const Window& window = data_->windows[index(i)];
-    const std::size_t bit = index(j) - index(i) + 64;  // huge if j is far below i
-    if (window.is_whole || bit < 128) [[likely]]
-      return bit < 128 && (window.bits[bit / 64] >> bit % 64 & 1U) != 0;
+    const std::size_t place = Window::place(i, j);
+    if (window.holds_all || place < Window::size) [[likely]]
+      return place < Window::size && (window.bits[place / 64] >> place % 64 & 1U) != 0;
     const auto list = excluded(i);
     return std::binary_search(list.begin(), list.end(), j);
   }
 
-  struct Window {
-    std::array<std::uint64_t, 2> bits{};
-    bool is_whole = true;  // no other atom is excluded
-  };
   struct Data {
     std::vector<std::size_t> start;
     std::vector<PrimitiveId> excluded;
