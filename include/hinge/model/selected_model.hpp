@@ -195,6 +195,7 @@ void SelectedModel<P>::find_axis_primitives() {
         if (P there = here.primitive; unseen(parent) && cross_to_parent(there, here.group))
           stops.push_back({parent, there});
         const std::vector<GroupId>& below = children[index(here.group)];
+        // Returns false when the list is full.
         const auto try_child = [&](std::size_t k) {
           if (P there = here.primitive; unseen(below[k]) && cross_to_child(there, below[k]))
             stops.push_back({below[k], there});
@@ -202,8 +203,8 @@ void SelectedModel<P>::find_axis_primitives() {
         };
         const auto grid = grids.find(here.group);
         if (grid == grids.end() || !grid->second.visit_near(here.primitive.bounds(), try_child))
-          for (std::size_t k = 0; k < below.size() && try_child(k); ++k) {
-          }
+          for (std::size_t k = 0; k < below.size(); ++k)
+            if (!try_child(k)) break;
       }
       if (stops.size() > most_listed)
         unlisted_.push_back(id<PrimitiveId>(i));
