@@ -58,7 +58,7 @@ void expect_same_molecule(const Structure& a, const Structure& b) {
     ASSERT_EQ(a.atoms[i].element, b.atoms[i].element) << label(a, i);
     ASSERT_EQ(a.residues[a.atoms[i].residue].kind, b.residues[b.atoms[i].residue].kind) << label(a, i);
     ASSERT_EQ(a.models[0][i], b.models[0][i]) << label(a, i);
-    // The PDB format has two digits after the point, and five columns.
+    // The PDB format has six columns for the B factor, two of them after the point.
     ASSERT_NEAR(std::clamp(a.atoms[i].b_factor, -99.99, 999.99), std::clamp(b.atoms[i].b_factor, -99.99, 999.99),
                 0.0051)
         << label(a, i);
@@ -164,6 +164,15 @@ TEST(RoundTrip, KeepsBFactors) {
   s.atoms.front().b_factor = 1e6;  // does not fit the PDB columns
   EXPECT_EQ(again(written(s, TrajectoryFormat::pdb), TrajectoryFormat::pdb).atoms.front().b_factor,
             static_cast<double>(999.99F));
+}
+
+TEST(ReadPdb, TakesABFactorThatIsNotFiniteAsZero) {
+  const Structure s = build_ideal_protein("AG", "CC");
+  for (const char* field : {"   nan", "   inf"}) {
+    std::string text = written(s, TrajectoryFormat::pdb);
+    text.replace(text.find("ATOM") + 60, 6, field);
+    EXPECT_EQ(again(text, TrajectoryFormat::pdb).atoms.front().b_factor, 0.0) << field;
+  }
 }
 
 /// Returns a cystine, a ligand with a double bond (a repeated CONECT) bonded to the protein, and a metal.

@@ -8,6 +8,7 @@ import pytest
 
 import hinge.molecular as hm
 from conftest import ROOT, SHARED
+from molecular_cases import biocd
 
 FILES = [
     ROOT / "molecular/data/1ubq.pdb",
@@ -41,6 +42,37 @@ def test_gemmi(file):
     assert [m.label(k) for k in range(m.n_atoms)] == [g.label(k) for k in range(g.n_atoms)]
     mine, theirs = hm.Checker(m, "none"), hm.Checker(g, "none")
     assert np.array_equal(mine.pairs_coordinates(m.models, within=0.3), theirs.pairs_coordinates(g.models, within=0.3))
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_mdanalysis_keeps_b_factors():
+    """Selections by the confidence of predicted models read them."""
+    mda = imported("MDAnalysis")
+    m = hm.Molecule(FILES[0], hetero="waters", model=1)
+    x = hm.Molecule.from_mdanalysis(mda.Universe(str(FILES[0])))
+    chosen = m.select("plddt<=12")
+    assert 0 < len(chosen) < len(m.torsions)
+    assert np.array_equal(x.select("plddt<=12"), chosen)
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("ending", ["pdb", "cif"])
+def test_written_files_hold_the_b_factors(tmp_path, ending):
+    gemmi = imported("gemmi")
+    out = tmp_path / f"x.{ending}"
+    biocd("sample", "1ubq", "-n", 2, "--out", out)
+
+    def b_factors(path):
+        s = gemmi.read_structure(str(path))
+        s.remove_waters()
+        return [[a.b_iso for chain in model for residue in chain for a in residue] for model in s]
+
+    (expected,) = b_factors(FILES[0])
+    assert len(set(expected)) > 100
+    assert b_factors(out) == [expected, expected]
+    if ending == "pdb":
+        universe = imported("MDAnalysis").Universe(str(out))
+        assert np.allclose(universe.atoms.tempfactors, expected, rtol=0, atol=1e-6)
 
 
 @files

@@ -25,9 +25,9 @@ HINGE_API void check_fits_pdb(const Structure& structure);
 /// check_fits_pdb does.
 HINGE_API void write_pdb_head(std::ostream& out, const Structure& structure);
 /// Writes one MODEL ... ENDMDL block. positions: angstrom, one per atom. number: model number. Serial numbers above
-/// 99999 and residue numbers above 9999 are hybrid-36. B factors have two digits after the point and are cut to
-/// -99.99 ... 999.99. Throws ModelError as check_fits_pdb does, and if a coordinate
-/// does not fit eight columns.
+/// 99999 and residue numbers above 9999 are hybrid-36. B factors have two digits after the point; outside of -99.99 to
+/// 999.99 the nearest of these numbers is written. Throws ModelError as check_fits_pdb does, and if a coordinate does
+/// not fit eight columns.
 HINGE_API void write_pdb_model(std::ostream& out, const Structure& structure, std::span<const Vec3> positions,
                                int number);
 /// Writes CONECT records and END. A multiple bond is a repeated partner.
@@ -38,7 +38,7 @@ HINGE_API void write_pdb_tail(std::ostream& out, const Structure& structure);
 /// atom_site. At least one model must follow.
 HINGE_API void write_cif_head(std::ostream& out, const Structure& structure);
 /// Writes one model. positions: angstrom, one per atom, as the shortest decimals that read back as the same doubles.
-/// model: its number. first_id: atom_site.id of its first atom.
+/// B factors are written as floats. number: of the model. first_id: atom_site.id of its first atom.
 HINGE_API void write_cif_model(std::ostream& out, const Structure& structure, std::span<const Vec3> positions,
                                int number, std::size_t first_id);
 
