@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The choice of <experimental/simd> for hinge::simd: two inner loops with it and with Highway, interleaved, at three
-// levels.
+// The choice of the compilers' vector types for hinge::simd: two inner loops with them and with Highway, in turns, at
+// three levels.
 #include <algorithm>
 #include <bit>
 #include <chrono>

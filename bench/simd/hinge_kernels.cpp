@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The inner loops with hinge::simd: <experimental/simd>, with intrinsics only for table look-up and compression.
+// The inner loops with hinge::simd: the compilers' vector types, with intrinsics for table look-up and compression.
 #include <cstddef>
 #include <cstdint>
 
@@ -45,7 +45,7 @@ std::size_t touching_boxes(const BoxTasks& tasks, std::uint32_t* hits) {
 
 template <>
 Kernels hinge_kernels<detail::simd::compiled_for()>() {
-  return {"<experimental/simd>", near_points, touching_boxes};
+  return {"vector types", near_points, touching_boxes};
 }
 
 }  // namespace hinge::bench

@@ -93,8 +93,7 @@ inline std::vector<std::string> floor_violations(const SourceTree& tree) {
       if (!include.quoted) {
         const bool is_core = path.starts_with("include/");
         const bool is_standard = include.name.find_first_of("/.") == std::string::npos;
-        const bool is_isa =
-            row == "simd" && (include.name.ends_with("intrin.h") || include.name == "experimental/simd");
+        const bool is_isa = row == "simd" && include.name.ends_with("intrin.h");
         const bool is_process = row == "hinge_tools" && (include.name == "unistd.h" || include.name == "fcntl.h" ||
                                                          include.name == "sys/stat.h");
         const bool is_json = row == "hinge_tools" && include.name == "nlohmann/json.hpp";

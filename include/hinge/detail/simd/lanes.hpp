@@ -3,115 +3,125 @@
 // registers.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <experimental/simd>
+#include <cstring>
 #include <new>
 #include <vector>
 
+#include "hinge/detail/simd/register.hpp"
+
 namespace hinge::detail::simd {
-
-// With clang and AVX-512, libstdc++ 12 treats a lane mask in where() as a single bool, so blends are avoided there.
-#if defined(__clang__) && defined(__AVX512F__)
-inline constexpr bool has_blends = false;
-#else
-inline constexpr bool has_blends = true;
-#endif
-
-/// One bit per lane; lane 0 is the lowest bit.
-using Bits = std::uint32_t;
 
 /// Lane-wise arithmetic without fused multiply-add: each lane has the bits of scalar code in the same order. Memory
 /// need not be aligned. All functions are forced inline, because compilers otherwise emit calls that pass lanes through
 /// memory.
 template <class T, std::size_t N>
 class Lanes {
-  using Part = std::experimental::native_simd<T>;
-  static constexpr std::size_t part_size = Part::size() < N ? Part::size() : N;
-  using Vector = std::experimental::simd<T, std::experimental::simd_abi::deduce_t<T, part_size>>;
+  static constexpr std::size_t part_size = std::min(N, register_bytes / sizeof(T));
   static constexpr std::size_t parts = N / part_size;
   static_assert(parts * part_size == N);
+  using Part = Register<T, part_size>;
+  using Vector = typename Part::Vector;
 
  public:
   Lanes() = default;
   [[gnu::always_inline]] Lanes(T value) noexcept {
-    for (Vector& v : v_) v = value;
+    for (Vector& v : v_) v = Part::filled(value);
   }
   [[gnu::always_inline]] explicit Lanes(const T* from) noexcept {
-    for (std::size_t p = 0; p < parts; ++p) v_[p].copy_from(from + p * part_size, std::experimental::element_aligned);
+    for (std::size_t p = 0; p < parts; ++p) std::memcpy(&v_[p], from + p * part_size, sizeof(Vector));
   }
   /// Builds lanes from one value per lane.
   template <class... Values>
   requires(sizeof...(Values) == N) [[gnu::always_inline]] static Lanes of(Values... values) noexcept {
     const T each[N] = {values...};
     Lanes r;
-    for (std::size_t p = 0; p < parts; ++p) r.v_[p] = Vector([&](auto lane) { return each[p * part_size + lane]; });
+    for (std::size_t p = 0; p < parts; ++p) r.v_[p] = Part::of(each + p * part_size);
     return r;
   }
   [[gnu::always_inline]] void store(T* to) const noexcept {
-    for (std::size_t p = 0; p < parts; ++p) v_[p].copy_to(to + p * part_size, std::experimental::element_aligned);
+    for (std::size_t p = 0; p < parts; ++p) std::memcpy(to + p * part_size, &v_[p], sizeof(Vector));
   }
 
-  /// Stores lanes first .. last - 1 only; other memory is unchanged.
+  /// Stores lanes first .. last - 1. The other N - last + first numbers are read, and written unchanged.
   [[gnu::always_inline]] void store_lanes(std::size_t first, std::size_t last, T* to) const noexcept {
-    if constexpr (has_blends) {
-      for (std::size_t p = 0; p < parts; ++p) {
-        const Vector lane([&](auto k) { return static_cast<T>(p * part_size + k); });
-        where(lane >= static_cast<T>(first) && lane < static_cast<T>(last), v_[p])
-            .copy_to(to + p * part_size, std::experimental::element_aligned);
-      }
-    } else {
-      for (std::size_t k = first; k < last; ++k) to[k] = v_[k / part_size][k % part_size];
+    Lanes r(to);
+    for (std::size_t p = 0; p < parts; ++p) {
+      const Vector lane = Part::numbered(p * part_size), begin = Part::filled(static_cast<T>(first)),
+                   end = Part::filled(static_cast<T>(last));
+      r.v_[p] = ((lane >= begin) & (lane < end)) ? v_[p] : r.v_[p];
     }
+    r.store(to);
   }
 
   /// Stores all lanes, rounded to float.
   [[gnu::always_inline]] void store_rounded(float* to) const noexcept {
-    using Rounded = std::experimental::rebind_simd_t<float, Vector>;
-    for (std::size_t p = 0; p < parts; ++p)
-      std::experimental::static_simd_cast<Rounded>(v_[p]).copy_to(to + p * part_size,
-                                                                  std::experimental::element_aligned);
+    using Floats = typename Register<float, part_size>::Vector;
+    const auto rounded = [&](std::size_t p) __attribute__((always_inline)) {
+      return __builtin_convertvector(v_[p], Floats);
+    };
+    // Registers of two doubles: a processor waits if it has to load sixteen bytes that it stored as two halves.
+    constexpr std::size_t joined = part_size == 2 ? 2 : 1;
+    for (std::size_t p = 0; p < parts; p += joined)
+      if constexpr (joined == 2) {
+        const auto both = __builtin_shufflevector(rounded(p), rounded(p + 1), 0, 1, 2, 3);
+        std::memcpy(to + p * part_size, &both, sizeof both);
+      } else {
+        const Floats one = rounded(p);
+        std::memcpy(to + p * part_size, &one, sizeof one);
+      }
   }
 
   [[gnu::always_inline]] friend Lanes operator+(const Lanes& a, const Lanes& b) noexcept {
-    return each(
-        a, b, [](const Vector& x, const Vector& y) __attribute__((always_inline)) { return Vector(x + y); });
+    Lanes r;
+    for (std::size_t p = 0; p < parts; ++p) r.v_[p] = a.v_[p] + b.v_[p];
+    return r;
   }
   [[gnu::always_inline]] friend Lanes operator-(const Lanes& a, const Lanes& b) noexcept {
-    return each(
-        a, b, [](const Vector& x, const Vector& y) __attribute__((always_inline)) { return Vector(x - y); });
+    Lanes r;
+    for (std::size_t p = 0; p < parts; ++p) r.v_[p] = a.v_[p] - b.v_[p];
+    return r;
   }
   [[gnu::always_inline]] friend Lanes operator*(const Lanes& a, const Lanes& b) noexcept {
-    return each(
-        a, b, [](const Vector& x, const Vector& y) __attribute__((always_inline)) { return Vector(x * y); });
+    Lanes r;
+    for (std::size_t p = 0; p < parts; ++p) r.v_[p] = a.v_[p] * b.v_[p];
+    return r;
   }
   [[gnu::always_inline]] friend Lanes operator/(const Lanes& a, const Lanes& b) noexcept {
-    return each(
-        a, b, [](const Vector& x, const Vector& y) __attribute__((always_inline)) { return Vector(x / y); });
+    Lanes r;
+    for (std::size_t p = 0; p < parts; ++p) r.v_[p] = a.v_[p] / b.v_[p];
+    return r;
   }
   [[gnu::always_inline]] friend Lanes operator-(const Lanes& a) noexcept {
-    return each(
-        a, a, [](const Vector& x, const Vector&) __attribute__((always_inline)) { return Vector(-x); });
+    Lanes r;
+    for (std::size_t p = 0; p < parts; ++p) r.v_[p] = -a.v_[p];
+    return r;
   }
+  /// Returns b where a or b is NaN.
   [[gnu::always_inline]] friend Lanes min(const Lanes& a, const Lanes& b) noexcept {
-    return each(
-        a, b, [](const Vector& x, const Vector& y) __attribute__((always_inline)) {
-          return Vector(std::experimental::min(x, y));
-        });
+    Lanes r;
+    for (std::size_t p = 0; p < parts; ++p) r.v_[p] = Part::min(a.v_[p], b.v_[p]);
+    return r;
   }
+  /// Returns b where a or b is NaN.
   [[gnu::always_inline]] friend Lanes max(const Lanes& a, const Lanes& b) noexcept {
-    return each(
-        a, b, [](const Vector& x, const Vector& y) __attribute__((always_inline)) {
-          return Vector(std::experimental::max(x, y));
-        });
+    Lanes r;
+    for (std::size_t p = 0; p < parts; ++p) r.v_[p] = Part::max(a.v_[p], b.v_[p]);
+    return r;
   }
-  [[gnu::always_inline]] friend Lanes abs(const Lanes& a) noexcept { return max(a, -a); }
+  [[gnu::always_inline]] friend Lanes abs(const Lanes& a) noexcept {
+    Lanes r;
+    for (std::size_t p = 0; p < parts; ++p) r.v_[p] = Part::abs(a.v_[p]);
+    return r;
+  }
 
   /// The result of a lane-wise comparison.
   class Mask {
    public:
-    using Parts = std::array<typename Vector::mask_type, parts>;
+    using Parts = std::array<decltype(Part::less(Vector{}, Vector{})), parts>;
     [[gnu::always_inline]] explicit Mask(const Parts& m) noexcept : m_(m) {}
     [[gnu::always_inline]] friend Mask operator&(const Mask& a, const Mask& b) noexcept {
       Parts m;
@@ -125,7 +135,7 @@ class Lanes {
     }
     [[gnu::always_inline]] operator Bits() const noexcept {
       Bits r = 0;
-      for (std::size_t p = 0; p < parts; ++p) r |= static_cast<Bits>(m_[p].__to_bitset().to_ulong()) << (p * part_size);
+      for (std::size_t p = 0; p < parts; ++p) r |= Part::bits(m_[p]) << (p * part_size);
       return r;
     }
 
@@ -136,53 +146,37 @@ class Lanes {
   /// Returns a < b per lane; false for NaN.
   [[gnu::always_inline]] friend Mask less(const Lanes& a, const Lanes& b) noexcept {
     typename Mask::Parts m;
-    for (std::size_t p = 0; p < parts; ++p) m[p] = a.v_[p] < b.v_[p];
+    for (std::size_t p = 0; p < parts; ++p) m[p] = Part::less(a.v_[p], b.v_[p]);
     return Mask(m);
   }
   /// Returns a <= b per lane; false for NaN.
   [[gnu::always_inline]] friend Mask less_equal(const Lanes& a, const Lanes& b) noexcept {
     typename Mask::Parts m;
-    for (std::size_t p = 0; p < parts; ++p) m[p] = a.v_[p] <= b.v_[p];
+    for (std::size_t p = 0; p < parts; ++p) m[p] = Part::less_equal(a.v_[p], b.v_[p]);
     return Mask(m);
   }
   /// Returns a where x < y, otherwise b, per lane.
   [[gnu::always_inline]] friend Lanes choose_less(const Lanes& x, const Lanes& y, const Lanes& a,
                                                   const Lanes& b) noexcept {
-    if constexpr (has_blends) {
-      Lanes r = b;
-      for (std::size_t p = 0; p < parts; ++p) where(x.v_[p] < y.v_[p], r.v_[p]) = a.v_[p];
-      return r;
-    } else {
-      std::array<T, N> of_x, of_y, of_a, of_b;
-      x.store(of_x.data());
-      y.store(of_y.data());
-      a.store(of_a.data());
-      b.store(of_b.data());
-      for (std::size_t k = 0; k < N; ++k) of_b[k] = of_x[k] < of_y[k] ? of_a[k] : of_b[k];
-      return Lanes(of_b.data());
-    }
+    Lanes r;
+    for (std::size_t p = 0; p < parts; ++p) r.v_[p] = x.v_[p] < y.v_[p] ? a.v_[p] : b.v_[p];
+    return r;
   }
 
   /// Returns the smallest lane.
   [[gnu::always_inline]] friend T smallest(const Lanes& a) noexcept {
     Vector r = a.v_[0];
-    for (std::size_t p = 1; p < parts; ++p) r = std::experimental::min(r, a.v_[p]);
-    return std::experimental::hmin(r);
+    for (std::size_t p = 1; p < parts; ++p) r = Part::min(r, a.v_[p]);
+    return Part::smallest(r);
   }
   /// Returns the largest lane.
   [[gnu::always_inline]] friend T largest(const Lanes& a) noexcept {
     Vector r = a.v_[0];
-    for (std::size_t p = 1; p < parts; ++p) r = std::experimental::max(r, a.v_[p]);
-    return std::experimental::hmax(r);
+    for (std::size_t p = 1; p < parts; ++p) r = Part::max(r, a.v_[p]);
+    return Part::largest(r);
   }
 
  private:
-  template <class Op>
-  [[gnu::always_inline]] static Lanes each(const Lanes& a, const Lanes& b, const Op& op) noexcept {
-    Lanes r;
-    for (std::size_t p = 0; p < parts; ++p) r.v_[p] = op(a.v_[p], b.v_[p]);
-    return r;
-  }
   std::array<Vector, parts> v_;
 };
 
