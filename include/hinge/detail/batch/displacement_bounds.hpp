@@ -28,11 +28,8 @@ class LaneStep {
   [[gnu::always_inline]] void set(const double* frames, const Pose& reference) noexcept {
     for (std::size_t e = 0; e < FrameLanes::entries; ++e) {
       const simd::Double8 from(e < 9 ? reference.rotation.data()[e] : reference.translation.data()[e - 9]);
-      alignas(64) std::array<double, simd::width> step;
-      for (std::size_t k = 0; k < simd::width; k += 8)
-        (simd::Double8(frames + e * simd::width + k) - from).store(step.data() + k);
-      // Not Lanes::store_rounded: for eight doubles, g++ 12 warns about one of its own operands.
-      for (std::size_t k = 0; k < simd::width; ++k) entry_[e * simd::width + k] = static_cast<float>(step[k]);
+      for (std::size_t k = e * simd::width; k < (e + 1) * simd::width; k += 8)
+        (simd::Double8(frames + k) - from).store_rounded(entry_.data() + k);
     }
   }
   [[gnu::always_inline]] simd::Float16 entry(std::size_t e) const noexcept {

@@ -52,18 +52,14 @@ using LaneFrame = std::array<LaneVector, 4>;
   using simd::Float16;
   // One product is enough for float: below cody_waite_limit, its rounding and that of pi / 2 add less than 2^-31.
   constexpr double two_over_pi = 0x1.45f306dc9c883p-1, half_pi = 0x1.921fb54442d18p+0;
-  alignas(64) std::array<double, simd::width> rest, turns;
+  alignas(64) std::array<float, simd::width> rest, turns;
   for (std::size_t k = 0; k < simd::width; k += 8) {
     const simd::Double8 x(angle + k), up(rounder);
     const simd::Double8 n = (x * simd::Double8(two_over_pi) + up) - up;
-    n.store(turns.data() + k);
-    (x - n * simd::Double8(half_pi)).store(rest.data() + k);
+    n.store_rounded(turns.data() + k);
+    (x - n * simd::Double8(half_pi)).store_rounded(rest.data() + k);
   }
-  // Not Lanes::store_rounded: for eight doubles, g++ 12 warns about one of its own operands.
-  alignas(64) std::array<float, simd::width> rest_rounded, turns_rounded;
-  for (std::size_t k = 0; k < simd::width; ++k) rest_rounded[k] = static_cast<float>(rest[k]);
-  for (std::size_t k = 0; k < simd::width; ++k) turns_rounded[k] = static_cast<float>(turns[k]);
-  const Float16 x(rest_rounded.data()), n(turns_rounded.data()), z = x * x;
+  const Float16 x(rest.data()), n(turns.data()), z = x * x;
   // Taylor polynomials: on |x| <= pi/4 the first omitted terms are below 0.03 u and 0.002 u.
   const Float16 s =
       x + x * z * (Float16(-1.0F / 6) + z * (Float16(1.0F / 120) + z * (Float16(-1.0F / 5040) + z * (1.0F / 362880))));
