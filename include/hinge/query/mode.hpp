@@ -2,11 +2,11 @@
 // Mode: a query mode chosen at run time, as the checkers of the modules take it and as users write it.
 #pragma once
 
-#include <charconv>
 #include <cstdint>
+#include <locale>
+#include <sstream>
 #include <string>
 #include <string_view>
-#include <system_error>
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
@@ -33,10 +33,11 @@ inline Mode Mode::parse(std::string_view text, std::string_view unit) {
   if (text == "closest") return {Kind::closest, 0.0};
   constexpr std::string_view within = "within:";
   if (text.starts_with(within)) {
-    const std::string_view number = text.substr(within.size());
+    std::istringstream number{std::string(text.substr(within.size()))};  // libc++ 14 has no std::from_chars of doubles
+    number.imbue(std::locale::classic());
     double margin = -1.0;
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), margin);
-    if (error == std::errc{} && end == number.data() + number.size() && is_finite(margin) && margin >= 0.0)
+    if (number >> std::noskipws >> margin && number.peek() == std::char_traits<char>::eof() && is_finite(margin) &&
+        margin >= 0.0)
       return {Kind::within, margin};
   }
   std::string what = "mode '";

@@ -75,7 +75,7 @@ std::vector<std::uint8_t> out_of_reach(const SelectedModel<P>& model, const D& m
     const auto out_of = [&](const ChainBall& chain) {
       return norm(Vec3(point - chain.centre)) > chain.radius + own + rounding * (chain.largest + norm(point) + own);
     };
-    out[index(i)] = std::ranges::all_of(chains, out_of) ? 1 : 0;
+    out[index(i)] = std::all_of(chains.begin(), chains.end(), out_of) ? 1 : 0;
   }
   return out;
 }

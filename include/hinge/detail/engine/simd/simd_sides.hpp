@@ -41,7 +41,7 @@ class SimdSides {
   SimdSides(const SelectedModel<P>& model, const D& matrix) {
     if constexpr (IsPointLike<P>) {
       const auto count = [](const std::vector<std::uint8_t>& flags) {
-        return static_cast<std::size_t>(std::ranges::count(flags, std::uint8_t{1}));
+        return static_cast<std::size_t>(std::count(flags.begin(), flags.end(), std::uint8_t{1}));
       };
       never_collides_ = zero_thresholds(matrix, model.size());
       const std::size_t without_threshold = count(never_collides_);
