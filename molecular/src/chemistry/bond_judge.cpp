@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
 #include <string_view>
 
 #include "chemistry/nucleotide_table.hpp"
 #include "chemistry/residue_table.hpp"
+#include "hinge/detail/core/elementary.hpp"
 #include "hinge/molecular/bonds.hpp"
 #include "mechanism/rotatable_bonds.hpp"
 
@@ -74,12 +74,13 @@ void BondJudge::part(std::uint32_t i, std::uint32_t j) {
   std::erase_if(near_[j - first_], [&](const Neighbour& n) { return n.atom == i; });
 }
 
-double BondJudge::distance(std::uint32_t i, std::uint32_t j) const { return (x_[i] - x_[j]).norm(); }
+double BondJudge::distance(std::uint32_t i, std::uint32_t j) const { return norm(Vec3(x_[i] - x_[j])); }
 
 double BondJudge::angle(std::uint32_t k, std::uint32_t i, std::uint32_t j) const {
   const Vec3 a = x_[k] - x_[i], b = x_[j] - x_[i];
-  const double lengths = a.norm() * b.norm();
-  return lengths > 0.0 ? std::acos(std::clamp(a.dot(b) / lengths, -1.0, 1.0)) * 180.0 / std::numbers::pi : 0.0;
+  const double across = norm(cross(a, b)), along = dot(a, b);
+  const bool same_place = across == 0.0 && along == 0.0;
+  return same_place ? 0.0 : detail::atan2(across, along) * 180.0 / std::numbers::pi;
 }
 
 bool BondJudge::is_multiple(std::uint32_t i, const Neighbour& neighbour) const {

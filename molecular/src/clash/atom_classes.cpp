@@ -41,7 +41,7 @@ AtomClass classify_oxygen(const Structure& s, const Neighbours& near, std::uint3
   const ResidueKind kind = s.residues[s.atoms[i].residue].kind;
   if (kind == ResidueKind::nucleotide && near[i].size() == 1) hydroxyl = atom.ends_with('\'') || atom.ends_with('*');
   if (kind == ResidueKind::other && near[i].size() == 1 && s.atoms[near[i].front()].element == "C")
-    hydroxyl = (s.models.front()[i] - s.models.front()[near[i].front()]).norm() > single_carbon_oxygen;
+    hydroxyl = norm(Vec3(s.models.front()[i] - s.models.front()[near[i].front()])) > single_carbon_oxygen;
   return hydroxyl ? AtomClass::oxygen_hydroxyl : AtomClass::oxygen;
 }
 

@@ -113,7 +113,7 @@ class BondRule {
 
   bool is_single(const Bond& bond) const {
     if (bond.order != BondOrder::unknown) return bond.order == BondOrder::single;
-    const double d = (s_.models.front()[bond.first] - s_.models.front()[bond.second]).norm();
+    const double d = norm(Vec3(s_.models.front()[bond.first] - s_.models.front()[bond.second]));
     return d >= single_bond_from(element(bond.first), element(bond.second));
   }
 
