@@ -46,7 +46,7 @@ class Lanes {
     for (std::size_t p = 0; p < parts; ++p) std::memcpy(to + p * part_size, &v_[p], sizeof(Vector));
   }
 
-  /// Stores lanes first .. last - 1. The other N - last + first numbers are read, and written unchanged.
+  /// Stores lanes first .. last - 1. to: N numbers; the others are read, and written back as they are.
   [[gnu::always_inline]] void store_lanes(std::size_t first, std::size_t last, T* to) const noexcept {
     Lanes r(to);
     for (std::size_t p = 0; p < parts; ++p) {
@@ -59,20 +59,19 @@ class Lanes {
 
   /// Stores all lanes, rounded to float.
   [[gnu::always_inline]] void store_rounded(float* to) const noexcept {
-    using Floats = typename Register<float, part_size>::Vector;
     const auto rounded = [&](std::size_t p) __attribute__((always_inline)) {
-      return __builtin_convertvector(v_[p], Floats);
+      return __builtin_convertvector(v_[p], typename Register<float, part_size>::Vector);
     };
-    // Registers of two doubles: a processor waits if it has to load sixteen bytes that it stored as two halves.
-    constexpr std::size_t joined = part_size == 2 ? 2 : 1;
-    for (std::size_t p = 0; p < parts; p += joined)
-      if constexpr (joined == 2) {
-        const auto both = __builtin_shufflevector(rounded(p), rounded(p + 1), 0, 1, 2, 3);
-        std::memcpy(to + p * part_size, &both, sizeof both);
-      } else {
-        const Floats one = rounded(p);
-        std::memcpy(to + p * part_size, &one, sizeof one);
-      }
+    const auto store_at = [to](std::size_t lane, const auto& floats) __attribute__((always_inline)) {
+      std::memcpy(to + lane, &floats, sizeof floats);
+    };
+    if constexpr (part_size == 2) {
+      // A processor waits if it has to load sixteen bytes that it stored as two halves.
+      for (std::size_t p = 0; p < parts; p += 2)
+        store_at(p * part_size, __builtin_shufflevector(rounded(p), rounded(p + 1), 0, 1, 2, 3));
+    } else {
+      for (std::size_t p = 0; p < parts; ++p) store_at(p * part_size, rounded(p));
+    }
   }
 
   [[gnu::always_inline]] friend Lanes operator+(const Lanes& a, const Lanes& b) noexcept {

@@ -45,31 +45,19 @@ struct Register {
 
   [[gnu::always_inline]] static auto less(const Vector& a, const Vector& b) noexcept {
 #if defined(__AVX512F__)
-    if constexpr (!has_bit_masks)
-      return a < b;
-    else if constexpr (std::is_same_v<T, float>)
-      return _mm512_cmp_ps_mask(a, b, _CMP_LT_OS);
-    else if constexpr (std::is_same_v<T, double>)
-      return _mm512_cmp_pd_mask(a, b, _CMP_LT_OS);
+    if constexpr (has_bit_masks)
+      return compared_bits<_CMP_LT_OS>(a, b);
     else
-      return _mm512_cmplt_epu32_mask(std::bit_cast<__m512i>(a), std::bit_cast<__m512i>(b));
-#else
-    return a < b;
 #endif
+      return a < b;
   }
   [[gnu::always_inline]] static auto less_equal(const Vector& a, const Vector& b) noexcept {
 #if defined(__AVX512F__)
-    if constexpr (!has_bit_masks)
-      return a <= b;
-    else if constexpr (std::is_same_v<T, float>)
-      return _mm512_cmp_ps_mask(a, b, _CMP_LE_OS);
-    else if constexpr (std::is_same_v<T, double>)
-      return _mm512_cmp_pd_mask(a, b, _CMP_LE_OS);
+    if constexpr (has_bit_masks)
+      return compared_bits<_CMP_LE_OS>(a, b);
     else
-      return _mm512_cmple_epu32_mask(std::bit_cast<__m512i>(a), std::bit_cast<__m512i>(b));
-#else
-    return a <= b;
 #endif
+      return a <= b;
   }
   /// mask: from less() or less_equal().
   template <class Mask>
@@ -112,6 +100,20 @@ struct Register {
   }
 
  private:
+#if defined(__AVX512F__)
+  /// predicate: _CMP_LT_OS or _CMP_LE_OS, which are _MM_CMPINT_LT and _MM_CMPINT_LE too.
+  template <int predicate>
+  [[gnu::always_inline]] static Bits compared_bits(const Vector& a, const Vector& b) noexcept {
+    static_assert(_CMP_LT_OS == int{_MM_CMPINT_LT} && _CMP_LE_OS == int{_MM_CMPINT_LE});
+    if constexpr (std::is_same_v<T, float>)
+      return _mm512_cmp_ps_mask(a, b, predicate);
+    else if constexpr (std::is_same_v<T, double>)
+      return _mm512_cmp_pd_mask(a, b, predicate);
+    else
+      return _mm512_cmp_epu32_mask(std::bit_cast<__m512i>(a), std::bit_cast<__m512i>(b), predicate);
+  }
+#endif
+
   using Numbers = std::make_index_sequence<N>;
   template <std::size_t... k>
   [[gnu::always_inline]] static Vector filled(T value, std::index_sequence<k...>) noexcept {
