@@ -383,7 +383,8 @@ TEST(Mode, IsReadAndWritten) {
   for (const char* text : {"any", "all", "closest", "within:0.05", "within:0"})
     EXPECT_EQ(Mode::parse(text).text(), text);
   EXPECT_EQ(Mode::parse("within:1e-3").margin, 1e-3);
-  for (const char* text : {"", "some", "within:", "within:x", "within:-1", "within:inf", "within:nan", "within:1 "})
+  for (const char* text : {"", "some", "within:", "within:x", "within:-1", "within:inf", "within:nan", "within:1 ",
+                           "within: 1", "within:+1", "within:0x1", "within:1e", "within:1e400", "within:1,5"})
     EXPECT_THROW(Mode::parse(text), ModelError) << text;
 }
 

@@ -33,10 +33,14 @@ inline Mode Mode::parse(std::string_view text, std::string_view unit) {
   if (text == "closest") return {Kind::closest, 0.0};
   constexpr std::string_view within = "within:";
   if (text.starts_with(within)) {
-    std::istringstream number{std::string(text.substr(within.size()))};  // libc++ 14 has no std::from_chars of doubles
-    number.imbue(std::locale::classic());
+    // libc++ 14 has no std::from_chars of doubles. Streams also read a sign, and some of them hexadecimal digits.
+    const std::string number(text.substr(within.size()));
+    const bool is_decimal =
+        number.find_first_not_of("0123456789.eE+-") == std::string::npos && !number.starts_with('+');
+    std::istringstream stream(number);
+    stream.imbue(std::locale::classic());
     double margin = -1.0;
-    if (number >> std::noskipws >> margin && number.peek() == std::char_traits<char>::eof() && is_finite(margin) &&
+    if (is_decimal && stream >> margin && stream.peek() == std::char_traits<char>::eof() && is_finite(margin) &&
         margin >= 0.0)
       return {Kind::within, margin};
   }
