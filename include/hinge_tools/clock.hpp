@@ -13,7 +13,7 @@ inline double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Returns true when `seconds` have passed since it was made; never without a limit.
+/// A call returns whether `seconds` have passed since construction. Without seconds, it returns false.
 class TimeLimit {
  public:
   explicit TimeLimit(std::optional<double> seconds) : seconds_(seconds) {}

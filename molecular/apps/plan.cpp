@@ -34,9 +34,6 @@ namespace {
 using namespace hinge::molecular;
 using hinge::tool::counted;
 
-/// True when --time has passed.
-using OutOfTime = std::function<bool()>;
-
 /// Sets a fitted end to the conformation that the motion has there.
 void replace_end(const Job& job, PathEnd& end, const std::vector<double>& q) {
   if (!end.fitted) return;
