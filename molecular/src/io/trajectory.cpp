@@ -117,7 +117,7 @@ void Trajectory::check_unit() {
     return;  // frame(0) reports the error
   }
   double sum = 0.0;
-  for (const Bond& bond : molecule_->bonds) sum += (positions[bond.first] - positions[bond.second]).norm();
+  for (const Bond& bond : molecule_->bonds) sum += norm(Vec3(positions[bond.first] - positions[bond.second]));
   const double mean = sum / static_cast<double>(molecule_->bonds.size());
   // Bonds of organic molecules measure 1 to 2 angstrom: 0.1 to 0.2 if the unit is nanometres.
   if (!molecule_->bonds.empty() && mean < 0.3)

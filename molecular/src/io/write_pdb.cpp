@@ -82,7 +82,7 @@ void write_elements(std::ostream& out, const Structure& s) {
 void write_links(std::ostream& out, const Structure& s) {
   const std::string symmetry = right("1555", 6) + right("1555", 7) + ' ';
   const auto length = [&](const Bond& bond) {
-    return fixed((s.models.front()[bond.first] - s.models.front()[bond.second]).norm(), 2, 5);
+    return fixed(norm(Vec3(s.models.front()[bond.first] - s.models.front()[bond.second])), 2, 5);
   };
   int count = 0;
   std::string links;
