@@ -56,6 +56,14 @@ def test_mdanalysis_keeps_b_factors():
 
 
 @pytest.mark.filterwarnings("ignore")
+def test_mdanalysis_b_factors_that_are_not_finite_are_zero():
+    universe = imported("MDAnalysis").Universe(str(FILES[0]))
+    universe.atoms.tempfactors = np.where(np.arange(len(universe.atoms)) % 2, np.nan, np.inf)
+    x = hm.Molecule.from_mdanalysis(universe)
+    assert np.array_equal(x.select("plddt<=0"), x.select("all"))
+
+
+@pytest.mark.filterwarnings("ignore")
 @pytest.mark.parametrize("ending", ["pdb", "cif"])
 def test_written_files_hold_the_b_factors(tmp_path, ending):
     gemmi = imported("gemmi")
