@@ -247,36 +247,36 @@ class Simd {
     detail::Measure measure;
     if constexpr (may_measure) measure = detail::Measure(one, sixteen, table, thresholds_, convert, collector.cutoff());
     budget.counts.pairs_tested += broad_phase_.candidates.size();
-    narrow_phase<P>(
-        broad_phase_.candidates, one, sixteen, convert, thresholds_,
-        [&](std::uint32_t at_one, std::uint32_t at_sixteen, detail::simd::Bits bits) __attribute__((always_inline)) {
-          const std::uint32_t own = detail::slot<P>(at_one), first = detail::slot<P>(at_sixteen);
-          const auto i = id<PrimitiveId>(one.layout().primitive[own]);
-          const std::uint32_t* const others = sixteen.layout().primitive.data() + first;
-          if constexpr (may_measure)
-            if (measure.holds()) {
-              const auto squared = convert(one.packed() + at_one).squared_distances(sixteen.packed() + at_sixteen);
-              measure(i, others, bits, squared, test_pair);
-              return !collector.done();
-            }
-          const double cutoff = collector.cutoff();
-          // The first candidates with hits place only the primitives they need: one of them often answers the query.
-          const bool few = visits_ < placed_alone;
-          visits_ += few;
-          constexpr auto n = static_cast<std::uint32_t>(detail::simd::width);
-          const std::uint32_t b = own / n, a = first / n;
-          const detail::simd::Bits alone = detail::simd::Bits{1} << own % n;
-          const P& p =
-              (few ? one.blocks().exact(b, alone, state_of_one) : one.blocks().exact(b, state_of_one))[own % n];
-          const P* const q =
-              few ? sixteen.blocks().exact(a, bits, state_of_sixteen) : sixteen.blocks().exact(a, state_of_sixteen);
-          for (; bits != 0 && !collector.done(); bits &= bits - 1) {
-            const int k = std::countr_zero(bits);
-            ++(test_pair(i, id<PrimitiveId>(others[k]), p, q[k]) ? budget.hits : budget.misses);
-          }
-          if (collector.cutoff() != cutoff) set_thresholds(one, sixteen, table, convert, collector.cutoff());
+    const auto decide = [&](std::uint32_t at_one, std::uint32_t at_sixteen, detail::simd::Bits bits)
+        __attribute__((always_inline)) {
+      const std::uint32_t own = detail::slot<P>(at_one), first = detail::slot<P>(at_sixteen);
+      const auto i = id<PrimitiveId>(one.layout().primitive[own]);
+      const std::uint32_t* const others = sixteen.layout().primitive.data() + first;
+      if constexpr (may_measure)
+        if (measure.holds()) {
+          const auto squared = convert(one.packed() + at_one).squared_distances(sixteen.packed() + at_sixteen);
+          measure(i, others, bits, squared, test_pair);
           return !collector.done();
-        });
+        }
+      const double cutoff = collector.cutoff();
+      // The first candidates with hits place only the primitives they need: one of them often answers the query.
+      const bool few = visits_ < placed_alone;
+      visits_ += few;
+      constexpr auto n = static_cast<std::uint32_t>(detail::simd::width);
+      const std::uint32_t b = own / n, a = first / n;
+      const detail::simd::Bits alone = detail::simd::Bits{1} << own % n;
+      const P& p = (few ? one.blocks().exact(b, alone, state_of_one) : one.blocks().exact(b, state_of_one))[own % n];
+      const P* const q =
+          few ? sixteen.blocks().exact(a, bits, state_of_sixteen) : sixteen.blocks().exact(a, state_of_sixteen);
+      for (; bits != 0 && !collector.done(); bits &= bits - 1) {
+        const int k = std::countr_zero(bits);
+        ++(test_pair(i, id<PrimitiveId>(others[k]), p, q[k]) ? budget.hits : budget.misses);
+      }
+      if (collector.cutoff() != cutoff) set_thresholds(one, sixteen, table, convert, collector.cutoff());
+      return !collector.done();
+    };
+    detail::NarrowPhase<P, Side, Convert> narrow(broad_phase_.candidates, one, sixteen, convert, thresholds_);
+    narrow.each(collector.ranks, decide);
     broad_phase_.candidates.clear();
   }
 

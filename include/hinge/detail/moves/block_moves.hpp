@@ -226,20 +226,20 @@ bool BlockMoves<P>::search(const MovingParts& parts, const D& matrix, double cut
   bool wanted = true;
   const auto run = [&] {
     counts.pairs_tested += candidates_.size() * simd::width;
-    narrow_phase<P>(candidates_, blocks_, blocks_, Identity<P>{}, thresholds_,
-                    [&](std::uint32_t one, std::uint32_t sixteen, simd::Bits bits) {
-                      for (; bits != 0 && wanted; bits &= bits - 1) {
-                        const std::uint32_t other = sixteen + static_cast<std::uint32_t>(std::countr_zero(bits));
-                        const std::uint32_t p = blocks_.slot(one), q = blocks_.slot(other);
-                        const PrimitiveId i = blocks_.primitive_of_slot(p), j = blocks_.primitive_of_slot(q);
-                        wanted = visit(i, j);
-                        if (wanted) continue;
-                        // Not the threshold of the classes of i and j, which may be larger.
-                        const double below = -matrix.threshold(i, j) * layout().scale;
-                        recent_.add({p, q}, {moved_.place(p), moved_.place(q)}, -float_above(below));
-                      }
-                      return wanted;
-                    });
+    NarrowPhase<P, MoveBlocks<P>, Identity<P>> narrow(candidates_, blocks_, blocks_, {}, thresholds_);
+    narrow.each(false, [&](std::uint32_t one, std::uint32_t sixteen, simd::Bits bits) {
+      for (; bits != 0 && wanted; bits &= bits - 1) {
+        const std::uint32_t other = sixteen + static_cast<std::uint32_t>(std::countr_zero(bits));
+        const std::uint32_t p = blocks_.slot(one), q = blocks_.slot(other);
+        const PrimitiveId i = blocks_.primitive_of_slot(p), j = blocks_.primitive_of_slot(q);
+        wanted = visit(i, j);
+        if (wanted) continue;
+        // Not the threshold of the classes of i and j, which may be larger.
+        const double below = -matrix.threshold(i, j) * layout().scale;
+        recent_.add({p, q}, {moved_.place(p), moved_.place(q)}, -float_above(below));
+      }
+      return wanted;
+    });
     candidates_.clear();
   };
   std::size_t patience = 1;

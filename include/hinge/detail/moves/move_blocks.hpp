@@ -87,7 +87,7 @@ class MoveBlocks {
   float reach(std::uint32_t b) const noexcept { return simd_parts_->rigid.reach[b]; }
   float largest_reach() const noexcept { return simd_parts_->rigid.largest_reach; }
 
-  // The interface of narrow_phase.
+  // The interface of NarrowPhase.
   const float* packed() const noexcept { return floats_.data(); }
   const std::uint8_t* position_class() const noexcept { return class_.data(); }
   static constexpr bool has_extra() noexcept { return false; }

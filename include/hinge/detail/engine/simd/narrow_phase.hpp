@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// narrow_phase: the inner loop of engine/simd: float lower bounds of distances against thresholds plus margin.
+// NarrowPhase: the inner loop of engine/simd: float lower bounds of distances against thresholds plus margin.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "hinge/detail/bounds/float_box.hpp"
 #include "hinge/detail/engine/simd/candidate_list.hpp"
@@ -43,63 +45,101 @@ class Thresholds16 {
   std::array<float, simd::width> largest_plain_{}, largest_squares_{};
 };
 
-/// Calls visit(position of the single primitive, position of the block, lanes) for every candidate that floats cannot
-/// rule out. visit may lower the thresholds; it returns false to stop. It is called for most of what is left in lists
-/// of pairs, so it is inlined: an indirect call would cost such lists a tenth. The first loop tests all candidates
-/// against the largest threshold of the single primitive's class. The second loop tests the rest lane by lane. Side:
-/// SimdSide, or any type that holds floats of P under threshold classes.
-template <Primitive P, class Side, class Convert, class Visit>
-void narrow_phase(CandidateList& candidates, const Side& one, const Side& sixteen, const Convert& convert,
-                  const Thresholds16& thresholds, const Visit& visit) {
-  const float *single = one.packed(), *packed = sixteen.packed();
-  const std::uint8_t *single_class = one.position_class(), *classes = sixteen.position_class();
-  const std::uint32_t *ones = candidates.ones(), *sixteens = candidates.sixteens();
-  const simd::Bits* masks = candidates.masks();
-  constexpr bool squared = Batch<P>::squared_limits;
-  const auto near = [&](std::size_t t, const simd::Float16& limit) __attribute__((always_inline)) {
-    return convert(single + ones[t]).near(packed + sixteens[t], limit);
+/// Finds the candidates that floats cannot rule out. It knows no filter and no collector, so it is compiled once for
+/// each primitive. Side: SimdSide, or any type that holds floats of P under threshold classes.
+template <Primitive P, class Side, class Convert>
+class NarrowPhase {
+ public:
+  /// Tests all candidates against the largest threshold of the class of their single primitive.
+  [[gnu::noinline]] NarrowPhase(CandidateList& candidates, const Side& one, const Side& sixteen, const Convert& convert,
+                                const Thresholds16& thresholds)
+      : candidates_(candidates), one_(one), sixteen_(sixteen), convert_(convert), thresholds_(thresholds) {
+    const std::uint8_t* const classes = one.position_class();
+    if (has_extra_)
+      rule_out([&](std::size_t t) {
+        const float distance = thresholds.largest_plain()[classes[candidates.ones()[t]]] + extra(t);
+        return simd::Float16(squared ? distance * distance : distance);
+      });
+    else
+      rule_out([
+        classes, ones = candidates.ones(), limits = squared ? thresholds.largest_squares() : thresholds.largest_plain()
+      ](std::size_t t) __attribute__((always_inline)) { return simd::Float16(limits[classes[ones[t]]]); });
+  }
+
+  /// Calls visit(position of the floats of the single primitive, position of the block, lanes) for every candidate that
+  /// remains when its lanes are tested one by one, until it returns false. falls: visit may lower the thresholds.
+  template <class Visit>
+  [[gnu::always_inline]] void each(bool falls, const Visit& visit) {
+    // A yes/no query often ends at the first candidate. Later ones are tested in batches before their visits.
+    for (std::size_t most = 1;; most = falls ? 1 : std::min(2 * most, near_.size())) {
+      const std::span<const Near> found = next(most);
+      if (found.empty()) return;
+      for (const Near& near : found)
+        if (!visit(near.one, near.sixteen, near.lanes)) return;
+    }
+  }
+
+ private:
+  static constexpr bool squared = Batch<P>::squared_limits;
+  struct Near {
+    std::uint32_t one, sixteen;
+    simd::Bits lanes;
   };
-  const auto extra = [&](std::size_t t) __attribute__((always_inline)) {
-    return one.extra_at(ones[t]) * convert.scale + sixteen.extra_at(sixteens[t]);
-  };
-  const bool has_extra = one.has_extra() || sixteen.has_extra();
-  CandidateList::Left* left = candidates.left();
-  std::size_t left_count = 0;
-  const auto rule_out = [&](const auto& limit) __attribute__((always_inline)) {
+
+  /// Returns the next candidates that remain under the present thresholds: 1 to `most` of them, or none at the end.
+  [[gnu::noinline]] std::span<const Near> next(std::size_t most) noexcept {
+    const std::uint32_t *ones = candidates_.ones(), *sixteens = candidates_.sixteens();
+    const CandidateList::Left* const left = candidates_.left();
+    const float* const limits = squared && !has_extra_ ? thresholds_.squares() : thresholds_.plain();
+    std::size_t found = 0;
+    for (; tested_ < left_ && found < most; ++tested_) {
+      const std::size_t t = left[tested_].candidate, row = one_.position_class()[ones[t]] * simd::width;
+      simd::Float16 limit = look_up(limits + row, simd::Index16(sixteen_.position_class() + sixteens[t]));
+      if (has_extra_) {
+        limit = limit + simd::Float16(extra(t));
+        if (squared) limit = limit * limit;
+      }
+      near_[found] = {ones[t], sixteens[t], left[tested_].lanes & near(t, limit)};
+      found += near_[found].lanes != 0;
+    }
+    return {near_.data(), found};
+  }
+
+  [[gnu::always_inline]] simd::Bits near(std::size_t t, const simd::Float16& limit) const noexcept {
+    return convert_(one_.packed() + candidates_.ones()[t]).near(sixteen_.packed() + candidates_.sixteens()[t], limit);
+  }
+  [[gnu::always_inline]] float extra(std::size_t t) const noexcept {
+    return one_.extra_at(candidates_.ones()[t]) * convert_.scale + sixteen_.extra_at(candidates_.sixteens()[t]);
+  }
+
+  template <class Limit>
+  [[gnu::always_inline]] void rule_out(const Limit& limit) noexcept {
+    CandidateList::Left* const left = candidates_.left();
+    const simd::Bits* const masks = candidates_.masks();
     const auto lanes = [&](std::size_t t) __attribute__((always_inline)) { return near(t, limit(t)) & masks[t]; };
+    std::size_t count = 0;
     // A branch is cheaper if it is almost never taken. It costs twice as much as no branch if it is unpredictable.
-    if (candidates.many_left()) {
-      for (std::size_t t = 0; t < candidates.size(); ++t) {
-        left[left_count] = {static_cast<std::uint32_t>(t), lanes(t)};
-        left_count += left[left_count].lanes != 0;
+    if (candidates_.many_left()) {
+      for (std::size_t t = 0; t < candidates_.size(); ++t) {
+        left[count] = {static_cast<std::uint32_t>(t), lanes(t)};
+        count += left[count].lanes != 0;
       }
     } else {
-      for (std::size_t t = 0; t < candidates.size(); ++t)
+      for (std::size_t t = 0; t < candidates_.size(); ++t)
         if (const simd::Bits bits = lanes(t); bits != 0) [[unlikely]]
-          left[left_count++] = {static_cast<std::uint32_t>(t), bits};
+          left[count++] = {static_cast<std::uint32_t>(t), bits};
     }
-    candidates.set_left(left_count);
-  };
-  if (has_extra) {
-    rule_out([&](std::size_t t) {
-      const float distance = thresholds.largest_plain()[single_class[ones[t]]] + extra(t);
-      return simd::Float16(squared ? distance * distance : distance);
-    });
-  } else {
-    rule_out([ limits = squared ? thresholds.largest_squares() : thresholds.largest_plain(), ones, single_class ](
-        std::size_t t) __attribute__((always_inline)) { return simd::Float16(limits[single_class[ones[t]]]); });
+    candidates_.set_left(count);
+    left_ = count;
   }
-  for (std::size_t k = 0; k < left_count; ++k) {
-    const std::size_t t = left[k].candidate, row = single_class[ones[t]] * simd::width;
-    const simd::Index16 index(classes + sixteens[t]);
-    simd::Float16 limit = look_up((squared && !has_extra ? thresholds.squares() : thresholds.plain()) + row, index);
-    if (has_extra) {
-      limit = limit + simd::Float16(extra(t));
-      if (squared) limit = limit * limit;
-    }
-    const simd::Bits bits = left[k].lanes & near(t, limit);
-    if (bits != 0 && !visit(ones[t], sixteens[t], bits)) return;
-  }
-}
+
+  CandidateList& candidates_;
+  const Side &one_, &sixteen_;
+  const Convert convert_;
+  const Thresholds16& thresholds_;
+  bool has_extra_ = one_.has_extra() || sixteen_.has_extra();
+  std::size_t left_ = 0, tested_ = 0;  // candidates that the first test left, and those of them that next() has tested
+  std::array<Near, 64> near_;
+};
 
 }  // namespace hinge::detail
