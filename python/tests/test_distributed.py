@@ -316,8 +316,8 @@ def test_dask_gives_the_same_bytes(cluster):
 def test_dask_goes_on_without_killed_workers(cluster):
     import distributed as dask
 
-    words = (*SAMPLE, "-n", "300000", "--npy")
-    question = distributed.Question("biocd", *words, unit=2000)
+    words = (*SAMPLE, "-n", "150000", "--npy")
+    question = distributed.Question("biocd", *words, unit=1000)
 
     def kill(done, _):
         if done in (20, 60, 100):
@@ -335,7 +335,7 @@ def test_dask_survives_a_killed_scheduler(tmp_path):
         first = cluster.scheduler()
         for _ in range(2):
             cluster.worker()
-        client = subprocess.Popen(command("--timeout", "5", "--scheduler", cluster.address, unit=1000, n=400000),
+        client = subprocess.Popen(command("--timeout", "5", "--scheduler", cluster.address, unit=1000, n=100000),
                                   env=environment(), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         while len(list(pathlib.Path("parts").glob("unit-*.part"))) < 20:
             assert client.poll() is None, client.communicate()
@@ -348,10 +348,10 @@ def test_dask_survives_a_killed_scheduler(tmp_path):
         cluster.scheduler()
         for _ in range(2):
             cluster.worker()
-        done = call(command("--scheduler", cluster.address, unit=1000, n=400000))
+        done = call(command("--scheduler", cluster.address, unit=1000, n=100000))
         assert done.returncode == 0, done.stderr
         assert "were there" in done.stdout
-    assert merged("parts") == output("biocd", *SAMPLE, "-n", "400000", "--npy")
+    assert merged("parts") == output("biocd", *SAMPLE, "-n", "100000", "--npy")
 
 
 def test_an_unreachable_scheduler_is_said(tmp_path):

@@ -29,7 +29,7 @@ function(check_package)
 endfunction()
 
 # As a part of another project, Hinge adds no tests and no install rules, and sets no warnings or standards. It has
-# the libraries that the project asks for: the tests ask for hinge::molecular too.
+# the libraries that the project asks for.
 function(check_guest)
   if(HINGE_BUILD_TESTS OR HINGE_BUILD_BENCH OR HINGE_INSTALL OR TARGET biocd OR DEFINED CMAKE_CXX_EXTENSIONS)
     message(FATAL_ERROR "hinge behaves as if it were the top level")
@@ -37,8 +37,10 @@ function(check_guest)
   if(NOT "${CMAKE_BUILD_TYPE}" STREQUAL "" OR DEFINED CMAKE_RUNTIME_OUTPUT_DIRECTORY)
     message(FATAL_ERROR "hinge changed the host's build type or folders")
   endif()
-  add_executable(loop ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../../docs/examples/find_package/loop.cpp)
-  target_link_libraries(loop PRIVATE hinge::molecular)
+  if(HINGE_BUILD_MOLECULAR)
+    add_executable(loop ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../../docs/examples/find_package/loop.cpp)
+    target_link_libraries(loop PRIVATE hinge::molecular)
+  endif()
 endfunction()
 
 if(PROJECT_NAME STREQUAL "loop")
