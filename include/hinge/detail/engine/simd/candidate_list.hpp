@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -20,6 +21,11 @@ class CandidateList {
     std::uint32_t candidate;
     simd::Bits lanes;
   };
+  /// A candidate whose lanes were tested one by one.
+  struct Near {
+    std::uint32_t one, sixteen;
+    simd::Bits lanes;
+  };
 
   void clear() noexcept { size_ = 0; }
   std::size_t size() const noexcept { return size_; }
@@ -28,6 +34,8 @@ class CandidateList {
   const simd::Bits* masks() const noexcept { return mask_.data(); }
   /// Scratch with room for all candidates and one more.
   Left* left() noexcept { return left_.data(); }
+  /// Scratch for a batch of candidates.
+  std::array<Near, 64>& near() noexcept { return near_; }
   /// Stores whether many candidates remained: a prediction for the next run.
   void set_left(std::size_t count) noexcept { many_left_ = 16 * count > size_; }
   bool many_left() const noexcept { return many_left_; }
@@ -69,6 +77,7 @@ class CandidateList {
   std::vector<std::uint32_t> one_, sixteen_;
   std::vector<simd::Bits> mask_;
   std::vector<Left> left_;
+  std::array<Near, 64> near_{};
 };
 
 }  // namespace hinge::detail

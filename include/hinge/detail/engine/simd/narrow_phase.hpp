@@ -71,7 +71,7 @@ class NarrowPhase {
   template <class Visit>
   [[gnu::always_inline]] void each(bool falls, const Visit& visit) {
     // A yes/no query often ends at the first candidate. Later ones are tested in batches before their visits.
-    for (std::size_t most = 1;; most = falls ? 1 : std::min(2 * most, near_.size())) {
+    for (std::size_t most = 1;; most = falls ? 1 : std::min(2 * most, candidates_.near().size())) {
       const std::span<const Near> found = next(most);
       if (found.empty()) return;
       for (const Near& near : found)
@@ -81,28 +81,26 @@ class NarrowPhase {
 
  private:
   static constexpr bool squared = Batch<P>::squared_limits;
-  struct Near {
-    std::uint32_t one, sixteen;
-    simd::Bits lanes;
-  };
+  using Near = CandidateList::Near;
 
   /// Returns the next candidates that remain under the present thresholds: 1 to `most` of them, or none at the end.
   [[gnu::noinline]] std::span<const Near> next(std::size_t most) noexcept {
     const std::uint32_t *ones = candidates_.ones(), *sixteens = candidates_.sixteens();
     const CandidateList::Left* const left = candidates_.left();
     const float* const limits = squared && !has_extra_ ? thresholds_.squares() : thresholds_.plain();
-    std::size_t found = 0;
-    for (; tested_ < left_ && found < most; ++tested_) {
+    auto& found = candidates_.near();
+    std::size_t count = 0;
+    for (; tested_ < left_ && count < most; ++tested_) {
       const std::size_t t = left[tested_].candidate, row = one_.position_class()[ones[t]] * simd::width;
       simd::Float16 limit = look_up(limits + row, simd::Index16(sixteen_.position_class() + sixteens[t]));
       if (has_extra_) {
         limit = limit + simd::Float16(extra(t));
         if (squared) limit = limit * limit;
       }
-      near_[found] = {ones[t], sixteens[t], left[tested_].lanes & near(t, limit)};
-      found += near_[found].lanes != 0;
+      found[count] = {ones[t], sixteens[t], left[tested_].lanes & near(t, limit)};
+      count += found[count].lanes != 0;
     }
-    return {near_.data(), found};
+    return {found.data(), count};
   }
 
   [[gnu::always_inline]] simd::Bits near(std::size_t t, const simd::Float16& limit) const noexcept {
@@ -139,7 +137,6 @@ class NarrowPhase {
   const Thresholds16& thresholds_;
   bool has_extra_ = one_.has_extra() || sixteen_.has_extra();
   std::size_t left_ = 0, tested_ = 0;  // candidates that the first test left, and those of them that next() has tested
-  std::array<Near, 64> near_;
 };
 
 }  // namespace hinge::detail
