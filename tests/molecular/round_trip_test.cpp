@@ -166,13 +166,15 @@ TEST(RoundTrip, KeepsBFactors) {
             static_cast<double>(999.99F));
 }
 
-TEST(ReadPdb, TakesABFactorThatIsNotFiniteAsZero) {
-  const Structure s = build_ideal_protein("AG", "CC");
-  for (const char* field : {"   nan", "   inf"}) {
-    std::string text = written(s, TrajectoryFormat::pdb);
-    text.replace(text.find("ATOM") + 60, 6, field);
-    EXPECT_EQ(again(text, TrajectoryFormat::pdb).atoms.front().b_factor, 0.0) << field;
-  }
+TEST(Read, TakesABFactorThatIsNoFiniteNumberAsZero) {
+  Structure s = build_ideal_protein("AG", "CC");
+  s.atoms.front().b_factor = 54.25;
+  for (const TrajectoryFormat format : {TrajectoryFormat::pdb, TrajectoryFormat::cif})
+    for (const char* value : {"  nan", "  inf", " -inf", "    ?", "    ."}) {
+      std::string text = written(s, format);
+      text.replace(text.find("54.25"), 5, value);
+      EXPECT_EQ(again(text, format).atoms.front().b_factor, 0.0) << value;
+    }
 }
 
 /// Returns a cystine, a ligand with a double bond (a repeated CONECT) bonded to the protein, and a metal.

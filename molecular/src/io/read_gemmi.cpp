@@ -58,9 +58,9 @@ ResidueKind kind_of(const std::string& name) {
 /// gemmi merges residues and chains that are split in the file, and loses the order of atoms. So serial numbers are
 /// replaced by indices from 0, and kept here.
 struct AtomIds {
-  std::vector<int> serials;           ///< serial number in the file, by index
-  std::vector<std::uint32_t> labels;  ///< mmCIF only: a number for each label_asym_id and label_seq_id
-  std::vector<int> model_numbers;     ///< PDB only
+  std::vector<int> serials;         ///< serial number in the file, by index
+  std::vector<std::size_t> labels;  ///< mmCIF only: a number for each label_asym_id and label_seq_id
+  std::vector<int> model_numbers;   ///< PDB only
 };
 
 RawModel convert(const gemmi::Model& model, int number, const AtomIds& ids) {
@@ -80,7 +80,7 @@ RawModel convert(const gemmi::Model& model, int number, const AtomIds& ids) {
       r.insertion_code = or_null(residue.seqid.icode);
       r.hetero = residue.het_flag == 'H';
       r.kind = kind_of(residue.name);
-      std::map<std::uint32_t, std::vector<RawAtom>> parts;  // by label: several residues may have the same author name
+      std::map<std::size_t, std::vector<RawAtom>> parts;  // by label: several residues may have the same author name
       for (const gemmi::Atom& atom : residue.atoms) {
         RawAtom a;
         a.name = atom.name;
@@ -210,17 +210,17 @@ std::optional<RecordedBonds> recorded_of(gemmi::cif::Document& document) {
   throw LoadError(what.find(path) != std::string::npos ? what : path + ": " + what);
 }
 
-void number_atoms(gemmi::cif::Document& document, AtomIds& ids) {
-  std::map<std::pair<std::string, std::string>, std::uint32_t> labels;
+/// Numbers the atoms from 0. A B factor that is no number becomes 0, as in PDB files; gemmi would take 50.
+void prepare_atoms(gemmi::cif::Document& document, AtomIds& ids) {
+  std::map<std::pair<std::string, std::string>, std::size_t> labels;
   for (gemmi::cif::Block& block : document.blocks) {
-    gemmi::cif::Table atoms = block.find("_atom_site.", {"id", "?label_asym_id", "?label_seq_id"});
+    gemmi::cif::Table atoms = block.find("_atom_site.", {"id", "?label_asym_id", "?label_seq_id", "?B_iso_or_equiv"});
     for (auto row : atoms) {
-      const std::string number = std::to_string(ids.serials.size());
       ids.serials.push_back(gemmi::string_to_int(row[0], false));
-      row[0] = number;
+      row[0] = std::to_string(ids.serials.size() - 1);
+      if (row.has(3) && !std::isfinite(gemmi::cif::as_number(row[3]))) row[3] = "0";
       const auto value = [&](std::size_t column) { return row.has(column) ? row[column] : std::string(); };
-      const auto count = static_cast<std::uint32_t>(labels.size());
-      ids.labels.push_back(labels.emplace(std::pair(value(1), value(2)), count).first->second);
+      ids.labels.push_back(labels.emplace(std::pair(value(1), value(2)), labels.size()).first->second);
     }
   }
 }
@@ -231,7 +231,7 @@ gemmi::Structure parse(const std::string& bytes, const std::string& path, bool c
     raw.components = components_of(document, path);
     raw.recorded = recorded_of(document);
     keep_what_is_read(document);
-    number_atoms(document, ids);
+    prepare_atoms(document, ids);
     // NOLINTNEXTLINE(performance-move-const-arg): gemmi 0.6 and later take the document
     return gemmi::make_structure(std::move(document));
   }

@@ -55,8 +55,7 @@ def text_of_mdanalysis(atoms):
     codes = _column(group, "icodes", "")
     altlocs = _column(group, "altLocs", "")
     occupancies = _column(group, "occupancies", 1.0)
-    # As in files, numbers that are not finite are 0: gemmi would read them as 50.
-    b_factors = np.nan_to_num(np.asarray(_column(group, "tempfactors", 0.0), float), nan=0, posinf=0, neginf=0)
+    b_factors = _column(group, "tempfactors", 0.0)
     numbers = _column(group, "resids", 1)
     elements = _column(group, "elements", "")
     lines = ["data_mdanalysis", "loop_", *(f"_atom_site.{column}" for column in _COLUMNS)]
@@ -68,7 +67,7 @@ def text_of_mdanalysis(atoms):
         place = " ".join(np.format_float_positional(c, unique=True, trim="0") for c in x)
         lines.append(
             f"ATOM {k + 1} {element} {_quoted(names[k])} {_quoted(altlocs[k])} {_quoted(residues[k])} {chain} ? . "
-            f"{code} {place} {float(occupancies[k]):.6g} {b_factors[k]:.6g} "
+            f"{code} {place} {float(occupancies[k]):.6g} {float(b_factors[k]):.6g} "
             f"{int(numbers[k])} {chain} 1"
         )
     return ("\n".join(lines) + "\n").encode()
