@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -345,6 +346,17 @@ TEST(ReadStructure, ReadsOneConformerOfTheHighestSummedOccupancy) {
 TEST(ReadStructure, TakesTheFirstLetterOfEquallyOccupiedConformers) {
   const TemporaryFile file(alanine() + alternatives(2, {{'B', 0.5}, {'A', 0.5}}));
   EXPECT_EQ(read_structure(file.path()).models.front()[5][0], 21.0);
+}
+
+/// Residue 3 has no atom of conformer A, so it uses its own location of highest occupancy.
+TEST(ReadStructure, TakesAnOccupancyThatIsNoNumberAsZero) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const TemporaryFile file(alanine() + alternatives(2, {{'A', 0.9}, {'B', nan}}) +
+                           alternatives(3, {{'C', nan}, {'D', 0.5}}));
+  const Structure s = read_structure(file.path());
+  ASSERT_EQ(s.atoms.size(), 7U);
+  EXPECT_EQ(s.atoms[5].altloc, 'A');
+  EXPECT_EQ(s.atoms[6].altloc, 'D');
 }
 
 TEST(ReadStructure, ReadsTheResidueTypeOfTheConformerWhereTwoShareAPosition) {

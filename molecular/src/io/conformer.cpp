@@ -3,7 +3,6 @@
 #include "io/conformer.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 
@@ -27,7 +26,7 @@ ConformerChoice::ConformerChoice(const RawModel& first_model, const ReadOptions&
   for (const RawResidue& residue : first_model.residues) {
     const bool read = residue.kind != ResidueKind::water && (residue.kind != ResidueKind::other || options.hetero);
     for (const RawAtom& atom : residue.atoms)
-      if (read && atom.altloc != '\0' && std::isfinite(atom.occupancy)) sums[atom.altloc] += atom.occupancy;
+      if (read && atom.altloc != '\0') sums[atom.altloc] += atom.occupancy;
   }
   for (const auto& [altloc, sum] : sums)
     if (!conformer_ || sum > sums.at(*conformer_) + occupancy_tie) conformer_ = altloc;

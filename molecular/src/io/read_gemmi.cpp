@@ -28,6 +28,7 @@ namespace hinge::molecular {
 namespace {
 
 char or_null(char c) { return c == ' ' ? '\0' : c; }
+double or_zero(float x) { return std::isfinite(x) ? static_cast<double>(x) : 0.0; }
 
 RawAddress address(const gemmi::AtomAddress& a) {
   return {a.chain_name, *a.res_id.seqid.num, or_null(a.res_id.seqid.icode), a.atom_name};
@@ -55,8 +56,7 @@ ResidueKind kind_of(const std::string& name) {
   return ResidueKind::other;
 }
 
-/// gemmi merges residues and chains that are split in the file, and loses the order of atoms. So serial numbers are
-/// replaced by indices from 0, and kept here.
+/// gemmi merges split residues and chains and loses the order of atoms, so it gets indices from 0 as serial numbers.
 struct AtomIds {
   std::vector<int> serials;         ///< serial number in the file, by index
   std::vector<std::size_t> labels;  ///< mmCIF only: a number for each label_asym_id and label_seq_id
@@ -89,8 +89,8 @@ RawModel convert(const gemmi::Model& model, int number, const AtomIds& ids) {
         const auto id = static_cast<std::size_t>(atom.serial);
         a.serial = ids.serials.at(id);
         a.record = static_cast<std::uint32_t>(atom.serial - first);
-        a.occupancy = static_cast<double>(atom.occ);
-        a.b_factor = std::isfinite(atom.b_iso) ? static_cast<double>(atom.b_iso) : 0.0;
+        a.occupancy = or_zero(atom.occ);
+        a.b_factor = or_zero(atom.b_iso);
         a.position = Vec3(atom.pos.x, atom.pos.y, atom.pos.z);
         parts[ids.labels.empty() ? 0 : ids.labels.at(id)].push_back(std::move(a));
       }
