@@ -21,7 +21,7 @@ class CandidateList {
     std::uint32_t candidate;
     simd::Bits lanes;
   };
-  /// A candidate whose lanes were tested one by one.
+  /// A candidate whose lanes were tested one by one: its two positions of floats, with the lanes that are near.
   struct Near {
     std::uint32_t one, sixteen;
     simd::Bits lanes;

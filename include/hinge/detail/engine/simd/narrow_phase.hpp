@@ -45,8 +45,8 @@ class Thresholds16 {
   std::array<float, simd::width> largest_plain_{}, largest_squares_{};
 };
 
-/// Finds the candidates that floats cannot rule out. It knows no filter and no collector, so it is compiled once for
-/// each primitive. Side: SimdSide, or any type that holds floats of P under threshold classes.
+/// Finds the candidates that floats cannot rule out. It knows no filter and no collector, so all queries share its
+/// code. Side: SimdSide, or any type that holds floats of P under threshold classes.
 template <Primitive P, class Side, class Convert>
 class NarrowPhase {
  public:
@@ -67,11 +67,12 @@ class NarrowPhase {
   }
 
   /// Calls visit(position of the floats of the single primitive, position of the block, lanes) for every candidate that
-  /// remains when its lanes are tested one by one, until it returns false. falls: visit may lower the thresholds.
+  /// remains when its lanes are tested one by one, until visit returns false. thresholds_fall: visit may lower
+  /// the thresholds, so it is called before the next candidate is tested.
   template <class Visit>
-  [[gnu::always_inline]] void each(bool falls, const Visit& visit) {
+  [[gnu::always_inline]] void each(bool thresholds_fall, const Visit& visit) {
     // A yes/no query often ends at the first candidate. Later ones are tested in batches before their visits.
-    for (std::size_t most = 1;; most = falls ? 1 : std::min(2 * most, candidates_.near().size())) {
+    for (std::size_t most = 1;; most = thresholds_fall ? 1 : std::min(2 * most, candidates_.near().size())) {
       const std::span<const Near> found = next(most);
       if (found.empty()) return;
       for (const Near& near : found)
