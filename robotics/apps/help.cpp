@@ -30,7 +30,7 @@ HelpTexts help_texts() {
                               "robocd check" + arm + srdf + " --state arm/reach --mode closest"}};
   texts.commands["merge"] = {
       {"Exit status"},
-      {"robocd check" + arm + srdf + " --random 1000 --csv --parts run --unit 500", "robocd merge run --out run.csv"}};
+      {"robocd check" + arm + " --random 1000 --csv --parts run --unit 500", "robocd merge run --out run.csv"}};
   texts.commands["path"] = {{"Units", "Pairs", "Exit status"},
                             {"robocd path" + arm + srdf + " --from zero --to state:arm/reach",
                              "robocd path" + arm + " --from zero --to 0,0.5,0,0,0,0 --env robotics/data/shelf.obj"}};
@@ -46,10 +46,8 @@ HelpTexts help_texts() {
   texts.commands["matrix"] = {{"Units", "Pairs"},
                               {"robocd matrix" + arm + " --samples 1000",
                                "robocd matrix" + arm + " --samples 1000 --disable-unseen --out matrix.srdf"}};
-  const std::string motion = " --from state:arm/home --to state:arm/reach --out robot.svg";
-  texts.commands["demo"] = {
-      {},
-      {"robocd demo" + arm + srdf + motion, "robocd demo" + arm + srdf + " --env robotics/data/shelf.obj" + motion}};
+  const std::string motion = " --from zero --to 1,0,0,0,0,0 --out robot.svg";
+  texts.commands["demo"] = {{}, {"robocd demo" + arm + motion, "robocd demo" + arm + " --tier capsule" + motion}};
   return texts;
 }
 

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,7 @@ struct Case {
 
 const std::vector<Case> cases{
     {"biocd", {"info", "check", "sample", "walk", "relax", "merge", "path", "plan", "dial", "demo"}},
-    {"robocd", {"info", "check", "matrix", "path", "relax", "plan", "dial"}}};
+    {"robocd", {"info", "check", "merge", "matrix", "path", "relax", "plan", "dial", "demo"}}};
 
 Said run(const std::string& tool, const std::string& arguments) { return run_tool((tools / tool).string(), arguments); }
 
@@ -63,6 +64,8 @@ TEST(Help, FitsAHundredColumnsAndNamesWhatIsExpected) {
       for (const char* word : {"TEXT", "FLOAT", "INT ", "UINT", "{", "[OPTIONS]", "default: ) "})
         EXPECT_EQ(said.out.find(word), std::string::npos) << c.tool << " " << arguments << ": " << word;
       EXPECT_GE(below(said.out, "Examples").size(), 2U) << c.tool << " " << arguments;
+      const std::vector<std::string> general = below(said.out, "General");
+      EXPECT_EQ(std::set(general.begin(), general.end()).size(), general.size()) << c.tool << " " << arguments;
     }
   }
   EXPECT_EQ(run("biocd", "help walk").out, run("biocd", "walk --help").out);
