@@ -27,7 +27,8 @@ inline std::vector<TitledOptions> titled_options(const CLI::App& command) {
   const auto add = [&](const CLI::App& from) {
     for (const CLI::Option* option : from.get_options()) {
       const std::string title = option->get_group() == "Options" ? title::general : option->get_group();
-      if (title.empty() || (&from != &command && option == from.get_help_ptr())) continue;  // hidden, or repeated
+      const bool of_group = &from != &command && option == from.get_help_ptr();  // each group has its own --help
+      if (title.empty() || of_group) continue;                                   // options without a title are hidden
       auto group = std::ranges::find(groups, title, &TitledOptions::title);
       if (group == groups.end()) group = groups.insert(groups.end(), {title, {}});
       group->options.push_back(option);
