@@ -65,9 +65,8 @@ class Simd {
         collector, rules, [&](PrimitiveId first, PrimitiveId second) { return rules.admits(first, second); }};
     if constexpr (C::ranks) {
       // The previous closest pair gives a first upper bound. test_pair decides whether it belongs to the answer.
-      if (witness_)
-        test_pair(witness_->first, witness_->second, side.exact(witness_->first, state),
-                  side.exact(witness_->second, state));
+      if (const auto pair = witness_)
+        test_pair(pair->first, pair->second, side.exact(pair->first, state), side.exact(pair->second, state));
     }
     const detail::BlockLayout& layout = side.layout();
     budget.blocks_in = layout.block_count();
@@ -229,8 +228,7 @@ class Simd {
     return sides_.side(state.model(), filter_, matrix_, state.groups_may_deform(), left_out);
   }
 
-  /// The margin covers the cutoff and the float error: no pair with d - M <= cutoff is lost. Clearances are added per
-  /// pair.
+  /// The margin covers cutoff and float error: no pair with d - M <= cutoff is lost. Clearances are added per pair.
   template <class Convert>
   void set_thresholds(const Side& one, const Side& sixteen, const detail::ThresholdTable& table, const Convert& convert,
                       double cutoff) noexcept {
@@ -260,18 +258,22 @@ class Simd {
         }
       const double cutoff = collector.cutoff();
       // The first candidates with hits place only the primitives they need: one of them often answers the query.
-      const bool few = visits_ < placed_alone;
-      visits_ += few;
+      const bool few = visits_++ < placed_alone;
       constexpr auto n = static_cast<std::uint32_t>(detail::simd::width);
-      const std::uint32_t b = own / n, a = first / n;
-      const detail::simd::Bits alone = detail::simd::Bits{1} << own % n;
-      const P& p = (few ? one.blocks().exact(b, alone, state_of_one) : one.blocks().exact(b, state_of_one))[own % n];
-      const P* const q =
-          few ? sixteen.blocks().exact(a, bits, state_of_sixteen) : sixteen.blocks().exact(a, state_of_sixteen);
-      for (; bits != 0 && !collector.done(); bits &= bits - 1) {
-        const int k = std::countr_zero(bits);
-        ++(test_pair(i, id<PrimitiveId>(others[k]), p, q[k]) ? budget.hits : budget.misses);
-      }
+      const P& p = one.exact_block(own, detail::simd::Bits{1} << own % n, few, state_of_one)[own % n];
+      const P* const q = sixteen.exact_block(first, bits, few, state_of_sixteen);
+      const auto decide_lanes = [&](const auto& threshold) __attribute__((always_inline)) {
+        for (; bits != 0 && !collector.done(); bits &= bits - 1) {
+          const int k = std::countr_zero(bits);
+          ++(test_pair(i, id<PrimitiveId>(others[k]), p, q[k], threshold(k)) ? budget.hits : budget.misses);
+        }
+      };
+      if constexpr (TypedThresholdMatrix<D>)
+        if (const double* const row = sixteen.has_extra() ? nullptr : one.exact_row(at_one)) {
+          const std::uint8_t* const classes = sixteen.position_class() + at_sixteen;
+          decide_lanes([&](int k) { return row[classes[k]]; });
+        }
+      decide_lanes([&](int k) { return test_pair.threshold(i, id<PrimitiveId>(others[k])); });
       if (collector.cutoff() != cutoff) set_thresholds(one, sixteen, table, convert, collector.cutoff());
       return !collector.done();
     };
@@ -282,15 +284,14 @@ class Simd {
 
   static constexpr std::size_t placed_alone = 4;  // candidates with hits whose primitives are placed one by one
   static constexpr std::size_t longest_run = 16 * detail::simd::width;  // longest run of candidates
-  /// Longest candidate list while a large entry is swept: it fits in the second-level cache.
-  static constexpr std::size_t longest_list = 16 * longest_run;
+  static constexpr std::size_t longest_list = 16 * longest_run;  // in a large entry: fits in the second-level cache
 
   F filter_;
   D matrix_;
   detail::OptionalTreeSide<P> trees_;
   detail::SimdSides<P> sides_;
   detail::BroadPhase<P> broad_phase_;  // scratch
-  std::size_t visits_ = 0;             // scratch: candidates decided so far in a query, at most placed_alone
+  std::size_t visits_ = 0;             // scratch: candidates decided so far in a query
   detail::Thresholds16 thresholds_;    // scratch: thresholds plus the present margin
   detail::FallbackBvh search_;         // scratch
   std::optional<std::pair<PrimitiveId, PrimitiveId>> witness_;

@@ -20,6 +20,8 @@ struct SelfRules {
   const F& filter;              ///< of the model
   const D& matrix;              ///< of the model
   const QueryOptions& options;  ///< valid for the model
+  /// True when admits() depends on the filter and the model alone, which is the usual case.
+  bool plain = state.follows_joints() && !options.moved_only && options.groups.is_all();
 
   /// Returns the extra clearance of a primitive's group. It is added to the thresholds of its pairs.
   double clearance(PrimitiveId i) const noexcept {
@@ -38,9 +40,9 @@ struct SelfRules {
   /// Returns true when the filter admits the pair, its distance is not constant, and the options admit its groups.
   bool admits(PrimitiveId i, PrimitiveId j) const noexcept {
     const auto& model = state.model();
-    if (!filter.admits(i, j) || state.constant(i, j)) return false;
-    const bool any_groups = !options.moved_only && options.groups.is_all();  // nearly always
-    return any_groups || admits_groups(model.group_of(i), model.group_of(j));
+    if (!filter.admits(i, j)) return false;
+    if (plain) return !model.constant(i, j);
+    return !state.constant(i, j) && admits_groups(model.group_of(i), model.group_of(j));
   }
   /// Passes the pair i < j of primitives p and q, in world coordinates, to the collector if it counts and lies within
   /// the cutoff. The engines of the library decide pairs by the same function, detail::test_pair.

@@ -24,13 +24,22 @@ struct SelfPairTest {
   const Rules& rules;
   Admits admits;
 
-  /// Decides the pair exactly. Returns true if the collector wanted it.
-  template <Primitive P>
-  [[gnu::always_inline]] bool operator()(PrimitiveId i, PrimitiveId j, const P& p, const P& q) const {
+  /// Returns the threshold of the pair, extra clearances included.
+  auto threshold(PrimitiveId i, PrimitiveId j) const noexcept {
+    return j < i ? rules.threshold(j, i) : rules.threshold(i, j);
+  }
+  /// Decides the pair with threshold m exactly. Returns true if the collector wanted it.
+  template <Primitive P, class Threshold>
+  [[gnu::always_inline]] bool operator()(PrimitiveId i, PrimitiveId j, const P& p, const P& q,
+                                         const Threshold& m) const {
     const bool turned = j < i;
     const PrimitiveId first = turned ? j : i, second = turned ? i : j;
-    return test_pair(collector, first, second, turned ? q : p, turned ? p : q, rules.threshold(first, second),
+    return test_pair(collector, first, second, turned ? q : p, turned ? p : q, m,
                      [&] { return admits(first, second); });
+  }
+  template <Primitive P>
+  [[gnu::always_inline]] bool operator()(PrimitiveId i, PrimitiveId j, const P& p, const P& q) const {
+    return (*this)(i, j, p, q, threshold(i, j));
   }
   /// Adds the pair if its rounded d - M is at most `cutoff`.
   template <Primitive P>
@@ -55,9 +64,14 @@ struct CrossPairTest {
   const Rules& rules;
 
   /// The same as in SelfPairTest.
+  auto threshold(PrimitiveId i, PrimitiveId j) const noexcept { return rules.threshold(i, j); }
+  template <Primitive P, class Threshold>
+  bool operator()(PrimitiveId i, PrimitiveId j, const P& p, const P& q, const Threshold& m) const {
+    return test_pair(collector, i, j, p, q, m, [&] { return rules.admits(i, j); });
+  }
   template <Primitive P>
   bool operator()(PrimitiveId i, PrimitiveId j, const P& p, const P& q) const {
-    return test_pair(collector, i, j, p, q, rules.threshold(i, j), [&] { return rules.admits(i, j); });
+    return (*this)(i, j, p, q, threshold(i, j));
   }
   /// The same as in SelfPairTest.
   template <Primitive P>

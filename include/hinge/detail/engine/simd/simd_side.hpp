@@ -50,6 +50,13 @@ class SimdSide {
     return blocks_.exact(b, state)[std::find(first, first + simd::width, index(i)) - first];
   }
 
+  /// The block of a slot, placed in double: all of it, or only the given lanes.
+  [[gnu::always_inline]] const P* exact_block(std::uint32_t slot, simd::Bits lanes, bool only_lanes,
+                                              State<P>& state) noexcept {
+    const auto b = static_cast<std::uint32_t>(slot / simd::width);
+    return only_lanes ? blocks_.exact(b, lanes, state) : blocks_.exact(b, state);
+  }
+
   /// Starts a query with its options. After this, refresh() updates entries one by one.
   void begin(State<P>& state, bool moved_only, std::span<const double> clearance) {
     blocks_.begin(state);
@@ -91,6 +98,11 @@ class SimdSide {
   /// Float coordinates of all blocks, and the threshold class of the primitive that starts at each position.
   const float* packed() const noexcept { return blocks_.packed(0); }
   const std::uint8_t* position_class() const noexcept { return parts().position_class.data(); }
+  /// Thresholds, in model units, between the primitive at a position and each class. Null if a class holds several
+  /// types, or with extra clearances.
+  const double* exact_row(std::uint32_t position) const noexcept {
+    return has_extra_ ? nullptr : parts().classes.exact_row(position_class()[position]);
+  }
 
   /// Extra clearances, scaled: at the position of a primitive's floats, and of a block.
   bool has_extra() const noexcept { return has_extra_; }

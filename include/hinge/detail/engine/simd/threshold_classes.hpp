@@ -42,6 +42,10 @@ class ThresholdClasses {
   }
 
   std::uint8_t class_of(std::size_t primitive) const noexcept { return class_of_[primitive]; }
+  /// Thresholds between class c and every class if each class is one type, otherwise null. Model unit.
+  const double* exact_row(std::size_t c) const noexcept {
+    return one_type_each_ ? between_.data() + c * simd::width : nullptr;
+  }
   /// Upper bound of reach(i) over the class, model unit.
   double reach(std::size_t c) const noexcept { return reach_[c]; }
 
@@ -84,7 +88,8 @@ class ThresholdClasses {
     for (std::size_t s = 0; s < types; ++s)
       for (std::size_t t = 0; t < types; ++t) reaches[s] = std::max(reaches[s], matrix.between_types(s, t) / 2);
     std::vector<std::uint8_t> class_of_type(types);
-    if (types <= simd::width) {
+    one_type_each_ = types <= simd::width;
+    if (one_type_each_) {
       count_ = types;
       for (std::size_t s = 0; s < types; ++s) class_of_type[s] = static_cast<std::uint8_t>(s);
     } else {
@@ -114,7 +119,7 @@ class ThresholdClasses {
       for (std::size_t d = 0; d < count_; ++d) between_[c * simd::width + d] = reach_[c] + reach_[d];
   }
 
-  bool typed_ = false;
+  bool typed_ = false, one_type_each_ = false;
   std::size_t count_ = 0;
   std::vector<std::uint8_t> class_of_;
   std::array<double, simd::width> reach_{};
