@@ -20,7 +20,7 @@ inline void sort_hits(std::vector<Hit>& hits) {
   std::size_t buckets = 0;
   for (const Hit& hit : hits) buckets = std::max(buckets, std::max(index(hit.first), index(hit.second)) + 1);
   // Buckets pay off only when their number is small relative to the number of hits.
-  if (hits.size() < 64 || buckets > 4 * hits.size()) {
+  if (hits.size() < 64 || buckets > 8 * hits.size()) {
     std::sort(hits.begin(), hits.end(), before);
     return;
   }
