@@ -3,12 +3,14 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -26,31 +28,31 @@
 
 namespace hinge::bench {
 
-enum class Query : std::uint8_t { any, all, within, closest };
-inline constexpr Query all_queries[] = {Query::any, Query::all, Query::within, Query::closest};
-inline constexpr const char* query_names[] = {"any", "all", "within", "closest"};
+/// any: yes/no. counted: the number of colliding pairs. all: their sorted list. within: the same for a margin.
+enum class Query : std::uint8_t { any, counted, all, within, closest };
+inline constexpr Query all_queries[] = {Query::any, Query::counted, Query::all, Query::within, Query::closest};
+inline constexpr const char* query_names[] = {"any", "counted", "all", "within", "closest"};
 inline const char* name(Query q) { return query_names[static_cast<std::size_t>(q)]; }
 inline constexpr double margin = 1.0;  // angstrom: margin of "within" queries, usual for lists of native contacts
 
-/// An answer in the form that the contestant returns. Call canonical() after the clock has stopped.
 struct Answer {
   bool collides = false;
-  IndexPairs pairs;
-  oracle::Pairs fcl_pairs;
+  std::size_t count = 0;
+  PairList pairs;
   double gap = std::numeric_limits<double>::infinity();
 
-  /// Converts all lists to `pairs` and sorts them.
-  void canonical() {
-    for (const auto& [i, j] : fcl_pairs)
-      pairs.emplace_back(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
-    fcl_pairs.clear();
-    std::sort(pairs.begin(), pairs.end());
+  /// Forgets the answer and keeps the memory of the list.
+  void clear() noexcept {
+    collides = false;
+    count = 0;
+    pairs.clear();
+    gap = std::numeric_limits<double>::infinity();
   }
 };
 
 /// tolerance: of the gap, in angstrom; 0 for contestants that use the same formula in double.
 inline bool same(const Answer& a, const Answer& b, double tolerance = 0.0) {
-  return a.collides == b.collides && a.pairs == b.pairs &&
+  return a.collides == b.collides && a.count == b.count && a.pairs == b.pairs &&
          (a.gap == b.gap || std::abs(a.gap - b.gap) <= tolerance);  // infinite gaps are equal, their difference is NaN
 }
 
@@ -61,34 +63,52 @@ struct Contestant {
   std::function<void(Query, Answer&)> ask;
 };
 
-/// Collects pairs below a margin in the order found; sorting is not timed.
-class Pairs {
+/// Counts colliding pairs.
+class PairCounter {
  public:
   static constexpr bool ranks = false;
-  Pairs(double below, IndexPairs& out) noexcept : below_(below), out_(out) { out_.clear(); }
-  void add(const Hit& hit) {
-    out_.emplace_back(static_cast<std::uint32_t>(index(hit.first)), static_cast<std::uint32_t>(index(hit.second)));
-  }
+  void add(const Hit&) noexcept { ++count_; }
+  double cutoff() const noexcept { return 0.0; }
+  bool done() const noexcept { return false; }
+  std::size_t count() const noexcept { return count_; }
+
+ private:
+  std::size_t count_ = 0;
+};
+
+/// Lists pairs below a margin, as HitsWithin does, in memory that the next query uses again.
+class PairLister {
+ public:
+  static constexpr bool ranks = false;
+  PairLister(double below, PairList& out) noexcept : below_(below), out_(out) { out_.clear(); }
+  void add(const Hit& hit) { out_.push_back(hit); }
   double cutoff() const noexcept { return below_; }
   bool done() const noexcept { return false; }
 
  private:
   double below_;
-  IndexPairs& out_;
+  PairList& out_;
 };
 
 template <class H>
-void collect(H& hierarchy, double below, IndexPairs& out) {
-  Pairs pairs(below, out);
+void list_pairs(H& hierarchy, double below, PairList& out) {
+  PairLister pairs(below, out);
   hierarchy.self_query(pairs);
+  detail::sort_hits(out);
 }
 
 template <class H>
 void ask_hierarchy(H& hierarchy, Query query, Answer& answer) {
   switch (query) {
     case Query::any: answer.collides = hierarchy.self_collides(); return;
-    case Query::all: return collect(hierarchy, 0.0, answer.pairs);
-    case Query::within: return collect(hierarchy, margin, answer.pairs);
+    case Query::counted: {
+      PairCounter pairs;
+      hierarchy.self_query(pairs);
+      answer.count = pairs.count();
+      return;
+    }
+    case Query::all: return list_pairs(hierarchy, 0.0, answer.pairs);
+    case Query::within: return list_pairs(hierarchy, margin, answer.pairs);
     case Query::closest:
       if (const auto hit = hierarchy.self_closest()) answer.gap = hit->gap();
       return;
@@ -132,11 +152,24 @@ Contestant peer(const Scene& scene, std::string name) {
             p->update(*xyz);
             switch (query) {
               case Query::any: answer.collides = p->any(); return;
-              case Query::all: return p->all(answer.pairs);
+              case Query::counted: answer.count = p->count(); return;
+              case Query::all: return p->within(0.0, answer.pairs);
               case Query::within: return p->within(margin, answer.pairs);
               case Query::closest: answer.gap = p->closest(); return;
             }
           }};
+}
+
+/// Adds distances to FCL's pairs and sorts them.
+inline void list_fcl(const oracle::Pairs& found, std::span<const oracle::Position> at, const PeerInput& input,
+                     PairList& out) {
+  out.clear();
+  for (const auto& [i, j] : found) {
+    const double dx = at[i][0] - at[j][0], dy = at[i][1] - at[j][1], dz = at[i][2] - at[j][2];
+    out.push_back({id<PrimitiveId>(i), id<PrimitiveId>(j), std::sqrt(dx * dx + dy * dy + dz * dz),
+                   input.threshold(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j))});
+  }
+  detail::sort_hits(out);
 }
 
 /// Has no `within` list. Finds the closest pair only if nothing collides: its manager cannot rank penetrations.
@@ -156,7 +189,11 @@ inline Contestant fcl(const Scene& scene) {
           [=](Query query, Answer& answer) {
             manager->update(*positions, *moved);
             if (query == Query::any) answer.collides = manager->any();
-            if (query == Query::all) answer.fcl_pairs = manager->all();
+            if (query == Query::counted || query == Query::all) {
+              const oracle::Pairs found = manager->all();
+              answer.count = query == Query::counted ? found.size() : 0;
+              if (query == Query::all) list_fcl(found, *positions, *input, answer.pairs);
+            }
             if (query == Query::closest)
               answer.gap = manager->distance().value_or(std::numeric_limits<double>::infinity());
           }};
@@ -169,7 +206,8 @@ inline double gap_tolerance(const Contestant& c) { return c.name == "fcl" ? 1e-9
 /// Whether the contestant can answer the query for this sampling.
 inline bool answers(const Contestant& c, Query query, Sampling sampling) {
   if (c.name != "fcl") return true;
-  return query == Query::any || query == Query::all || (query == Query::closest && sampling == Sampling::near_free);
+  return query == Query::any || query == Query::counted || query == Query::all ||
+         (query == Query::closest && sampling == Sampling::near_free);
 }
 
 /// engine/simd comes first: the others are compared with it.

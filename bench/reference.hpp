@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reference answers: every pair in double, all four modes in one pass, no code shared with engines or peers.
+// Reference answers: every pair in double, all modes in one pass, no code shared with engines or peers.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <span>
@@ -30,8 +31,9 @@ class Reference {
 
   /// Answers in the order of all_queries. xyz: coordinates in angstrom, 3 per atom.
   std::vector<Answer> ask(std::span<const double> xyz) {
-    std::vector<Answer> answers(4);
-    Answer &any = answers[0], &all = answers[1], &within = answers[2], &closest = answers[3];
+    std::vector<Answer> answers(std::size(all_queries));
+    const auto answer = [&](Query query) -> Answer& { return answers[static_cast<std::size_t>(query)]; };
+    Answer &all = answer(Query::all), &within = answer(Query::within), &closest = answer(Query::closest);
     const std::size_t n = input_->n;
     for (std::size_t i = 0; i < n; ++i) {
       x_[i] = xyz[3 * i];
@@ -54,11 +56,13 @@ class Reference {
         const double m = input_->table[input_->type[i] * input_->type_count + input_->type[j]];
         if (!input_->admits(a, b)) continue;
         closest.gap = std::min(closest.gap, std::sqrt(squared) - m);
-        if (squared < (m + margin) * (m + margin)) within.pairs.emplace_back(a, b);
-        if (squared < m * m) all.pairs.emplace_back(a, b);
+        const Hit hit{id<PrimitiveId>(i), id<PrimitiveId>(j), std::sqrt(squared), m};
+        if (squared < (m + margin) * (m + margin)) within.pairs.push_back(hit);
+        if (squared < m * m) all.pairs.push_back(hit);
       }
     }
-    any.collides = !all.pairs.empty();
+    answer(Query::any).collides = !all.pairs.empty();
+    answer(Query::counted).count = all.pairs.size();
     return answers;
   }
 
@@ -78,7 +82,6 @@ inline int count_differences(Contestant& contestant, const Conformation& conform
     Answer answer;
     contestant.prepare(conformation);
     contestant.ask(all_queries[mode], answer);
-    answer.canonical();
     differences += same(answer, expected[mode]) ? 0 : 1;
   }
   return differences;

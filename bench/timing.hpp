@@ -98,15 +98,16 @@ class Measurement {
     }
     const auto unasked = std::numeric_limits<double>::infinity();
     std::vector<std::vector<double>> best(contestants_.size(), std::vector<double>(n, unasked));
+    std::vector<Answer> given(contestants_.size());  // lists keep their memory
     for (int repetition = 0; repetition < repetitions; ++repetition)
       for (std::size_t k = 0; k < n; ++k) {
-        std::vector<Answer> given(contestants_.size());
         std::vector<std::size_t> asked;
         for (std::size_t turn = 0; turn < active.size(); ++turn) {
           const std::size_t c = active[(turn + k) % active.size()];
           if (contestants_[c].name == "fcl" && query_ == Query::closest && collides[k]) continue;
           const auto start = Clock::now();
           contestants_[c].prepare(conformations[k]);
+          given[c].clear();
           best[c][k] = std::min(best[c][k], microseconds([&] { contestants_[c].ask(query_, given[c]); }));
           cell.series[c].spent += seconds_since(start);
           asked.push_back(c);
@@ -125,9 +126,8 @@ class Measurement {
     }
   }
 
-  int differences(std::vector<Answer>& given, const std::vector<std::size_t>& asked) const {
+  int differences(const std::vector<Answer>& given, const std::vector<std::size_t>& asked) const {
     int count = 0;
-    for (const std::size_t c : asked) given[c].canonical();
     for (const std::size_t c : asked) count += same(given[0], given[c], gap_tolerance(contestants_[c])) ? 0 : 1;
     return count;
   }

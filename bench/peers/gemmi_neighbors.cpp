@@ -163,12 +163,17 @@ bool GemmiNeighbors::any() {
   return answer.found;
 }
 
-void GemmiNeighbors::all(IndexPairs& out) { within(0.0, out); }
+std::size_t GemmiNeighbors::count() {
+  PairCount answer;
+  impl_->search(answer);
+  return answer.count;
+}
 
-void GemmiNeighbors::within(double margin, IndexPairs& out) {
+void GemmiNeighbors::within(double margin, PairList& out) {
   out.clear();
   PairsWithin answer{out, margin};
   impl_->search(answer);
+  detail::sort_hits(out);
 }
 
 double GemmiNeighbors::closest() {

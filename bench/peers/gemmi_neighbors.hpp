@@ -18,8 +18,8 @@ class GemmiNeighbors {
 
   void update(std::span<const double> xyz);
   bool any();
-  void all(IndexPairs& out);
-  void within(double margin, IndexPairs& out);
+  std::size_t count();
+  void within(double margin, PairList& out);
   double closest();
 
  private:

@@ -40,11 +40,16 @@ class Nanoflann {
     search(answer);
     return answer.found;
   }
-  void all(IndexPairs& out) { within(0.0, out); }
-  void within(double margin, IndexPairs& out) {
+  std::size_t count() {
+    PairCount answer;
+    search(answer);
+    return answer.count;
+  }
+  void within(double margin, PairList& out) {
     out.clear();
     PairsWithin answer{out, margin};
     search(answer);
+    detail::sort_hits(out);
   }
   /// The radius shrinks with the best pair. If no pair is below the first guess, searches without a limit.
   double closest() {

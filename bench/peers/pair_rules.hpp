@@ -38,12 +38,23 @@ struct AnyPair {
   }
 };
 
+struct PairCount {
+  static constexpr double margin = 0.0;
+  std::size_t count = 0;
+  bool add(std::uint32_t, std::uint32_t, double squared, double threshold) {
+    count += squared < threshold * threshold ? 1U : 0U;
+    return false;
+  }
+};
+
+/// The caller sorts the list.
 struct PairsWithin {
-  IndexPairs& out;
+  PairList& out;
   double margin;
   bool add(std::uint32_t i, std::uint32_t j, double squared, double threshold) {
     const double limit = threshold + margin;
-    if (squared < limit * limit) out.emplace_back(std::min(i, j), std::max(i, j));
+    if (squared < limit * limit)
+      out.push_back({PrimitiveId{std::min(i, j)}, PrimitiveId{std::max(i, j)}, std::sqrt(squared), threshold});
     return false;
   }
 };

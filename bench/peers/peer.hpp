@@ -5,13 +5,15 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
+
+#include "hinge/detail/query/sort_hits.hpp"
+#include "hinge/policy/collector.hpp"
 
 namespace hinge::bench {
 
-/// Pairs i < j, in any order.
-using IndexPairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+/// Pairs i < j with their distances and thresholds, sorted by (i, j). Every contestant sorts by detail::sort_hits.
+using PairList = std::vector<Hit>;
 
 /// Points, thresholds (angstrom) and admitted pairs. Prepared once per selection of DOF.
 struct PeerInput {
@@ -33,8 +35,8 @@ struct PeerInput {
 //   P(std::shared_ptr<const PeerInput>)
 //   void update(std::span<const double> xyz)   3n world coordinates, x0 y0 z0 x1 ...; points of group 0 never change
 //   bool any();
-//   void all(IndexPairs& out);                    d < M; `out` is cleared first
-//   void within(double margin, IndexPairs& out);  d < M + margin
+//   std::size_t count();                           number of pairs with d < M
+//   void within(double margin, PairList& out);     d < M + margin; `out` is cleared first
 //   double closest();                             smallest d - M; +inf when no pair is admitted
 // Squared distances are dx * dx + dy * dy + dz * dz in double, compared as d2 < (M + margin) * (M + margin).
 

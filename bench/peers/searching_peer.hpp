@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SearchingPeer: the four queries for peers that answer each of them with one search within a margin.
+// SearchingPeer: the queries for peers that answer each of them with one search within a margin.
 #pragma once
 
 #include <memory>
@@ -25,11 +25,16 @@ class SearchingPeer {
     search_.search(0.0, answer);
     return answer.found;
   }
-  void all(IndexPairs& out) { within(0.0, out); }
-  void within(double margin, IndexPairs& out) {
+  std::size_t count() {
+    PairCount answer;
+    search_.search(0.0, answer);
+    return answer.count;
+  }
+  void within(double margin, PairList& out) {
     out.clear();
     PairsWithin answer{out, margin};
     search_.search(margin, answer);
+    detail::sort_hits(out);
   }
   double closest() {
     return last_ = grow_until_found(last_, search_.everything(), [&](double margin) {
