@@ -18,6 +18,7 @@
 #include "hinge/moves/move_checker.hpp"
 #include "hinge/moves/random_move.hpp"
 #include "peers/chain_tree.hpp"
+#include "results.hpp"
 #include "scene.hpp"
 #include "timing.hpp"
 
@@ -201,18 +202,18 @@ inline Walk walk(Scene& scene, std::size_t dofs, std::size_t steps) {
 
 /// Prints `moves any Ddof PEER R`, where R is the peer's time per step over the time of `moves`. Returns the number
 /// of wrong verdicts.
-inline std::size_t print_walk(const Walk& walk, std::size_t dofs) {
+inline std::size_t print_walk(Results& results, const Walk& walk, std::size_t dofs) {
   for (const Mover m : {mover_full, mover_moved_only, mover_chain_skip, mover_chain16_skip})
-    std::printf("moves any %zudof %s %.1f\n", dofs, mover_names[m], walk.ratio(m));
+    results.print("moves any " + std::to_string(dofs) + "dof " + mover_names[m], walk.ratio(m), 1);
   return walk.differences;
 }
 
 /// 1MBN with all torsions free, or 1UBQ without the shared data. Returns the number of wrong verdicts.
-inline std::size_t print_walks() {
+inline std::size_t print_walks(Results& results) {
   const std::string shared = shared_molecule("paper/1mbn.pdb");
   Scene scene(read_protein(shared.empty() ? ubiquitin() : shared, false), "all");
   std::size_t differences = 0;
-  for (const std::size_t dofs : {1U, 3U, 10U}) differences += print_walk(walk(scene, dofs, 500), dofs);
+  for (const std::size_t dofs : {1U, 3U, 10U}) differences += print_walk(results, walk(scene, dofs, 500), dofs);
   if (differences != 0) std::printf("%zu moves with a WRONG verdict\n", differences);
   return differences;
 }

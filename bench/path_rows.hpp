@@ -104,10 +104,10 @@ PathRow measure_paths(const H& hierarchy, const std::vector<Path>& paths) {
 }
 
 /// Prints sampling time over certification time, for free paths.
-inline void print_path_ratios(const std::string& set, const PathRow& row) {
+inline void print_path_ratios(Results& results, const std::string& set, const PathRow& row) {
   for (const PathMethod m : {sampled_tenth, sampled_one})
     if (row.free > 0)
-      std::printf("path any %s %s %.2f\n", set.c_str(), path_method_names[m], row.free_us[m] / row.free_us[certified]);
+      results.print("path any " + set + ' ' + path_method_names[m], row.free_us[m] / row.free_us[certified]);
 }
 
 inline void add_paths(Results& results, const std::string& set, std::size_t dof, const PathRow& row) {

@@ -32,7 +32,7 @@ void print(Results& results, const std::string& set, std::size_t dof, const Path
   std::printf(" | %7.1f %7.0f | %9.1f | %4d %4d %4d\n", mean(row.segments, row.free), mean(row.listed, row.free),
               mean(row.colliding_us[certified], row.colliding), row.missed[sampled_five], row.missed[sampled_one],
               row.missed[sampled_tenth]);
-  print_path_ratios(set, row);
+  print_path_ratios(results, set, row);
   std::fflush(stdout);
   add_paths(results, set, dof, row);
 }

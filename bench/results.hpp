@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "contestant.hpp"
+#include "goals.hpp"
 #include "scene.hpp"
 #include "timing.hpp"
 
@@ -48,6 +49,13 @@ class Results {
     json_["rows"] = Json::array();
   }
   void add(Json row) { json_["rows"].push_back(std::move(row)); }
+  /// Prints the row with its value, and compares it with its goal.
+  void print(const std::string& row, double value, int digits = 2) {
+    std::printf("%s %.*f\n", row.c_str(), digits, value);
+    goals_.check(row, value);
+  }
+  /// Prints the rows that miss their goals.
+  void print_missed() const { goals_.print(); }
   /// Writes nothing if `file` is empty. Throws std::runtime_error if the file cannot be written.
   void write(const std::string& file) const {
     if (file.empty()) return;
@@ -64,6 +72,7 @@ class Results {
     return "unknown";
   }
   Json json_;
+  Goals goals_;
 };
 
 inline Json describe(const Setup& setup, const Scene& scene) {
@@ -109,7 +118,7 @@ class Ratios {
         for (const char* who : peer_names) {
           const auto found = means_.find({query, sampling, who});
           if (found == means_.end()) continue;
-          std::printf("ratio %s %s %s %.2f\n", name(query), name(sampling), who, found->second.value());
+          results.print(std::string("ratio ") + name(query) + ' ' + name(sampling) + ' ' + who, found->second.value());
           results.add({{"kind", "ratio"},
                        {"query", name(query)},
                        {"sampling", name(sampling)},
@@ -132,6 +141,7 @@ inline void add_cell(Results& results, const Json& setup, Query query, Sampling 
                 {"peer", s.name},
                 {"us", s.us},
                 {"simd_us", s.simd_us},
+                {"pairs", cell.pairs},
                 {"conformations", s.conformations},
                 {"colliding", static_cast<double>(cell.colliding) / cell.conformations}});
     results.add(std::move(row));

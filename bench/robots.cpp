@@ -11,9 +11,8 @@ int main(int argc, char** argv) {
   Results results("robots");
   RobotRatios ratios;
   const int differences = run_robots({200, arguments.number, true, 50}, ratios, results);
-  ratios.print("fcl-best", results);
-  ratios.print("fcl-native-best", results);
-  ratios.print("fcl-unshared", results);
+  for (const char* peer : {"fcl-best", "fcl-native-best", "fcl-unshared"}) ratios.print(peer, results);
+  results.print_missed();
   results.write(arguments.json);
   return differences == 0 ? 0 : 1;
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -135,6 +136,11 @@ int main(int argc, char** argv) {
   const std::vector<Setup> setups = paper_setups();
   Ratios ratios;
   GeometricMean torsions;
+  struct Lists {
+    double us = 0.0, pairs = 0.0;
+    double ns_per_pair() const { return 1e3 * us / pairs; }
+  };
+  std::map<Sampling, Lists> lists;  // what lists cost more than counts
   double floor = 0.0;
   std::size_t floor_dof = 0;
   Checked checked;
@@ -151,11 +157,17 @@ int main(int argc, char** argv) {
     checked.conformations += here.conformations;
     checked.differences += here.differences;
     double fcl_us = 0.0;
+    std::map<Sampling, double> counted_us;
     for (const Query query : all_queries)
       for (const Sampling sampling : all_samplings) {
         const double left = std::max(0.0, arguments.number - seconds_since(start));
         const Cell cell = Measurement(scene, all, query, sampling).run({left / static_cast<double>(cells_left--), 60});
         ratios.add(query, sampling, cell);
+        if (query == Query::counted) counted_us[sampling] = cell.series.front().us;
+        if (query == Query::all) {
+          lists[sampling].us += cell.series.front().us - counted_us[sampling];
+          lists[sampling].pairs += cell.pairs;
+        }
         timed_differences += cell.differences;
         add_cell(results, described, query, sampling, cell);
         for (const Series& s : cell.series)
@@ -175,7 +187,12 @@ int main(int argc, char** argv) {
     std::fflush(stdout);
   }
   ratios.print(results);
-  std::printf("floor any near-free %zudof %.2f\n", floor_dof, floor);
+  for (const Sampling sampling : {Sampling::random, Sampling::five_degrees}) {
+    const double ns = lists[sampling].ns_per_pair();
+    results.print(std::string("list all ") + name(sampling) + " ns-per-pair", ns);
+    results.add({{"kind", "list"}, {"sampling", name(sampling)}, {"ns_per_pair", ns}});
+  }
+  results.print("floor any near-free " + std::to_string(floor_dof) + "dof", floor);
   std::printf("torsions any random fcl %.1f\n", torsions.value());
   std::printf("checked %d, differences %d\n", checked.conformations, checked.differences + timed_differences);
   results.add({{"kind", "checked"},
@@ -183,20 +200,20 @@ int main(int argc, char** argv) {
                {"differences", checked.differences},
                {"timed_differences", timed_differences}});
   results.add({{"kind", "mean"}, {"torsions_fcl", torsions.value()}, {"floor", floor}, {"floor_dof", floor_dof}});
-  const std::size_t wrong_blocks = print_batches(), wrong_moves = print_walks();
+  const std::size_t wrong_blocks = print_batches(), wrong_moves = print_walks(results);
   int wrong_paths = 0;
   const auto [moving, path_sets] = protein_paths();
   for (const ProteinPaths& set : path_sets) {
     const Scene scene(moving, set.free);
     const PathRow row = measure_paths(scene, set, paths_of_set);
     wrong_paths += row.wrong;
-    print_path_ratios(set.name, row);
+    print_path_ratios(results, set.name, row);
     add_paths(results, set.name, scene.dof_count(), row);
   }
   RobotRatios robots;
-  const int robot_differences = run_robots({200, robot_seconds, false, 0}, robots, results);
-  robots.print("fcl-best", results);
-  robots.print("fcl-unshared", results);
+  const int robot_differences = run_robots({200, robot_seconds, true, 0}, robots, results);
+  for (const char* peer : {"fcl-best", "fcl-native-best", "fcl-unshared"}) robots.print(peer, results);
+  results.print_missed();
   results.write(arguments.json);
   return wrong_blocks == 0 && wrong_moves == 0 && wrong_paths == 0 &&
                  checked.differences + timed_differences + robot_differences == 0

@@ -48,6 +48,7 @@ struct Cell {
   int conformations = 0;
   int colliding = 0;    ///< number of conformations that collide
   int differences = 0;  ///< answers that differ from the first contestant's
+  double pairs = 0.0;   ///< mean length of the first contestant's lists
 };
 
 /// Limits on the time and size of a cell.
@@ -81,6 +82,7 @@ class Measurement {
       s.simd_us /= s.conformations;
     }
     std::erase_if(cell.series, [](const Series& s) { return s.conformations == 0; });
+    cell.pairs /= std::max(1, cell.conformations);
     return cell;
   }
 
@@ -99,6 +101,7 @@ class Measurement {
     const auto unasked = std::numeric_limits<double>::infinity();
     std::vector<std::vector<double>> best(contestants_.size(), std::vector<double>(n, unasked));
     std::vector<Answer> given(contestants_.size());  // lists keep their memory
+    std::vector<double> listed(n, 0.0);
     for (int repetition = 0; repetition < repetitions; ++repetition)
       for (std::size_t k = 0; k < n; ++k) {
         std::vector<std::size_t> asked;
@@ -113,9 +116,11 @@ class Measurement {
           asked.push_back(c);
         }
         if (repetition == 0) cell.differences += differences(given, asked);
+        listed[k] = static_cast<double>(given[0].pairs.size());
       }
     for (std::size_t k = 0; k < n; ++k) {
       ++cell.conformations;
+      cell.pairs += listed[k];
       cell.colliding += collides[k] ? 1 : 0;
       for (std::size_t c = 0; c < contestants_.size(); ++c) {
         if (best[c][k] == unasked) continue;

@@ -44,7 +44,7 @@ class RobotRatios {
     for (const std::string& query : queries) {
       GeometricMean mean;
       const auto put = [&](const std::string& robot, double ratio) {
-        std::printf("ratio %s %s %s %.*f\n", query.c_str(), robot.c_str(), peer.c_str(), ratio < 1.0 ? 3 : 1, ratio);
+        results.print("ratio " + query + ' ' + robot + ' ' + peer, ratio, ratio < 1.0 ? 3 : 1);
         results.add({{"kind", "robot-ratio"}, {"query", query}, {"robot", robot}, {"peer", peer}, {"ratio", ratio}});
       };
       for (const Row& row : rows_) {
