@@ -106,6 +106,7 @@ inline void run_growth(Results& results, std::size_t most_atoms) {
       "\ngrowth: one residue in 16 free, near-free; ns per atom, bytes per atom\n%-16s %8s %6s %10s %10s %10s %10s "
       "%7s\n",
       "structure", "atoms", "dof", "any", "all", "grid any", "grid all", "bytes");
+  double reference_ns = 0.0;  // of the first structure of more than 5 000 atoms
   struct Step {
     const char *name, *file;
     std::size_t copies;
@@ -141,6 +142,10 @@ inline void run_growth(Results& results, std::size_t most_atoms) {
       }
     std::printf("%-16s %8zu %6zu %10.1f %10.1f %10.1f %10.1f %7.0f\n", called.c_str(), scene.size(), scene.dof_count(),
                 ns[0], ns[1], ns[2], ns[3], bytes);
+    if (scene.size() > 5000) {
+      if (reference_ns == 0.0) reference_ns = ns[0];
+      results.print("growth any " + std::to_string(scene.size()) + "-atoms", ns[0] / reference_ns);
+    }
     std::fflush(stdout);
     results.add({{"kind", "growth"},
                  {"structure", called},

@@ -196,6 +196,7 @@ int main(int argc, char** argv) {
   run_tail(results);
   run_growth(results, 2'000'000);
   std::printf("differences %d\n", differences);
+  results.print_missed();
   results.write(arguments.json);
   return differences == 0 ? 0 : 1;
 }
