@@ -32,28 +32,25 @@ inline constexpr double cody_waite_limit = 0x1p20;
 
 inline constexpr double rounder = 0x1.8p52;  // adding and subtracting it rounds a double to an integer
 
-/// An angle reduced to n * pi/2 + (high + low), where n is the nearest integer. T: double, or SIMD lanes of double.
+/// Reduces x to n * pi/2 + (high + low), where n is the nearest integer. T: double, or SIMD lanes of double. A struct
+/// of lanes as the result would go through memory, in stores too narrow for the loads that follow.
 template <class T>
-struct ReducedParts {
-  T n, high, low;
-};
-
-template <class T>
-[[gnu::always_inline]] inline ReducedParts<T> reduce_parts(const T& x) noexcept {
+[[gnu::always_inline]] inline void reduce_parts(const T& x, T& n, T& high, T& low) noexcept {
   constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
   constexpr double part1 = 0x1.921fb544p+0, part2 = 0x1.0b4611a6p-34, part3 = 0x1.3198a2e037073p-69;
-  const T n = (x * T(two_over_pi) + T(rounder)) - T(rounder);
+  n = (x * T(two_over_pi) + T(rounder)) - T(rounder);
   const T a = x - n * T(part1);
   const T b = n * T(part2);
   const T r = a - b;
   const T tail = ((a - r) - b) - n * T(part3);
-  const T high = r + tail;
-  return {n, high, (r - high) + tail};
+  high = r + tail;
+  low = (r - high) + tail;
 }
 
 inline Reduced reduce_small(double x) noexcept {
-  const ReducedParts<double> r = reduce_parts(x);
-  return {static_cast<unsigned>(static_cast<std::int64_t>(r.n)) & 3U, r.high, r.low};
+  double n = 0.0, high = 0.0, low = 0.0;
+  reduce_parts(x, n, high, low);
+  return {static_cast<unsigned>(static_cast<std::int64_t>(n)) & 3U, high, low};
 }
 
 /// Reduction of Payne & Hanek for large angles: multiplies the 53-bit mantissa by the relevant bits of 2/pi, modulo 4.

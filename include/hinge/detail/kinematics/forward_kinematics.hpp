@@ -125,19 +125,21 @@ inline void ForwardKinematics::set_configuration(std::span<const double> q) {
     if (!is_length(q[k]))
       throw ConfigurationError("configuration value " + std::to_string(k) + " is " + number_text(q[k]) +
                                ", expected a displacement of at most 2^1000");
+  const auto differs = [&](std::size_t k) {
+    return std::bit_cast<std::uint64_t>(q_[k]) != std::bit_cast<std::uint64_t>(q[k]);
+  };
   std::uint64_t changes = 0;
-  for (std::size_t k = 0; k < q.size(); ++k) {
-    const bool differs = std::bit_cast<std::uint64_t>(q_[k]) != std::bit_cast<std::uint64_t>(q[k]);
-    q_[k] = q[k];
-    changed_[k] = differs;
-    changes += differs ? 1U : 0U;
-  }
+  for (std::size_t k = 0; k < q.size(); ++k) changes += differs(k) ? 1U : 0U;
   all_moved_ = source_ != Source::configuration || changes == q.size();
   few_changed_ = !all_moved_ && changes <= q.size() / few_changes_divisor;
   reusable_ = few_changed_ ? computed_ : 1;
   computed_ = 1;
   source_ = Source::configuration;
-  if (!all_moved_) find_moved();
+  if (!all_moved_) {
+    for (std::size_t k = 0; k < q.size(); ++k) changed_[k] = differs(k);
+    find_moved();
+  }
+  std::copy(q.begin(), q.end(), q_.begin());
 }
 
 /// Finds the groups that the last set_configuration() moved.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "hinge/detail/simd/sincos.hpp"
 #include "hinge/kinematics/joint.hpp"
@@ -50,7 +51,9 @@ inline void compute_motions(const JointBatch& batch, const double* q, JointMotio
   const simd::Double8 x(batch.axis.data()), y(batch.axis.data() + n), z(batch.axis.data() + 2 * n);
   const simd::Double8 px(batch.point.data()), py(batch.point.data() + n), pz(batch.point.data() + 2 * n);
   const auto r = rotation_columns(x, y, z, s, c);
-  for (std::size_t e = 0; e < 9; ++e) r[e].store(motions.data() + e * n);
+  // With constant indices r stays in registers.
+  [&]<std::size_t... e>(std::index_sequence<e...>) { (r[e].store(motions.data() + e * n), ...); }
+  (std::make_index_sequence<9>{});
   (px - (r[0] * px + r[3] * py + r[6] * pz)).store(motions.data() + 9 * n);
   (py - (r[1] * px + r[4] * py + r[7] * pz)).store(motions.data() + 10 * n);
   (pz - (r[2] * px + r[5] * py + r[8] * pz)).store(motions.data() + 11 * n);

@@ -12,12 +12,12 @@ namespace hinge::detail::simd {
 
 /// Computes sincos per lane, for |angle| <= cody_waite_limit.
 [[gnu::always_inline]] inline void sincos(const Double8& angle, Double8& sine, Double8& cosine) noexcept {
-  const ReducedParts<Double8> r = reduce_parts(angle);
-  Double8 s, c;
-  sincos_of_reduced(r.high, r.low, s, c);
+  Double8 n, high, low, s, c;
+  reduce_parts(angle, n, high, low);
+  sincos_of_reduced(high, low, s, c);
   // The quadrant is n modulo 4: n / 4 - 3 / 8 rounds to floor(n / 4).
   const Double8 rounder(detail::rounder);
-  const Double8 q = r.n - Double8(4.0) * (((r.n * Double8(0.25) - Double8(0.375)) + rounder) - rounder);
+  const Double8 q = n - Double8(4.0) * (((n * Double8(0.25) - Double8(0.375)) + rounder) - rounder);
   const Double8 odd = abs(abs(q - Double8(2.0)) - Double8(1.0)), half(0.5);  // 0 in quadrants 1 and 3, otherwise 1
   const Double8 first = choose_less(odd, half, c, s), second = choose_less(odd, half, s, c);
   sine = choose_less(q, Double8(1.5), first, -first);
