@@ -35,13 +35,23 @@ class LearnedOrder {
     std::fill(marks_.begin(), marks_.end(), 0U);
   }
   void mark(std::size_t thing) noexcept { marks_[rank_[thing] / 64] |= std::uint64_t{1} << rank_[thing] % 64; }
-  /// Calls visit(item) -> bool for all marked items in order, until it returns false. Marks are bits by rank: no
-  /// sorting.
+  /// Calls visit(item) -> bool for all marked items, until it returns false: first for the item where the call before
+  /// ended, then in order. Marks are bits by rank: no sorting.
   template <class Visit>
-  void each(const Visit& visit) const {
+  void each(const Visit& visit) {
+    std::uint64_t& latest = marks_[last_ / 64];
+    const std::uint64_t bit = std::uint64_t{1} << last_ % 64;
+    if ((latest & bit) != 0) {
+      latest &= ~bit;
+      if (!visit(at_[last_])) return;
+    }
     for (std::size_t w = 0; w < marks_.size(); ++w)
-      for (std::uint64_t word = marks_[w]; word != 0; word &= word - 1)
-        if (!visit(at_[64 * w + static_cast<std::size_t>(std::countr_zero(word))])) return;
+      for (std::uint64_t word = marks_[w]; word != 0; word &= word - 1) {
+        const std::size_t rank = 64 * w + static_cast<std::size_t>(std::countr_zero(word));
+        if (visit(at_[rank])) continue;
+        last_ = rank;
+        return;
+      }
   }
 
  private:
@@ -68,6 +78,7 @@ class LearnedOrder {
   }
 
   std::size_t things_;
+  std::size_t last_ = 0;  // rank of the item where the last each() ended
   std::vector<Tally> tally_;
   std::vector<std::uint32_t> rank_, at_;  // rank per item, item per rank; at_ is empty when the order is outdated
   std::vector<std::uint64_t> marks_;      // by rank
