@@ -113,9 +113,11 @@ class HINGE_API RobotChecker {
   // --- Queries at the current state ---
 
   /// Learns from the current state which pairs of links the yes/no queries test first (see
-  /// Hierarchy::calibrate_pair_order). Call it at some hundred typical states. Answers do not change.
+  /// Hierarchy::calibrate_pair_order). collides() calls it at some states. Call it at typical states if the first
+  /// queries are at others. Answers do not change.
   void calibrate_pair_order();
-  /// Returns true if any tested pair of links collides. Stops at the first hit.
+  /// Returns true if any tested pair of links collides. Stops at the first hit. Every sixteenth of the first 256 calls
+  /// also calibrates the order of pairs.
   bool collides();
   /// Returns the pairs of links that collide, sorted.
   std::vector<LinkContact> colliding_links() { return within(0.0); }
@@ -256,6 +258,7 @@ class HINGE_API RobotChecker {
   std::vector<Aabb> link_boxes_;                          // by link, world frame
   bool link_boxes_stand_ = false;                         // link_boxes_ belong to the current state
   std::shared_ptr<const Topology> topology_;
+  std::size_t queries_ = 0;  // number of calls of collides(), up to the number that is needed for the order of pairs
   bool fits_sphere_batch_ = false;
   std::optional<SphereBatch> spheres_;  // made by the first check_batch() that can use it
 };
