@@ -2,7 +2,6 @@
 // Goals: what the rows of the summary should reach, and the rows that miss it.
 #pragma once
 
-#include <array>
 #include <cstdio>
 #include <string>
 #include <string_view>
@@ -53,6 +52,13 @@ inline constexpr Goal all_goals[] = {
     {"ratio robot-environment", " fcl-native-best", 8.0},
 };
 
+/// A row that misses its goal.
+struct Missed {
+  std::string row;
+  double value = 0.0;
+  const Goal* goal = nullptr;
+};
+
 /// Compares rows with their goals.
 class Goals {
  public:
@@ -61,22 +67,22 @@ class Goals {
     for (const Goal& goal : all_goals)
       if (row.starts_with(goal.beginning) && row.ends_with(goal.end)) return compare(row, value, goal);
   }
+  const std::vector<Missed>& missed() const noexcept { return missed_; }
   /// Prints the rows that miss their goals.
   void print() const {
     std::printf("rows below target: %zu\n", missed_.size());
-    for (const std::string& line : missed_) std::printf("below %s\n", line.c_str());
+    for (const auto& [row, value, goal] : missed_)
+      std::printf("below %s %.2f, target %s %g\n", row.c_str(), value, goal->at_most ? "at most" : "at least",
+                  goal->value);
   }
 
  private:
   void compare(std::string_view row, double value, const Goal& goal) {
-    if (goal.at_most ? value <= goal.value : value >= goal.value) return;
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), " %.2f, target %s %g", value, goal.at_most ? "at most" : "at least",
-                  goal.value);
-    missed_.push_back(std::string(row) + text.data());
+    if (!(goal.at_most ? value <= goal.value : value >= goal.value))
+      missed_.push_back({std::string(row), value, &goal});
   }
 
-  std::vector<std::string> missed_;
+  std::vector<Missed> missed_;
 };
 
 }  // namespace hinge::bench

@@ -48,7 +48,7 @@ std::string ratios(const Found& found) {
         number(Found::value(row, "torsions_fcl")) + " times as long.\n";
   for (const Json& row : found.rows("summary checked"))
     out += "Answers compared with brute force before timing: " + std::to_string(row.at("conformations").get<int>()) +
-           " conformations in four modes, " +
+           " conformations in five modes, " +
            std::to_string(row.at("differences").get<int>() + row.at("timed_differences").get<int>()) +
            " differences.\n";
   return out;
@@ -172,6 +172,11 @@ int main(int argc, char** argv) {
     const std::map<std::string, std::pair<std::string, std::function<std::string()>>> sections = {
         {"machine", {"summary mean", [&] { return found.machine(); }}},
         {"ratios", {"summary ratio", [&] { return ratios(found); }}},
+        {"below",
+         {"summary below",
+          [&] {
+            return plain(found.rows("summary below"), {"row", "value", "goal"}, {"row", "value", "goal"});
+          }}},
         {"times", {"paper time", [&] { return times(found, false); }}},
         {"loops", {"paper time", [&] { return times(found, true); }}},
         {"selection",

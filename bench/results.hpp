@@ -20,6 +20,7 @@
 
 #include "contestant.hpp"
 #include "goals.hpp"
+#include "hinge/core/number_text.hpp"
 #include "scene.hpp"
 #include "timing.hpp"
 
@@ -54,8 +55,15 @@ class Results {
     std::printf("%s %.*f\n", row.c_str(), digits, value);
     goals_.check(row, value);
   }
-  /// Prints the rows that miss their goals.
-  void print_missed() const { goals_.print(); }
+  /// Prints and adds the rows that miss their goals.
+  void print_missed() {
+    goals_.print();
+    for (const auto& [row, value, goal] : goals_.missed())
+      add({{"kind", "below"},
+           {"row", row},
+           {"value", value},
+           {"goal", (goal->at_most ? "at most " : "at least ") + number_text(goal->value)}});
+  }
   /// Writes nothing if `file` is empty. Throws std::runtime_error if the file cannot be written.
   void write(const std::string& file) const {
     if (file.empty()) return;
