@@ -31,6 +31,8 @@ inline constexpr Goal all_goals[] = {
     {"moves any", " chain16-skip", 5.0},
     {"path any k35-20deg", " sampled-0.1deg", 8.0},
     {"path any k153-1deg", " sampled-0.1deg", 2.0},
+    {"ratio robot-independent", " single", 3.0},
+    {"ratio robot-edges", " single", 6.0},
     {"ratio robot-any mean", " fcl-best", 28.0},
     {"ratio robot-all mean", " fcl-best", 28.0},
     {"ratio robot-distance mean", " fcl-best", 50.0},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Time ratios of every peer to engine/simd: geometric means over the paper's set-ups, in ten minutes on two slow
-// cores. Then ratios of FCL on robots, in two more minutes. Answers are checked before and during timing.
+// cores. Then growth, batches, moves, paths and robots, in three more minutes. Answers are checked before and during
+// timing.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -13,11 +14,13 @@
 
 #include "batch.hpp"
 #include "contestant.hpp"
+#include "growth.hpp"
 #include "hinge/engine/brute.hpp"
 #include "moves.hpp"
 #include "path_rows.hpp"
 #include "reference.hpp"
 #include "results.hpp"
+#include "robots/robot_batches.hpp"
 #include "robots/run_robots.hpp"
 #include "scene.hpp"
 #include "timing.hpp"
@@ -200,6 +203,7 @@ int main(int argc, char** argv) {
                {"differences", checked.differences},
                {"timed_differences", timed_differences}});
   results.add({{"kind", "mean"}, {"torsions_fcl", torsions.value()}, {"floor", floor}, {"floor_dof", floor_dof}});
+  run_growth(results, 2'000'000);
   const std::size_t wrong_blocks = print_batches(), wrong_moves = print_walks(results);
   int wrong_paths = 0;
   const auto [moving, path_sets] = protein_paths();
@@ -213,9 +217,10 @@ int main(int argc, char** argv) {
   RobotRatios robots;
   const int robot_differences = run_robots({200, robot_seconds, true, 0}, robots, results);
   for (const char* peer : {"fcl-best", "fcl-native-best", "fcl-unshared"}) robots.print(peer, results);
+  const std::size_t wrong_robot_batches = print_robot_batches(results);
   results.print_missed();
   results.write(arguments.json);
-  return wrong_blocks == 0 && wrong_moves == 0 && wrong_paths == 0 &&
+  return wrong_blocks == 0 && wrong_robot_batches == 0 && wrong_moves == 0 && wrong_paths == 0 &&
                  checked.differences + timed_differences + robot_differences == 0
              ? 0
              : 1;
