@@ -101,7 +101,7 @@ inline void run_tail(Results& results) {
 
 /// One residue in sixteen free, near-free sampling: time per atom of yes/no and of all pairs, and bytes per atom of
 /// the hierarchy (without the shared molecule).
-inline void run_growth(Results& results, std::size_t most_atoms) {
+inline void run_growth(Results& results) {
   std::printf(
       "\ngrowth: one residue in 16 free, near-free; ns per atom, bytes per atom\n%-16s %8s %6s %10s %10s %10s %10s "
       "%7s\n",
@@ -121,7 +121,6 @@ inline void run_growth(Results& results, std::size_t most_atoms) {
     options.keep_hydrogens = false;
     options.model = 1;
     const molecular::Structure one = molecular::read_structure(file, options);
-    if (one.atoms.size() * step.copies > most_atoms) continue;
     Scene scene(make_protein(copies(one, step.copies)), "every:16");
     const Conformation conformation = scene.conformation(Sampling::near_free, 0);
     const double before = allocated();

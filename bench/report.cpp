@@ -89,7 +89,7 @@ std::string times(const Found& found, bool loops) {
 }
 
 std::string trade(const Found& found) {
-  std::string out = "\n";
+  std::string out;
   std::string title;
   for (const Json& row : found.rows("trade trade")) {
     if (Found::text(row, "title") != title) {
@@ -135,7 +135,7 @@ void plot_growth(const Found& found, const std::string& folder) {
     return Plot::left + (Plot::width - Plot::left - 40) * (std::log10(atoms) - 3) / 3.2;
   };
   for (const double atoms : {1e3, 1e4, 1e5, 1e6}) plot.label(x(atoms), Plot::bottom + 20, number(atoms));
-  for (const Json& row : found.rows("paper growth")) {
+  for (const Json& row : found.rows("summary growth")) {
     plot.dot(x(Found::value(row, "atoms")), Found::value(row, "any_ns"), colours[0]);
     plot.dot(x(Found::value(row, "atoms")), Found::value(row, "all_ns"), colours[1]);
     plot.dot(x(Found::value(row, "atoms")), Found::value(row, "grid_any_ns"), colours[2]);
@@ -203,9 +203,9 @@ int main(int argc, char** argv) {
                          {"atoms", "sampling", "peer", "us"});
           }}},
         {"growth",
-         {"paper growth",
+         {"summary growth",
           [&] {
-            return plain(found.rows("paper growth"),
+            return plain(found.rows("summary growth"),
                          {"structure", "atoms", "DOF", "yes/no", "all pairs", "grid yes/no", "grid all", "bytes/atom"},
                          {"structure", "atoms", "dof", "any_ns", "all_ns", "grid_any_ns", "grid_all_ns", "bytes"});
           }}},
@@ -219,7 +219,7 @@ int main(int argc, char** argv) {
       if (!found.rows(section.first).empty()) replace(page, name, section.second());
     std::ofstream(file) << page;
     if (!found.rows("summary ratio").empty()) plot_ratios(found, docs + "/images");
-    if (!found.rows("paper growth").empty()) plot_growth(found, docs + "/images");
+    if (!found.rows("summary growth").empty()) plot_growth(found, docs + "/images");
     std::printf("written: %s\n", file.c_str());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_report: %s\n", error.what());

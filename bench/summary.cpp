@@ -203,7 +203,7 @@ int main(int argc, char** argv) {
                {"differences", checked.differences},
                {"timed_differences", timed_differences}});
   results.add({{"kind", "mean"}, {"torsions_fcl", torsions.value()}, {"floor", floor}, {"floor_dof", floor_dof}});
-  run_growth(results, 2'000'000);
+  run_growth(results);
   const std::size_t wrong_blocks = print_batches(), wrong_moves = print_walks(results);
   int wrong_paths = 0;
   const auto [moving, path_sets] = protein_paths();
