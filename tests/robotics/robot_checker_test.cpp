@@ -113,6 +113,27 @@ TEST_P(EveryEngine, AgreesWithAllPairsOneByOne) {
   EXPECT_GT(free, 20U);
 }
 
+/// Some of the first 256 yes/no queries calibrate the order of pairs, and each query tries the last hit's pair first.
+TEST(RobotChecker, AnswersYesOrNoAlikeBeforeAndAfterItKnowsAnOrder) {
+  SCOPED_TRACE(seed);
+  for (std::uint64_t number = 0; number < 4; ++number) {
+    SampleStream stream(seed + 2, number);
+    const auto robot = random_robot(number, 10);
+    const LinkPairs tested = tested_pairs(*robot);
+    RobotChecker checker(robot, tested, LinkMargins(*robot)), brute(robot, tested, LinkMargins(*robot), {"brute"});
+    std::size_t colliding = 0;
+    for (int k = 0; k < 320; ++k) {
+      const std::vector<double> q = test::random_configuration(*robot, stream);
+      checker.update(q);
+      brute.update(q);
+      ASSERT_EQ(checker.collides(), brute.collides()) << "robot " << number << ", configuration " << k;
+      colliding += brute.collides() ? 1U : 0U;
+    }
+    EXPECT_GT(colliding, 0U);
+    EXPECT_LT(colliding, 320U);
+  }
+}
+
 /// Balls of radii r and s at centre distance x touch or overlap if and only if x <= r + s, with the exact sum.
 TEST_P(EveryEngine, LetsGrownShapesMeetWhenTheyTouchAndNotBefore) {
   SCOPED_TRACE(seed);

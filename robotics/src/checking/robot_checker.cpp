@@ -25,8 +25,8 @@ namespace {
 /// Above this value (rad or m) a sum along a chain of prismatic joints may overflow.
 constexpr double largest_value = 1e300;
 
-/// Of the first `queries_observed` yes/no queries, some calibrate the order of pairs. 16 calibrations order the
-/// pairs as well as 300 do.
+/// Of the first `queries_observed` yes/no queries, some calibrate the order of pairs. Sixteen calibrations are nearly
+/// as good as 300 (docs/development/robots.md).
 constexpr std::size_t queries_observed = 256, queries_per_calibration = 16;
 
 std::shared_ptr<const Robot> checked(std::shared_ptr<const Robot> robot) {
