@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "hinge/detail/core/elementary.hpp"
+#include "hinge/detail/simd/fill_random.hpp"
 #include "hinge/detail/simd/instruction_set.hpp"
 #include "hinge/engine/brute.hpp"
 #include "hinge/engine/lazy.hpp"
@@ -104,7 +105,7 @@ void threads(const char* what, std::uint64_t seed, Grid grid, const Model<P>& mo
 /// Prints hashes of the elementary functions that coordinates, torsions and samples are computed with.
 void elementary_functions(std::uint64_t seed) {
   Random random(seed);
-  Hash angles, logarithms;
+  Hash angles, logarithms, numbers;
   for (int k = 0; k < 100000; ++k) {
     const double y = random.uniform(-1.0, 1.0), x = random.uniform(-1.0, 1.0);
     angles.add(detail::atan2(y, x));
@@ -112,6 +113,13 @@ void elementary_functions(std::uint64_t seed) {
   }
   print("atan2", "distances", angles.value());
   print("log", "distances", logarithms.value());
+  SampleStream stream(seed, 7);
+  std::vector<double> drawn(100000);
+  detail::simd::fill_normal(stream, drawn);
+  for (const double x : drawn) numbers.add(x);
+  detail::simd::fill_uniform(stream, drawn);
+  for (const double x : drawn) numbers.add(x);
+  print("random numbers", "distances", numbers.value());
 }
 
 template <class P>

@@ -11,6 +11,7 @@
 #include "hinge/core/finite.hpp"
 #include "hinge/core/number_text.hpp"
 #include "hinge/detail/core/sincos.hpp"
+#include "hinge/detail/simd/fill_random.hpp"
 #include "mechanism/draw_turn.hpp"
 
 namespace hinge::molecular {
@@ -31,7 +32,13 @@ double squared_half_sine(double a, double b, double c) noexcept {
 
 std::vector<double> draw_configuration(const Sampling& sampling, SampleStream& stream, std::size_t dof_count) {
   std::vector<double> q(dof_count);
-  for (double& value : q) value = draw_turn(sampling.sigma, stream);
+  if (sampling.sigma) {
+    detail::simd::fill_normal(stream, q);
+    for (double& value : q) value *= *sampling.sigma;
+  } else {
+    detail::simd::fill_uniform(stream, q);
+    for (double& value : q) value = turn_of(value);
+  }
   return q;
 }
 
@@ -83,9 +90,11 @@ std::vector<double> sample_configuration(const Sampling& sampling, std::uint64_t
   std::vector<bool> places(of_dof.size(), false);
   for (const PlacedPart& part : placed)
     for (const DofId dof : part.dofs) places[hinge::index(dof)] = true;
-  SampleStream stream(sampling.seed, index);
+  const std::vector<double> turns =
+      sample_configuration(sampling, index, selection.size());  // the last ones are unused
+  auto turn = turns.begin();
   for (const DofId dof : selection.dofs())
-    if (!places[hinge::index(dof)]) of_dof[hinge::index(dof)] = draw_turn(sampling.sigma, stream);
+    if (!places[hinge::index(dof)]) of_dof[hinge::index(dof)] = *turn++;
   for (std::size_t k = 0; k < placed.size(); ++k) {
     const PlacementRange& range = ranges[k];
     if (!is_length(range.distance) || range.distance < 0.0 || !(range.turn >= 0.0 && range.turn <= std::numbers::pi))

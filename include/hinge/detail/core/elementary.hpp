@@ -2,8 +2,10 @@
 // Elementary functions with the same bits on every CPU and compiler, which libm does not promise: atan2 and log.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <numbers>
@@ -41,20 +43,28 @@ inline double atan2(double y, double x) noexcept {
   return std::copysign(angle, y);
 }
 
-/// Returns the natural logarithm of a positive x that is neither infinite nor subnormal. With x = 2^e m and m in
-/// [0.7, 1.42), log m = 2 artanh((m - 1) / (m + 1)). The first omitted term of the series is below 1e-19.
+/// Returns log(2^exponent m), m in [0.7, 1.42]: log m = 2 artanh((m - 1) / (m + 1)). The first omitted term of the
+/// series is below 1e-19. T: double, or SIMD lanes of double.
+template <class T>
+[[gnu::always_inline]] inline T log_of_parts(const T& m, const T& exponent) noexcept {
+  constexpr std::array<double, 12> coefficients = {1.0 / 23, 1.0 / 21, 1.0 / 19, 1.0 / 17, 1.0 / 15, 1.0 / 13,
+                                                   1.0 / 11, 1.0 / 9,  1.0 / 7,  1.0 / 5,  1.0 / 3,  1.0};
+  const T s = (m - T(1.0)) / (m + T(1.0)), z = s * s;
+  T series(coefficients[0]);
+  for (std::size_t k = 1; k < coefficients.size(); ++k) series = series * z + T(coefficients[k]);
+  return exponent * T(0.6931471805599453) + T(2.0) * s * series;
+}
+
+inline constexpr std::uint64_t mantissa_bits = 0xf'ffff'ffff'ffff;       ///< of a double
+inline constexpr std::uint64_t exponent_of_one = 0x3ff0'0000'0000'0000;  ///< the bits of 1.0
+inline constexpr double root_of_two = 1.4142135623730951;
+
+/// Returns the natural logarithm of a positive x that is neither infinite nor subnormal.
 inline double log(double x) noexcept {
   const auto bits = std::bit_cast<std::uint64_t>(x);
-  auto exponent = static_cast<int>(bits >> 52) - 1023;
-  double m = std::bit_cast<double>((bits & 0xf'ffff'ffff'ffffULL) | 0x3ff0'0000'0000'0000ULL);
-  if (m > 1.4142135623730951) {
-    m /= 2;
-    ++exponent;
-  }
-  const double s = (m - 1.0) / (m + 1.0), z = s * s;
-  double series = 0.0;
-  for (int n = 23; n >= 1; n -= 2) series = series * z + 1.0 / n;
-  return exponent * 0.6931471805599453 + 2.0 * s * series;
+  const double m = std::bit_cast<double>((bits & mantissa_bits) | exponent_of_one);
+  const auto exponent = static_cast<double>(static_cast<int>(bits >> 52) - 1023);
+  return root_of_two < m ? log_of_parts(m * 0.5, exponent + 1.0) : log_of_parts(m, exponent);
 }
 
 }  // namespace hinge::detail

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -117,6 +118,51 @@ class Lanes {
     return r;
   }
 
+  /// Returns the square root of each lane. T: double.
+  [[gnu::always_inline]] friend Lanes sqrt(const Lanes& a) noexcept {
+    Lanes r;
+    for (std::size_t p = 0; p < parts; ++p) r.v_[p] = Part::sqrt(a.v_[p]);
+    return r;
+  }
+
+  // Integers of 64 bits only.
+  [[gnu::always_inline]] friend Lanes operator^(const Lanes& a, const Lanes& b) noexcept {
+    Lanes r;
+    for (std::size_t p = 0; p < parts; ++p) r.v_[p] = a.v_[p] ^ b.v_[p];
+    return r;
+  }
+  [[gnu::always_inline]] friend Lanes operator&(const Lanes& a, const Lanes& b) noexcept {
+    Lanes r;
+    for (std::size_t p = 0; p < parts; ++p) r.v_[p] = a.v_[p] & b.v_[p];
+    return r;
+  }
+  [[gnu::always_inline]] friend Lanes operator|(const Lanes& a, const Lanes& b) noexcept {
+    Lanes r;
+    for (std::size_t p = 0; p < parts; ++p) r.v_[p] = a.v_[p] | b.v_[p];
+    return r;
+  }
+  [[gnu::always_inline]] friend Lanes operator<<(const Lanes& a, int bits) noexcept {
+    Lanes r;
+    for (std::size_t p = 0; p < parts; ++p) r.v_[p] = a.v_[p] << bits;
+    return r;
+  }
+  [[gnu::always_inline]] friend Lanes operator>>(const Lanes& a, int bits) noexcept {
+    Lanes r;
+    for (std::size_t p = 0; p < parts; ++p) r.v_[p] = a.v_[p] >> bits;
+    return r;
+  }
+  /// Returns the products of the lower halves of the lanes.
+  [[gnu::always_inline]] friend Lanes product_of_low(const Lanes& a, const Lanes& b) noexcept {
+    Lanes r;
+    for (std::size_t p = 0; p < parts; ++p) r.v_[p] = Part::product_of_low(a.v_[p], b.v_[p]);
+    return r;
+  }
+  /// Returns lanes of another type with the same bits. sizeof(U) == sizeof(T).
+  template <class U>
+  [[gnu::always_inline]] Lanes<U, N> bits_as() const noexcept {
+    return std::bit_cast<Lanes<U, N>>(*this);
+  }
+
   /// The result of a lane-wise comparison.
   class Mask {
    public:
@@ -208,5 +254,6 @@ using Float4 = Lanes<float, 4>;
 using Float16 = Lanes<float, 16>;
 using Double4 = Lanes<double, 4>;
 using Double8 = Lanes<double, 8>;
+using Integer8 = Lanes<std::uint64_t, 8>;
 
 }  // namespace hinge::detail::simd

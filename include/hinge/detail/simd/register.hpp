@@ -3,6 +3,7 @@
 #pragma once
 
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -90,6 +91,39 @@ struct Register {
     constexpr auto all_but_sign = std::numeric_limits<Bitwise>::max();
     return reinterpret_cast<Vector>(reinterpret_cast<Compared>(v) & all_but_sign);
   }
+  /// T: double.
+  [[gnu::always_inline]] static Vector sqrt(const Vector& v) noexcept {
+#if defined(__AVX512F__)
+    if constexpr (sizeof(Vector) == 64) return _mm512_maskz_sqrt_pd(every_lane, v);
+#endif
+#if defined(__AVX__)
+    if constexpr (sizeof(Vector) == 32) return _mm256_sqrt_pd(v);
+#endif
+#if defined(__SSE2__)
+    if constexpr (sizeof(Vector) == 16) return _mm_sqrt_pd(v);
+#endif
+    Vector r;
+    for (std::size_t k = 0; k < N; ++k) r[k] = std::sqrt(v[k]);
+    return r;
+  }
+  /// Multiplies the lower halves of two 64-bit integers.
+  [[gnu::always_inline]] static Vector product_of_low(const Vector& a, const Vector& b) noexcept {
+#if defined(__AVX512F__)
+    if constexpr (sizeof(Vector) == 64)
+      return std::bit_cast<Vector>(
+          _mm512_maskz_mul_epu32(every_lane, std::bit_cast<__m512i>(a), std::bit_cast<__m512i>(b)));
+#endif
+#if defined(__AVX2__)
+    if constexpr (sizeof(Vector) == 32)
+      return std::bit_cast<Vector>(_mm256_mul_epu32(std::bit_cast<__m256i>(a), std::bit_cast<__m256i>(b)));
+#endif
+#if defined(__SSE2__)
+    if constexpr (sizeof(Vector) == 16)
+      return std::bit_cast<Vector>(_mm_mul_epu32(std::bit_cast<__m128i>(a), std::bit_cast<__m128i>(b)));
+#endif
+    constexpr T low = 0xffff'ffff;
+    return (a & low) * (b & low);
+  }
   [[gnu::always_inline]] static T smallest(const Vector& v) noexcept {
     return combined(
         v, [](const auto& a, const auto& b) __attribute__((always_inline)) { return a < b ? a : b; });
@@ -101,6 +135,9 @@ struct Register {
 
  private:
 #if defined(__AVX512F__)
+  /// g++ 12 takes the undefined operand inside the functions without a mask for a mistake.
+  static constexpr __mmask8 every_lane = 0xff;
+
   /// predicate: _CMP_LT_OS or _CMP_LE_OS, which are _MM_CMPINT_LT and _MM_CMPINT_LE too.
   template <int predicate>
   [[gnu::always_inline]] static Bits compared_bits(const Vector& a, const Vector& b) noexcept {
