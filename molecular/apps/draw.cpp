@@ -8,9 +8,9 @@ namespace biocd {
 
 using namespace hinge::molecular;
 
-void describe(Sample& sample, const Job& job, const std::vector<double>& q) {
+void describe(Sample& sample, const Worker& worker, const Job& job, const std::vector<double>& q) {
   sample.placements = placements_of(job, q);
-  sample.torsions = torsion_values(job, q);
+  if (worker.wants_torsions) sample.torsions = torsion_values(job, q);
 }
 
 Sample draw(Worker& worker, const Job& job, const Sampling& sampling, std::uint64_t k, const Mode& mode,
@@ -34,7 +34,7 @@ Sample draw(Worker& worker, const Job& job, const Sampling& sampling, std::uint6
     q = sample_configuration(sampling, k, *job.molecule, job.checker.selection(), job.ranges);
   }
   if (!sample.found) return sample;
-  describe(sample, job, q);
+  describe(sample, worker, job, q);
   sample.verdict = worker.checker.check(q, mode);
   return sample;
 }

@@ -31,7 +31,7 @@ struct Sample {
   std::vector<hinge::Hit> blockers{};  // see FreeSample
   Placements placements{};
   std::string pairs{};             // JSON; empty for other outputs, and for modes without a list
-  std::vector<double> torsions{};  // values of the selected DOF, as torsion_values gives them
+  std::vector<double> torsions{};  // values of the selected DOF, as torsion_values gives them; empty unless wanted
 };
 
 /// State of one thread.
@@ -39,10 +39,11 @@ struct Worker {
   hinge::molecular::Checker checker;
   std::optional<hinge::molecular::ClosedSampler> closed;
   std::optional<hinge::molecular::FreeSampler> free;
+  bool wants_torsions = false;  // in every sample
 };
 
 /// Sets the outputs that depend on q only.
-void describe(Sample& sample, const Job& job, const std::vector<double>& q);
+void describe(Sample& sample, const Worker& worker, const Job& job, const std::vector<double>& q);
 
 /// Draws conformation k and tests it. stop: returns true to give up. Any number of threads may call this, with a worker
 /// each.
@@ -64,7 +65,7 @@ std::vector<Sample> draw_block(Worker& worker, const Job& job, const hinge::mole
     const std::vector<double> q =
         hinge::molecular::sample_configuration(sampling, k, *job.molecule, job.checker.selection(), job.ranges);
     all.insert(all.end(), q.begin(), q.end());
-    describe(samples.emplace_back(), job, q);
+    describe(samples.emplace_back(), worker, job, q);
   }
   const std::vector<std::uint8_t> verdicts = worker.checker.check_batch(all);
   for (std::size_t k = 0; k < verdicts.size(); ++k) {

@@ -107,7 +107,7 @@ Exit run_sample(const Options& options) {
   if (options.output == Output::json && lists_pairs(mode)) pair_text.emplace(job);
   const auto start = hinge::tool::Clock::now();
   const hinge::tool::TimeLimit out_of_time(options.seconds);
-  Worker worker{job.checker, {}, {}};
+  Worker worker{job.checker, {}, {}, options.torsions || !options.torsions_out.empty()};
   ViewChoice choice;
   MoleculePage page(options, job, false, lists_pairs(mode));
   std::uint64_t left_out = 0;  // pairs that are not printed
