@@ -27,6 +27,7 @@ inline constexpr Goal all_goals[] = {
     {"ratio ", " grid", 2.0},
     {"list ", "", 8.0, true},
     {"growth any", "", 1.5, true},
+    {"threads any", "", 1.8},
     {"floor any", "", 1.3, true},
     {"moves any", " chain16-skip", 5.0},
     {"path any k35-20deg", " sampled-0.1deg", 8.0},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The paper's set-ups in full, in microseconds: all samplings, queries and peers; rigid secondary structure; change
-// of the selection; warm and cold caches; one and two threads; a tail that moves.
+// of the selection; warm and cold caches; a tail that moves.
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
@@ -9,7 +9,6 @@
 #include <limits>
 #include <numeric>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "contestant.hpp"
@@ -118,40 +117,6 @@ void run_caches(Results& results, const Setup& setup, Scene& scene) {
     }
 }
 
-/// Conformations per second of `threads` threads, each with its own hierarchy: yes/no queries from torsion angles.
-double throughput(Scene& scene, Sampling sampling, int threads) {
-  constexpr double seconds = 1.0;
-  std::vector<std::vector<double>> q;
-  for (std::uint64_t k = 0; k < 64; ++k) q.push_back(scene.configuration(sampling, k));
-  std::atomic<long> total{0};
-  const auto work = [&] {
-    auto hierarchy = scene.make<Simd>();
-    const auto start = Clock::now();
-    long count = 0, colliding = 0;
-    for (; seconds_since(start) < seconds; ++count) {
-      hierarchy.update(q[static_cast<std::size_t>(count) % q.size()]);
-      colliding += hierarchy.self_collides() ? 1 : 0;
-    }
-    total += colliding <= count ? count : 0;  // uses the answers, so that the compiler cannot remove the queries
-  };
-  std::vector<std::thread> running;
-  for (int t = 0; t < threads; ++t) running.emplace_back(work);
-  for (std::thread& t : running) t.join();
-  return static_cast<double>(total) / seconds;
-}
-
-void run_threads(Results& results, const Setup& setup, Scene& scene) {
-  for (const Sampling sampling : {Sampling::random, Sampling::near_free}) {
-    const double one = throughput(scene, sampling, 1), two = throughput(scene, sampling, 2);
-    std::printf("%-7s %4d %-9s yes/no from the torsions, conformations per second: one thread %.0f, two threads %.0f\n",
-                setup.name.c_str(), setup.residues, name(sampling), one, two);
-    Json row = {{"kind", "threads"}};
-    row.update(describe(setup, scene));
-    row.update({{"sampling", name(sampling)}, {"one", one}, {"two", two}});
-    results.add(std::move(row));
-  }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -191,7 +156,6 @@ int main(int argc, char** argv) {
     if (!all_free || (setup.name != "1mbn" && setup.name != "2d0f" && setup.name != "1ubq")) continue;
     Scene scene(read_protein(setup.file, setup.hydrogens), setup.residues);
     run_caches(results, setup, scene);
-    run_threads(results, setup, scene);
   }
   run_tail(results);
   std::printf("differences %d\n", differences);

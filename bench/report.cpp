@@ -191,9 +191,9 @@ int main(int argc, char** argv) {
                          {"query", "peer", "warm_us", "cold_us"});
           }}},
         {"threads",
-         {"paper threads",
+         {"summary threads",
           [&] {
-            return plain(found.rows("paper threads"), with({"sampling", "one thread", "two"}),
+            return plain(found.rows("summary threads"), with({"sampling", "one thread", "two"}),
                          {"sampling", "one", "two"});
           }}},
         {"tail",

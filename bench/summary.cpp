@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Time ratios of every peer to engine/simd: geometric means over the paper's set-ups, in ten minutes on two slow
-// cores. Then growth, batches, moves, paths and robots, in three more minutes. Answers are checked before and during
-// timing.
+// cores. Then threads, growth, batches, moves, paths and robots, in three more minutes. Answers are checked before and
+// during timing.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -23,6 +23,7 @@
 #include "robots/robot_batches.hpp"
 #include "robots/run_robots.hpp"
 #include "scene.hpp"
+#include "threads.hpp"
 #include "timing.hpp"
 
 namespace {
@@ -203,6 +204,12 @@ int main(int argc, char** argv) {
                {"differences", checked.differences},
                {"timed_differences", timed_differences}});
   results.add({{"kind", "mean"}, {"torsions_fcl", torsions.value()}, {"floor", floor}, {"floor_dof", floor_dof}});
+  for (const Setup& setup : setups) {
+    const bool all_free = &setup == &setups.back() || (&setup + 1)->name != setup.name;
+    if (!all_free || (setup.name != "1mbn" && setup.name != "2d0f" && setup.name != "1ubq")) continue;
+    Scene scene(read_protein(setup.file, setup.hydrogens), setup.residues);
+    run_threads(results, describe(setup, scene), scene);
+  }
   run_growth(results);
   const std::size_t wrong_blocks = print_batches(), wrong_moves = print_walks(results);
   int wrong_paths = 0;
