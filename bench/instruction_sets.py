@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parent.parent
 SHARED = ROOT.parent / "shared" / "data"
 SETS = ("baseline", "avx2", "avx512")
 GOALS = {("baseline", "avx512"): 3.0, ("avx2", "avx512"): 1.6}  # at most
-ROBOT_SECONDS = 6
+ROBOT_SECONDS = 4
 
 
 def work():
