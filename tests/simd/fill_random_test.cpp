@@ -13,7 +13,8 @@
 namespace hinge::detail::simd {
 namespace fill_random_test {
 
-/// Draws `before` single numbers, an array, and a single number. fill fills an array; draw draws one number.
+/// Expects the same bits from one call of `fill` for an array of `count` numbers as from `count` calls of `draw`, after
+/// `before` other numbers of the stream, and the same next number.
 template <class Fill, class Draw>
 void expect_same_bits(SampleStream stream, std::size_t before, std::size_t count, const Fill& fill, const Draw& draw) {
   SampleStream other = stream;

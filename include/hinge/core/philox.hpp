@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 
 #include "hinge/detail/core/elementary.hpp"
 #include "hinge/detail/core/sincos.hpp"
@@ -14,6 +15,7 @@ namespace hinge {
 
 namespace detail {
 
+/// Multiplies the lower halves of two integers.
 [[gnu::always_inline]] inline std::uint64_t product_of_low(std::uint64_t a, std::uint64_t b) noexcept {
   return (a & 0xffff'ffffU) * (b & 0xffff'ffffU);
 }
@@ -84,9 +86,8 @@ class SampleStream {
   /// Returns the next standard normal value (Box & Muller 1958). Its absolute value is below 8.6, because 1 - uniform()
   /// is at least 2^-53.
   double normal() noexcept {
-    constexpr double two_pi = 6.283185307179586;
     const double radius = std::sqrt(-2.0 * detail::log(1.0 - uniform()));
-    return radius * detail::sincos(two_pi * uniform()).cos;
+    return radius * detail::sincos(2.0 * std::numbers::pi * uniform()).cos;
   }
 
  private:

@@ -90,8 +90,8 @@ std::vector<double> sample_configuration(const Sampling& sampling, std::uint64_t
   std::vector<bool> places(of_dof.size(), false);
   for (const PlacedPart& part : placed)
     for (const DofId dof : part.dofs) places[hinge::index(dof)] = true;
-  const std::vector<double> turns =
-      sample_configuration(sampling, index, selection.size());  // the last ones are unused
+  // One for each DOF, which is more than the torsions need.
+  const std::vector<double> turns = sample_configuration(sampling, index, selection.size());
   auto turn = turns.begin();
   for (const DofId dof : selection.dofs())
     if (!places[hinge::index(dof)]) of_dof[hinge::index(dof)] = *turn++;

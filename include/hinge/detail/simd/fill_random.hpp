@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <span>
 
 #include "hinge/core/philox.hpp"
@@ -27,30 +28,33 @@ namespace hinge::detail::simd {
   second = (c2 << 32) | (c3 & low);
 }
 
-/// The same as SampleStream::uniform() of these bits. No instruction set before AVX-512 converts 64-bit integers, so
-/// the upper 32 and the next 21 bits become the mantissas of doubles from 2^52 on. All operations are exact.
+/// Converts integers below 2^52, exactly. No instruction set before AVX-512 converts 64-bit integers, so each becomes
+/// the mantissa of a double from 2^52 on.
+[[gnu::always_inline]] inline Double8 as_double(const Integer8& integer) noexcept {
+  constexpr std::uint64_t bits_of_two_52 = 0x4330'0000'0000'0000;
+  return (integer | Integer8(bits_of_two_52)).bits_as<double>() - Double8(0x1p52);
+}
+
+/// The same as SampleStream::uniform() of these bits: the upper 53 of them, in two parts. All operations are exact.
 [[gnu::always_inline]] inline Double8 uniform_of(const Integer8& bits) noexcept {
-  const Integer8 from(0x4330'0000'0000'0000);  // the bits of 2^52
-  const Double8 high = ((bits >> 32) | from).bits_as<double>() - Double8(0x1p52),
-                low = (((bits >> 11) & Integer8(0x1f'ffff)) | from).bits_as<double>() - Double8(0x1p52);
+  const Double8 high = as_double(bits >> 32), low = as_double((bits >> 11) & Integer8(0x1f'ffff));
   return (high * Double8(0x1p21) + low) * Double8(0x1p-53);
 }
 
 /// The same as detail::log per lane.
 [[gnu::always_inline]] inline Double8 log(const Double8& x) noexcept {
-  const Integer8 bits = x.bits_as<std::uint64_t>(), from(0x4330'0000'0000'0000);
+  const Integer8 bits = x.bits_as<std::uint64_t>();
   const Double8 m = ((bits & Integer8(mantissa_bits)) | Integer8(exponent_of_one)).bits_as<double>(), root(root_of_two);
-  const Double8 exponent = ((bits >> 52) | from).bits_as<double>() - Double8(0x1p52 + 1023.0);
+  const Double8 exponent = as_double(bits >> 52) - Double8(1023.0);
   return log_of_parts(choose_less(root, m, m * Double8(0.5), m),
                       choose_less(root, m, exponent + Double8(1.0), exponent));
 }
 
 /// The same as SampleStream::normal() of the bits of a block.
 [[gnu::always_inline]] inline Double8 normal_of(const Integer8& first, const Integer8& second) noexcept {
-  constexpr double two_pi = 6.283185307179586;
   const Double8 radius = sqrt(Double8(-2.0) * log(Double8(1.0) - uniform_of(first)));
   Double8 sine, cosine;
-  sincos(Double8(two_pi) * uniform_of(second), sine, cosine);
+  sincos(Double8(2.0 * std::numbers::pi) * uniform_of(second), sine, cosine);
   return radius * cosine;
 }
 

@@ -125,7 +125,7 @@ class Lanes {
     return r;
   }
 
-  // Integers of 64 bits only.
+  // The operators below are for lanes of 64-bit integers.
   [[gnu::always_inline]] friend Lanes operator^(const Lanes& a, const Lanes& b) noexcept {
     Lanes r;
     for (std::size_t p = 0; p < parts; ++p) r.v_[p] = a.v_[p] ^ b.v_[p];

@@ -135,7 +135,7 @@ struct Register {
 
  private:
 #if defined(__AVX512F__)
-  /// g++ 12 takes the undefined operand inside the functions without a mask for a mistake.
+  /// For intrinsics with a mask. Inside those without one, g++ 12 warns of an operand that is not initialised.
   static constexpr __mmask8 every_lane = 0xff;
 
   /// predicate: _CMP_LT_OS or _CMP_LE_OS, which are _MM_CMPINT_LT and _MM_CMPINT_LE too.
