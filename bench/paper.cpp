@@ -151,9 +151,7 @@ int main(int argc, char** argv) {
   for (const Setup& setup : setups)
     run_selection_change(results, setup, Scene(read_protein(setup.file, setup.hydrogens), setup.residues));
   std::printf("\nnear-free, microseconds: one method at a time (warm), and after writing 64 MB (cold)\n");
-  for (const Setup& setup : setups) {
-    const bool all_free = &setup == &setups.back() || (&setup + 1)->name != setup.name;
-    if (!all_free || (setup.name != "1mbn" && setup.name != "2d0f" && setup.name != "1ubq")) continue;
+  for (const Setup& setup : all_free_setups(setups)) {
     Scene scene(read_protein(setup.file, setup.hydrogens), setup.residues);
     run_caches(results, setup, scene);
   }

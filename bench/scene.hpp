@@ -151,6 +151,17 @@ inline std::vector<Setup> paper_setups() {
   return setups;
 }
 
+/// Of these set-ups, those of 1MBN and 2D0F, or of 1UBQ, with all residues free.
+inline std::vector<Setup> all_free_setups(const std::vector<Setup>& setups) {
+  std::vector<Setup> chosen;
+  for (const Setup& setup : setups) {
+    if (setup.name != "1mbn" && setup.name != "2d0f" && setup.name != "1ubq") continue;
+    if (!chosen.empty() && chosen.back().name == setup.name) chosen.pop_back();  // it has fewer free residues
+    chosen.push_back(setup);
+  }
+  return chosen;
+}
+
 /// One conformation as the input of every peer; not timed.
 struct Conformation {
   std::vector<double> q;    ///< rad, one per selected DOF

@@ -204,9 +204,7 @@ int main(int argc, char** argv) {
                {"differences", checked.differences},
                {"timed_differences", timed_differences}});
   results.add({{"kind", "mean"}, {"torsions_fcl", torsions.value()}, {"floor", floor}, {"floor_dof", floor_dof}});
-  for (const Setup& setup : setups) {
-    const bool all_free = &setup == &setups.back() || (&setup + 1)->name != setup.name;
-    if (!all_free || (setup.name != "1mbn" && setup.name != "2d0f" && setup.name != "1ubq")) continue;
+  for (const Setup& setup : all_free_setups(setups)) {
     Scene scene(read_protein(setup.file, setup.hydrogens), setup.residues);
     run_threads(results, describe(setup, scene), scene);
   }
