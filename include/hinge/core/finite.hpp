@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <span>
 
 #include "hinge/core/vec3.hpp"
 
@@ -14,6 +15,14 @@ namespace hinge {
 inline bool is_finite(double x) noexcept {
   constexpr std::uint64_t exponent = 0x7ff0'0000'0000'0000ULL;
   return (std::bit_cast<std::uint64_t>(x) & exponent) != exponent;
+}
+
+/// Returns true when all numbers are finite.
+inline bool is_finite(std::span<const double> numbers) noexcept {
+  constexpr std::uint64_t exponent = 0x7ff0'0000'0000'0000ULL;
+  std::uint64_t sums = 0;  // an exponent of ones, plus one, is the highest bit; so compilers vectorise the loop
+  for (const double x : numbers) sums |= (std::bit_cast<std::uint64_t>(x) & exponent) + (1ULL << 52);
+  return sums >> 63 == 0;
 }
 
 /// Returns true when all three components are finite.

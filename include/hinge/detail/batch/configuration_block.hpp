@@ -28,9 +28,7 @@ inline std::size_t check_block(std::span<const double> block, std::size_t dof_co
     throw ConfigurationError("configuration " + std::to_string(k / dof_count) + " of the block, value " +
                              std::to_string(k % dof_count) + " is " + number_text(block[k]) + ", expected " + expected);
   };
-  // Branch-free, so that compilers vectorise it.
-  bool finite = true;
-  for (const double value : block) finite &= is_finite(value);
+  const bool finite = is_finite(block);
   for (std::size_t k = 0; !finite && k < block.size(); ++k)
     if (!is_finite(block[k])) refuse(k, "a finite number");
   for (std::size_t g = 1; g < groups.size(); ++g) {

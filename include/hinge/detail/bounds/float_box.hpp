@@ -103,7 +103,7 @@ struct alignas(64) BoxRow {
 
 /// One box, broadcast to all lanes for tests against many rows.
 struct BoxLanes {
-  explicit BoxLanes(const FloatBox& box) noexcept
+  [[gnu::always_inline]] explicit BoxLanes(const FloatBox& box) noexcept
       : lower{box.lower[0], box.lower[1], box.lower[2]}, upper{box.upper[0], box.upper[1], box.upper[2]} {}
   /// Returns the box enlarged by r on every side, up to rounding.
   [[gnu::always_inline]] BoxLanes grown(float r) const noexcept {

@@ -15,15 +15,15 @@ namespace hinge::detail {
 /// The columns of a frame in registers. turn: R v. place: R v + t.
 class FrameColumns {
  public:
-  explicit FrameColumns(const Frame& frame) noexcept
+  [[gnu::always_inline]] explicit FrameColumns(const Frame& frame) noexcept
       : x_(frame.column.data()),
         y_(frame.column.data() + 4),
         z_(frame.column.data() + 8),
         t_(frame.column.data() + 12) {}
-  simd::Double4 turn(double x, double y, double z) const noexcept {
+  [[gnu::always_inline]] simd::Double4 turn(double x, double y, double z) const noexcept {
     return x_ * simd::Double4(x) + y_ * simd::Double4(y) + z_ * simd::Double4(z);
   }
-  simd::Double4 place(double x, double y, double z) const noexcept { return turn(x, y, z) + t_; }
+  [[gnu::always_inline]] simd::Double4 place(double x, double y, double z) const noexcept { return turn(x, y, z) + t_; }
 
  private:
   simd::Double4 x_, y_, z_, t_;

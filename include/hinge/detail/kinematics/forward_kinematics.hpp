@@ -114,9 +114,7 @@ inline void ForwardKinematics::set_configuration(std::span<const double> q) {
   if (q.size() != q_.size())
     throw ConfigurationError("configuration has " + std::to_string(q.size()) + " values, expected " +
                              std::to_string(q_.size()));
-  // Branch-free, so that compilers vectorise the loop.
-  bool finite = true;
-  for (const double value : q) finite &= is_finite(value);
+  const bool finite = is_finite(q);
   for (std::size_t k = 0; !finite && k < q.size(); ++k)
     if (!is_finite(q[k]))
       throw ConfigurationError("configuration value " + std::to_string(k) + " is " + number_text(q[k]) +
