@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "hinge/core/finite.hpp"
+#include "hinge/core/number_text.hpp"
 
 namespace hinge::python {
 
@@ -75,9 +76,7 @@ double as_length(py::handle value, const char* name, const char* unit) {
 void require_finite(const Doubles& array, const char* name) {
   const double* data = array.data();
   const auto size = static_cast<std::size_t>(array.size());
-  bool finite = true;
-  for (std::size_t k = 0; k < size; ++k) finite &= is_finite(data[k]);  // without branches: the compiler uses SIMD
-  if (finite) return;
+  if (is_finite(std::span(data, size))) return;
   for (std::size_t k = 0; k < size; ++k) {
     if (is_finite(data[k])) continue;
     std::string place;
@@ -87,7 +86,7 @@ void require_finite(const Doubles& array, const char* name) {
       place = std::to_string(rest % length) + (place.empty() ? "" : ", ") + place;
       rest /= length;
     }
-    throw py::value_error(std::string(name) + "[" + place + "] is " + std::string(py::str(py::float_(data[k]))) +
+    throw py::value_error(std::string(name) + "[" + place + "] is " + number_text(data[k]) +
                           ", expected finite numbers");
   }
 }
@@ -120,9 +119,14 @@ std::vector<std::size_t> as_indices(py::handle value, const char* name, std::siz
   return indices;
 }
 
+std::span<const double> Configurations::slice(std::size_t first, std::size_t last) const {
+  const std::span<const double> numbers(array.data() + first * dof, (last - first) * dof);
+  if (!is_finite(numbers)) require_finite(array, name);
+  return numbers;
+}
+
 Configurations as_configurations(py::handle value, const char* name, std::size_t dof) {
-  Configurations all;
-  all.array = as_doubles(value, name);
+  Configurations all{as_doubles(value, name), name};
   all.dof = dof;
   const auto columns = static_cast<py::ssize_t>(dof);
   const py::ssize_t dimensions = all.array.ndim();
@@ -134,7 +138,6 @@ Configurations as_configurations(py::handle value, const char* name, std::size_t
   }
   all.one = dimensions == 1;
   all.count = all.one ? 1 : static_cast<std::size_t>(all.array.shape(0));
-  require_finite(all.array, name);
   return all;
 }
 

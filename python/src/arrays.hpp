@@ -40,7 +40,8 @@ double as_number(pybind11::handle value, const char* name);
 /// another number.
 double as_length(pybind11::handle value, const char* name, const char* unit);
 
-/// Throws ValueError, with the argument and the index of the first number that is not finite.
+/// Throws ValueError, with the argument and the index of the first number that is not finite. Does not need the
+/// interpreter's lock.
 void require_finite(const Doubles& array, const char* name);
 
 /// Returns the value as one-dimensional indices below `end`, from integers or from booleans (`end` of them, true for
@@ -48,22 +49,23 @@ void require_finite(const Doubles& array, const char* name);
 /// outside 0 ... end - 1.
 std::vector<std::size_t> as_indices(pybind11::handle value, const char* name, std::size_t end);
 
-/// Configurations as an argument: one, of shape (dof,), or several, of shape (n, dof).
+/// Configurations as an argument: one, of shape (dof,), or several, of shape (n, dof). The numbers are checked when
+/// they are asked for, just before their use, because reading a large array twice from memory costs time.
 struct Configurations {
   Doubles array;     ///< keeps the memory alive
+  const char* name;  ///< of the argument, for messages
   bool one = false;  ///< the argument has one dimension
   std::size_t count = 0, dof = 0;
 
-  /// Configuration k < count.
-  std::span<const double> operator[](std::size_t k) const { return {array.data() + k * dof, dof}; }
-  /// Configurations first ... last - 1, one after the other.
-  std::span<const double> slice(std::size_t first, std::size_t last) const {
-    return {array.data() + first * dof, (last - first) * dof};
-  }
+  /// Configuration k < count. Throws as slice() does.
+  std::span<const double> operator[](std::size_t k) const { return slice(k, k + 1); }
+  /// Configurations first ... last - 1, one after the other. Throws as require_finite() does if one of their numbers is
+  /// not finite.
+  std::span<const double> slice(std::size_t first, std::size_t last) const;
 };
 
-/// Returns configurations of `dof` finite numbers each. name: the argument, for messages. Throws TypeError and
-/// ValueError as as_doubles() and require_finite() do.
+/// Returns configurations of `dof` numbers each. name: the argument, for messages; it must outlive the result. Throws
+/// TypeError and ValueError as as_doubles() does.
 Configurations as_configurations(pybind11::handle value, const char* name, std::size_t dof);
 
 /// Returns an array that owns the vector's memory. shape: its product is values.size().

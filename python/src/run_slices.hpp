@@ -15,7 +15,7 @@ namespace hinge::python {
 using Slice = std::function<void(std::size_t first, std::size_t last)>;
 
 /// Calls work for slices of 0 ... count - 1, each item once. make_work() is called once per thread and returns what
-/// this thread calls. A slice takes about 10 ms, or one item. The calling thread holds the interpreter's lock, which is
+/// this thread calls. A slice takes about 2 ms, or one item. The calling thread holds the interpreter's lock, which is
 /// released during the work; between slices it looks for Ctrl-C (KeyboardInterrupt) and reports progress about ten
 /// times a second and at the end. progress: None; a callable with (done, total); or an object with `n` and `update(k)`,
 /// such as a bar of tqdm. If items fail, the exception of the first one is thrown, for any number of threads, provided

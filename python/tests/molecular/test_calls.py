@@ -40,6 +40,15 @@ def test_threads_do_not_change_answers(c):
         assert np.array_equal(c.collides_coordinates(x, threads=threads), c.collides_coordinates(x))
 
 
+def test_the_first_number_that_is_not_finite_is_named_for_any_number_of_threads(c):
+    q = c.sample(4000, 3, 0.1)
+    q[[3800, 2345], [0, 2]] = np.nan, -np.inf
+    for threads in (1, 2, 7):
+        for ask in (c.collides, c.pairs, c.closest, c.positions):
+            with pytest.raises(ValueError, match=r"^q\[2345, 2\] is -inf, expected finite numbers$"):
+                ask(q, threads=threads)
+
+
 def test_one_configuration_answers_as_many(c):
     q = c.sample(50, 4, 0.1)
     assert [c.collides(row) for row in q] == c.collides(q).tolist()
