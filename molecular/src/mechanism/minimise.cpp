@@ -22,13 +22,15 @@ double Minimiser::call(unsigned n, const double* u, double* gradient, void* self
 }
 
 void Minimiser::minimise(std::vector<double>& u, const Objective& objective, int evaluations) {
-  constexpr double smallest_move = 1e-4;  // angstrom
+  constexpr double smallest_move = 1e-4;   // angstrom
+  constexpr unsigned stored_vectors = 20;  // with NLopt's choice, far more, they cost more than the objective
   const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> optimiser(
       nlopt_create(NLOPT_LD_LBFGS, static_cast<unsigned>(u.size())), &nlopt_destroy);
   optimiser_ = optimiser.get();
   objective_ = &objective;
   nlopt_set_min_objective(optimiser_, &Minimiser::call, this);
   nlopt_set_xtol_abs1(optimiser_, smallest_move);
+  nlopt_set_vector_storage(optimiser_, stored_vectors);
   nlopt_set_maxeval(optimiser_, evaluations);
   double value = 0.0;
   // A negative status says that rounding or stop() ended the descent; u is the best point then, too.
