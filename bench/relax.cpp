@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Relaxation: side chains of known structures are turned by 60 to 120 degrees until they clash, and relaxed (biocd
-// relax). Says how many become free, how far atoms move and how long it takes; then the time of an energy with its
-// gradient beside that of a list of colliding pairs. One thread. Argument: number of conformations per row.
+// relax), with all side chains free and with all torsions free. Says how many become free, how far atoms move and how
+// long it takes; then the time of an energy with its gradient beside that of a list of colliding pairs. One thread.
+// Argument: number of conformations per row.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -73,10 +74,28 @@ double nanoseconds(const std::vector<std::vector<double>>& configurations, const
   return least;
 }
 
-void run(const std::filesystem::path& file, const std::string& name, std::size_t turned, std::size_t count) {
+/// Shares of conformations, in percent: mended with a displacement below 0.5 angstrom.
+struct Shares {
+  double moved = 0.0, free = 0.0;  ///< as in Displacement
+};
+
+/// Returns the values of the checker that turn side chains.
+std::vector<std::size_t> side_chains(const Checker& checker) {
+  const Molecule& molecule = checker.molecule();
+  const std::vector<std::size_t> chis = select_torsions(molecule, "chi", false);
+  std::vector<std::size_t> values;
+  for (std::size_t k = 0; k < checker.dof_count(); ++k)
+    if (std::ranges::binary_search(chis, molecule.torsion_of(checker.selection().dofs()[k]))) values.push_back(k);
+  return values;
+}
+
+Shares run(const std::filesystem::path& file, const std::string& name, const std::string& free_torsions,
+           std::size_t turned, std::size_t count) {
   const auto molecule = std::make_shared<const Molecule>(read_structure(file));
-  const KeptClosures kept = find_kept_closures(*molecule, select_torsions(*molecule, "chi", false), Closures::all);
+  const KeptClosures kept =
+      find_kept_closures(*molecule, select_torsions(*molecule, free_torsions, false), Closures::all);
   Checker checker(molecule, molecule->select(kept.torsions), {});
+  const std::vector<std::size_t> chis = side_chains(checker);
   const std::vector<double> reference(checker.dof_count(), 0.0);
   const std::size_t goal = checker.check(reference, Mode{Mode::Kind::all}).pairs.size();
   RelaxOptions how;
@@ -89,7 +108,7 @@ void run(const std::filesystem::path& file, const std::string& name, std::size_t
     hinge::SampleStream stream(1, k);
     std::vector<double> q = reference;
     for (std::size_t t = 0; t < turned; ++t) {
-      const auto at = static_cast<std::size_t>(stream.uniform() * static_cast<double>(q.size()));
+      const std::size_t at = chis[static_cast<std::size_t>(stream.uniform() * static_cast<double>(chis.size()))];
       q[at] += (stream.uniform() < 0.5 ? -1.0 : 1.0) * (60.0 + 60.0 * stream.uniform()) * std::numbers::pi / 180.0;
     }
     const std::size_t collisions = checker.check(q, Mode{Mode::Kind::all}).pairs.size();
@@ -113,11 +132,13 @@ void run(const std::filesystem::path& file, const std::string& name, std::size_t
   const double pairs = nanoseconds(starts, [&](const auto& q) { checker.check(q, Mode{Mode::Kind::all}); });
   const double steric = nanoseconds(starts, [&](const auto& q) { checker.steric(q, 0.02); });
   const auto share = [&](std::size_t part) { return 100.0 * static_cast<double>(part) / static_cast<double>(count); };
-  std::printf("%-6s %6zu %5zu %7zu %8.1f %9.1f %9.1f %8.2f %9.1f %8.2f %9.1f %9.1f %8.1f %9.1f %9.1f\n", name.c_str(),
-              molecule->structure().atoms.size(), checker.dof_count(), turned, before / static_cast<double>(count),
-              share(of_moved.size()), share(restarted), moved, share(little_moved), free, share(little_free),
-              1e3 * total / static_cast<double>(count), 1e3 * longest, pairs * 1e-3, steric * 1e-3);
+  std::printf("%-5s %-5s %5zu %5zu %7zu %8.1f %9.1f %9.1f %8.2f %9.1f %8.2f %9.1f %9.1f %8.1f %9.1f %9.1f\n",
+              free_torsions.c_str(), name.c_str(), molecule->structure().atoms.size(), checker.dof_count(), turned,
+              before / static_cast<double>(count), share(of_moved.size()), share(restarted), moved, share(little_moved),
+              free, share(little_free), 1e3 * total / static_cast<double>(count), 1e3 * longest, pairs * 1e-3,
+              steric * 1e-3);
   std::fflush(stdout);
+  return {share(little_moved), share(little_free)};
 }
 
 }  // namespace
@@ -125,17 +146,27 @@ void run(const std::filesystem::path& file, const std::string& name, std::size_t
 int main(int argc, char** argv) {
   const auto count = static_cast<std::size_t>(argc > 1 ? std::atoi(argv[1]) : 200);
   const std::filesystem::path root = HINGE_SOURCE_DIR, data = root / "tests/molecular/data";
-  std::printf("flags: %s; seed 1; %zu conformations per row; all side chains free\n", HINGE_BENCH_FLAGS, count);
-  std::printf("%-6s %6s %5s %7s %8s %9s %9s %8s %9s %8s %9s %9s %8s %9s %9s\n", "", "atoms", "DOF", "turned", "clashes",
-              "mended %", "restart %", "moved A", "<0.5 A %", "free A", "<0.5 A %", "mean ms", "max ms", "pairs us",
-              "steric us");
-  for (const std::size_t turned : {1U, 5U}) {
-    run(root / "molecular/data/1ubq.pdb", "1UBQ", turned, count);
-    run(data / "1crn.pdb.gz", "1CRN", turned, count);
-    run(data / "1l2y.pdb.gz", "1L2Y", turned, count);
-    run(data / "5pti.pdb.gz", "5PTI", turned, count);
-    run(data / "2src.pdb.gz", "2SRC", turned, count);
-    run(data / "4hhb.pdb.gz", "4HHB", turned, count);
-  }
+  const std::vector<std::pair<std::string, std::filesystem::path>> structures = {
+      {"1UBQ", root / "molecular/data/1ubq.pdb"},
+      {"1CRN", data / "1crn.pdb.gz"},
+      {"1L2Y", data / "1l2y.pdb.gz"},
+      {"5PTI", data / "5pti.pdb.gz"},
+      {"2SRC", data / "2src.pdb.gz"},
+      {"4HHB", data / "4hhb.pdb.gz"}};
+  std::printf("flags: %s; seed 1; %zu conformations per row\n", HINGE_BENCH_FLAGS, count);
+  std::printf("%-5s %-5s %5s %5s %7s %8s %9s %9s %8s %9s %8s %9s %9s %8s %9s %9s\n", "free", "", "atoms", "DOF",
+              "turned", "clashes", "mended %", "restart %", "moved A", "<0.5 A %", "free A", "<0.5 A %", "mean ms",
+              "max ms", "pairs us", "steric us");
+  for (const std::string free_torsions : {"chi", "all"})
+    for (const std::size_t turned : {1U, 5U}) {
+      Shares mean;
+      for (const auto& [name, file] : structures) {
+        const Shares shares = run(file, name, free_torsions, turned, count);
+        mean.moved += shares.moved / static_cast<double>(structures.size());
+        mean.free += shares.free / static_cast<double>(structures.size());
+      }
+      std::printf("%-5s %-5s %11s %7zu %46.1f %18.1f\n", free_torsions.c_str(), "mean", "", turned, mean.moved,
+                  mean.free);
+    }
   return 0;
 }

@@ -12,7 +12,7 @@ namespace hinge::molecular {
 namespace {
 
 constexpr double closure_weight = 10.0;  // of squared residuals against squared overlaps
-constexpr int most_evaluations = 300;
+constexpr int most_evaluations = 150;
 
 }  // namespace
 
@@ -34,6 +34,7 @@ ClashDescent::ClashDescent(Checker& checker, std::span<const double> start, std:
     : checker_(checker),
       start_(start.begin(), start.end()),
       moved_(find_moved_atoms(checker, start)),
+      displacement_(checker, start),
       minimiser_(stop) {
   if (!closures.empty()) equations_.emplace(checker.molecule().model().tree(), checker.selection(), closures);
 }
@@ -49,13 +50,9 @@ double ClashDescent::objective(std::span<const double> u, std::span<double> grad
   if (std::ranges::any_of(q, [](double x) { return !is_length(x); })) return HUGE_VAL;
   Steric steric = checker_.steric(q, softness);
   double value = steric.energy;
-  if (equations_)
-    value += add_closures(*equations_, closure_weight, q,
-                          gradient.empty() ? std::span<double>() : std::span<double>(steric.gradient));
-  for (std::size_t k = 0; k < u.size(); ++k) {
-    value += mu * u[k] * u[k];
-    if (!gradient.empty()) gradient[k] = steric.gradient[k] / moved_[k].lever + 2.0 * mu * u[k];
-  }
+  if (mu > 0.0) value += displacement_.add(mu, q, steric.gradient);
+  if (equations_) value += add_closures(*equations_, closure_weight, q, steric.gradient);
+  for (std::size_t k = 0; k < gradient.size(); ++k) gradient[k] = steric.gradient[k] / moved_[k].lever;
   return value;
 }
 

@@ -10,6 +10,7 @@
 
 #include "hinge/kinematics/closure_equations.hpp"
 #include "hinge/molecular/checker.hpp"
+#include "mechanism/displacement.hpp"
 #include "mechanism/minimise.hpp"
 #include "mechanism/moved_atoms.hpp"
 
@@ -23,8 +24,8 @@ inline constexpr double file_rounding = 0.002;  // angstrom
 /// that is empty.
 double add_closures(ClosureEquations& equations, double weight, std::span<const double> q, std::span<double> gradient);
 
-/// Minimises Checker::steric(q, softness) + mu * sum of (lever * (q - start))^2 + squared closure residuals. The second
-/// term is the sum of the squared displacements of all atoms, linear in q.
+/// Minimises Checker::steric(q, softness) + mu * (sum of the squared displacements of all atoms from the start) +
+/// squared closure residuals.
 class ClashDescent {
  public:
   static constexpr double softness = 0.02;  ///< angstrom
@@ -48,6 +49,7 @@ class ClashDescent {
   Checker& checker_;
   std::vector<double> start_;
   std::vector<MovedAtoms> moved_;
+  Displacement displacement_;
   std::optional<ClosureEquations> equations_;
   Minimiser minimiser_;
 };

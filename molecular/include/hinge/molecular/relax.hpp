@@ -37,9 +37,8 @@ struct Relaxation {
 ///
 /// It minimises Checker::steric(q, 0.02 angstrom) + mu * (sum of squared displacements of all atoms) with L-BFGS
 /// (Nocedal 1980; NLopt), for mu from 0.01 down to 0, and stops at the first mu whose minimum is free by at least 0.002
-/// angstrom, so that it stays free in a file with three decimals. The displacements are linear in q: every DOF counts
-/// with the moment of inertia of the atoms that it moves. Closures enter with their squared residuals and are then
-/// closed by ClosureSolver.
+/// angstrom, so that it stays free in a file with three decimals. Closures enter with their squared residuals and are
+/// then closed by ClosureSolver.
 ///
 /// If pairs still collide, restarts turn the torsions of one residue, or move one placed part, that is in the way: of
 /// 32 random tries the one with the least energy is minimised, and kept if fewer pairs collide or the energy is
