@@ -76,27 +76,6 @@ class PairCounter {
   std::size_t count_ = 0;
 };
 
-/// Lists pairs below a margin, as HitsWithin does, in memory that the next query uses again.
-class PairLister {
- public:
-  static constexpr bool ranks = false;
-  PairLister(double below, PairList& out) noexcept : below_(below), out_(out) { out_.clear(); }
-  void add(const Hit& hit) { out_.push_back(hit); }
-  double cutoff() const noexcept { return below_; }
-  bool done() const noexcept { return false; }
-
- private:
-  double below_;
-  PairList& out_;
-};
-
-template <class H>
-void list_pairs(H& hierarchy, double below, PairList& out) {
-  PairLister pairs(below, out);
-  hierarchy.self_query(pairs);
-  detail::sort_hits(out);
-}
-
 template <class H>
 void ask_hierarchy(H& hierarchy, Query query, Answer& answer) {
   switch (query) {
@@ -107,8 +86,8 @@ void ask_hierarchy(H& hierarchy, Query query, Answer& answer) {
       answer.count = pairs.count();
       return;
     }
-    case Query::all: return list_pairs(hierarchy, 0.0, answer.pairs);
-    case Query::within: return list_pairs(hierarchy, margin, answer.pairs);
+    case Query::all: answer.pairs = hierarchy.self_collisions(); return;
+    case Query::within: answer.pairs = hierarchy.self_within(margin); return;
     case Query::closest:
       if (const auto hit = hierarchy.self_closest()) answer.gap = hit->gap();
       return;

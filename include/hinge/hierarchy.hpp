@@ -97,7 +97,9 @@ class Hierarchy {
   /// Returns all pairs with d - M < margin, sorted by (first, second). ConfigurationError: margin is not finite or
   /// negative.
   std::vector<Hit> self_within(double margin, const QueryOptions& options = {}) const {
-    return self(HitsWithin{checked(margin)}, options).take();
+    listed_.start(checked(margin));
+    self_query(listed_, options);
+    return listed_.take();
   }
   /// Returns the pair with the smallest d - M (the deepest collision, if any). Returns nullopt when no pair is
   /// admitted.
@@ -136,7 +138,9 @@ class Hierarchy {
   template <PairFilter G = AdmitAll>
   std::vector<Hit> within(const Hierarchy& other, double margin, const G& across = {},
                           const QueryOptions& options = {}) const {
-    return mutual(HitsWithin{checked(margin)}, other, across, options).take();
+    listed_.start(checked(margin));
+    query(other, listed_, across, options);
+    return listed_.take();
   }
   /// Returns the pair with the smallest d - M, or nullopt when no pair is admitted.
   template <PairFilter G = AdmitAll>
@@ -239,9 +243,7 @@ class Hierarchy {
     return margin;
   }
   static double largest(std::span<const double> clearance) noexcept {
-    double most = 0.0;
-    for (const double extra : clearance) most = std::max(most, extra);
-    return most;
+    return clearance.empty() ? 0.0 : std::max(0.0, *std::max_element(clearance.begin(), clearance.end()));
   }
 
   SelfRules<P, F, D> self_rules(const QueryOptions& options) const noexcept {
@@ -270,8 +272,9 @@ class Hierarchy {
 
   F filter_;
   D matrix_;
-  mutable State<P> state_;  // queries compute what they need of the state
-  mutable E engine_;        // scratch
+  mutable State<P> state_;     // queries compute what they need of the state
+  mutable E engine_;           // scratch
+  mutable HitsWithin listed_;  // the memory of the longest list so far, which the allocator would give back and fetch
   detail::LargestThreshold<D> largest_threshold_;
 };
 

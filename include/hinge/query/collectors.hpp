@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include "hinge/detail/query/sort_hits.hpp"
@@ -38,6 +37,11 @@ class HitsWithin {
   static constexpr bool ranks = false;  ///< add() receives hits only
   /// margin: >= 0, model length unit.
   explicit HitsWithin(double margin = 0.0) noexcept : margin_(margin) {}
+  /// Empties the collector for another query, and keeps its memory.
+  void start(double margin) noexcept {
+    margin_ = margin;
+    hits_.clear();
+  }
   /// Appends the hit.
   void add(const Hit& hit) { hits_.push_back(hit); }
   /// Returns the margin.
@@ -45,10 +49,11 @@ class HitsWithin {
   /// Returns false: all hits are needed.
   bool done() const noexcept { return false; }
 
-  /// Returns the hits, sorted by (first, second), and empties the collector.
+  /// Returns the hits, sorted by (first, second), and empties the collector, which keeps its memory.
   std::vector<Hit> take() {
-    detail::sort_hits(hits_);
-    return std::exchange(hits_, {});
+    std::vector<Hit> sorted = detail::sorted_hits(hits_);
+    hits_.clear();
+    return sorted;
   }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// sort_hits: sorts hits by (first, second). Long lists use a radix sort; a comparison sort took longer than the query.
+// Sorts hits by (first, second). Long lists use a radix sort; a comparison sort took longer than the query.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,8 @@
 
 namespace hinge::detail {
 
-inline void sort_hits(std::vector<Hit>& hits) {
+/// Returns the hits, sorted. Changes their order.
+inline std::vector<Hit> sorted_hits(std::vector<Hit>& hits) {
   const auto before = [](const Hit& a, const Hit& b) {
     return std::tie(a.first, a.second) < std::tie(b.first, b.second);
   };
@@ -22,7 +23,7 @@ inline void sort_hits(std::vector<Hit>& hits) {
   // Buckets pay off only when their number is small relative to the number of hits.
   if (hits.size() < 64 || buckets > 8 * hits.size()) {
     std::sort(hits.begin(), hits.end(), before);
-    return;
+    return hits;
   }
   // Stable counting sort by second, then by first.
   struct Place {
@@ -41,7 +42,8 @@ inline void sort_hits(std::vector<Hit>& hits) {
   for (std::uint32_t k = 0; k < by_second.size(); ++k) by_second[places[index(hits[k].second)].of_second++] = k;
   std::vector<Hit> sorted(hits.size());
   for (const std::uint32_t k : by_second) sorted[places[index(hits[k].first)].of_first++] = hits[k];
-  hits.swap(sorted);
+  return sorted;
 }
+inline void sort_hits(std::vector<Hit>& hits) { hits = sorted_hits(hits); }
 
 }  // namespace hinge::detail
