@@ -143,6 +143,11 @@ TEST(Lanes, RoundDoublesAsACastDoes) {
   std::array<float, 8> f;
   Double8(d.data()).store_rounded(f.data());
   for (std::size_t k = 0; k < 8; ++k) EXPECT_EQ(bits_of(f[k]), bits_of(static_cast<float>(d[k])));
+  std::array<double, 16> both;
+  std::array<float, 16> g;
+  for (std::size_t k = 0; k < 16; ++k) both[k] = k < 8 ? d[k] : 1.0 / static_cast<double>(k);
+  Float16::rounded(Double8(both.data()), Double8(both.data() + 8)).store(g.data());
+  for (std::size_t k = 0; k < 16; ++k) EXPECT_EQ(bits_of(g[k]), bits_of(static_cast<float>(both[k]))) << k;
   const Double4 x = Double4::of(0.1, -1e300, 1.0 + 0x1p-24, 3e-46);
   std::array<double, 4> e;
   x.store(e.data());

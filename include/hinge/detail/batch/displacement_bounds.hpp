@@ -28,8 +28,9 @@ class LaneStep {
   [[gnu::always_inline]] void set(const double* frames, const Pose& reference) noexcept {
     for (std::size_t e = 0; e < FrameLanes::entries; ++e) {
       const simd::Double8 from(e < 9 ? reference.rotation.data()[e] : reference.translation.data()[e - 9]);
-      for (std::size_t k = e * simd::width; k < (e + 1) * simd::width; k += 8)
-        (simd::Double8(frames + k) - from).store_rounded(entry_.data() + k);
+      const std::size_t k = e * simd::width;
+      simd::Float16::rounded(simd::Double8(frames + k) - from, simd::Double8(frames + k + 8) - from)
+          .store(entry_.data() + k);
     }
   }
   [[gnu::always_inline]] simd::Float16 entry(std::size_t e) const noexcept {

@@ -52,14 +52,13 @@ using LaneFrame = std::array<LaneVector, 4>;
   using simd::Float16;
   // One product is enough for float: below cody_waite_limit, its rounding and that of pi / 2 add less than 2^-31.
   constexpr double two_over_pi = 0x1.45f306dc9c883p-1, half_pi = 0x1.921fb54442d18p+0;
-  alignas(64) std::array<float, simd::width> rest, turns;
-  for (std::size_t k = 0; k < simd::width; k += 8) {
-    const simd::Double8 x(angle + k), up(rounder);
-    const simd::Double8 n = (x * simd::Double8(two_over_pi) + up) - up;
-    n.store_rounded(turns.data() + k);
-    (x - n * simd::Double8(half_pi)).store_rounded(rest.data() + k);
+  std::array<simd::Double8, 2> rest, turns;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const simd::Double8 x(angle + 8 * k), up(rounder);
+    turns[k] = (x * simd::Double8(two_over_pi) + up) - up;
+    rest[k] = x - turns[k] * simd::Double8(half_pi);
   }
-  const Float16 x(rest.data()), n(turns.data()), z = x * x;
+  const Float16 x = Float16::rounded(rest[0], rest[1]), n = Float16::rounded(turns[0], turns[1]), z = x * x;
   // Taylor polynomials: on |x| <= pi/4 the first omitted terms are below 0.03 u and 0.002 u.
   const Float16 s =
       x + x * z * (Float16(-1.0F / 6) + z * (Float16(1.0F / 120) + z * (Float16(-1.0F / 5040) + z * (1.0F / 362880))));

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstring>
 #include <new>
+#include <utility>
 #include <vector>
 
 #include "hinge/detail/simd/register.hpp"
@@ -26,6 +27,8 @@ class Lanes {
   static_assert(parts * part_size == N);
   using Part = Register<T, part_size>;
   using Vector = typename Part::Vector;
+  template <class, std::size_t>
+  friend class Lanes;
 
  public:
   Lanes() = default;
@@ -56,6 +59,24 @@ class Lanes {
       r.v_[p] = ((lane >= begin) & (lane < end)) ? v_[p] : r.v_[p];
     }
     r.store(to);
+  }
+
+  /// Returns the lanes of `low`, then those of `high`, rounded. T: float. Memory in between would be slow: a processor
+  /// waits if it has to load what it stored as two halves.
+  [[gnu::always_inline]] static Lanes rounded(const Lanes<double, N / 2>& low,
+                                              const Lanes<double, N / 2>& high) noexcept {
+    static_assert(Lanes<double, N / 2>::parts == parts);
+    const auto half = [&](std::size_t k) __attribute__((always_inline)) {
+      return __builtin_convertvector(k < parts ? low.v_[k] : high.v_[k - parts],
+                                     typename Register<T, part_size / 2>::Vector);
+    };
+    Lanes r;
+    for (std::size_t p = 0; p < parts; ++p)
+      r.v_[p] = [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
+        return __builtin_shufflevector(half(2 * p), half(2 * p + 1), I...);
+      }
+    (std::make_index_sequence<part_size>());
+    return r;
   }
 
   /// Stores all lanes, rounded to float.
