@@ -4,6 +4,7 @@
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 
@@ -19,6 +20,8 @@ PROMPT = 0.5
 
 def pytest_configure(config):
     config.addinivalue_line("markers", "long: takes long; `./run python` runs it, `./run test` does not")
+    # A shell starts background jobs with Ctrl-C ignored, and Python then leaves it so.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def tool(name):
