@@ -24,6 +24,7 @@
 #include "hinge/molecular/relax.hpp"
 #include "hinge/molecular/selection.hpp"
 #include "hinge_tools/clock.hpp"
+#include "molecular/side_chains.hpp"
 
 namespace {
 
@@ -79,23 +80,13 @@ struct Shares {
   double moved = 0.0, free = 0.0;  ///< as in Displacement
 };
 
-/// Returns the values of the checker that turn side chains.
-std::vector<std::size_t> side_chains(const Checker& checker) {
-  const Molecule& molecule = checker.molecule();
-  const std::vector<std::size_t> chis = select_torsions(molecule, "chi", false);
-  std::vector<std::size_t> values;
-  for (std::size_t k = 0; k < checker.dof_count(); ++k)
-    if (std::ranges::binary_search(chis, molecule.torsion_of(checker.selection().dofs()[k]))) values.push_back(k);
-  return values;
-}
-
 Shares run(const std::filesystem::path& file, const std::string& name, const std::string& free_torsions,
            std::size_t turned, std::size_t count) {
   const auto molecule = std::make_shared<const Molecule>(read_structure(file));
   const KeptClosures kept =
       find_kept_closures(*molecule, select_torsions(*molecule, free_torsions, false), Closures::all);
   Checker checker(molecule, molecule->select(kept.torsions), {});
-  const std::vector<std::size_t> chis = side_chains(checker);
+  const std::vector<std::size_t> chis = hinge::test::side_chains(checker);
   const std::vector<double> reference(checker.dof_count(), 0.0);
   const std::size_t goal = checker.check(reference, Mode{Mode::Kind::all}).pairs.size();
   RelaxOptions how;

@@ -23,7 +23,7 @@ namespace py = pybind11;
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr auto slice_time = std::chrono::milliseconds(2);  // so its configurations mostly fit into the cache
+constexpr auto slice_time = std::chrono::milliseconds(2);  // its configurations mostly stay in the cache
 constexpr auto progress_time = std::chrono::milliseconds(100);
 
 /// Ends the work of a thread after stop(). Another thread's exception is the answer of the call.

@@ -25,6 +25,7 @@
 #include "hinge/molecular/part.hpp"
 #include "hinge/molecular/selection.hpp"
 #include "mechanism/displacement.hpp"
+#include "molecular/side_chains.hpp"
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
@@ -208,17 +209,6 @@ void turn_until_they_clash(Question& question, const std::vector<std::size_t>& t
   }
 }
 
-/// Returns the values that turn side chains.
-std::vector<std::size_t> side_chains(const Question& question) {
-  const std::vector<std::size_t> chis = select_torsions(*question.molecule, "chi", false);
-  std::vector<std::size_t> values;
-  for (std::size_t k = 0; k < question.checker->dof_count(); ++k) {
-    const std::size_t torsion = question.molecule->torsion_of(question.checker->selection().dofs()[k]);
-    if (std::ranges::find(chis, torsion) != chis.end()) values.push_back(k);
-  }
-  return values;
-}
-
 TEST(Relax, MendsTurnedSideChains) {
   const int times = std::getenv("HINGE_TEST_ALL") != nullptr ? 20 : 1;
   for (const std::string file : {"1ubq", "5pti.pdb", "1crn.pdb", "1l2y.pdb", "2src.pdb", "4hhb.pdb"}) {
@@ -226,13 +216,14 @@ TEST(Relax, MendsTurnedSideChains) {
     Question question(structure_of(file), "chi");
     const std::size_t goal = question.by_brute_force(question.reference()).pairs.size();
     int mended = 0;
-    turn_until_they_clash(question, side_chains(question), 5 * times, goal, [&](const auto& q, std::size_t before) {
-      const Relaxation relaxed = relax(*question.checker, q, question.how);
-      EXPECT_EQ(relaxed.collisions_before, before);
-      EXPECT_EQ(relaxed.collisions, question.by_brute_force(relaxed.q).pairs.size());
-      if (relaxed.collisions <= goal) ++mended;
-      EXPECT_LE(relaxed.collisions, before);
-    });
+    turn_until_they_clash(question, test::side_chains(*question.checker), 5 * times, goal,
+                          [&](const auto& q, std::size_t before) {
+                            const Relaxation relaxed = relax(*question.checker, q, question.how);
+                            EXPECT_EQ(relaxed.collisions_before, before);
+                            EXPECT_EQ(relaxed.collisions, question.by_brute_force(relaxed.q).pairs.size());
+                            if (relaxed.collisions <= goal) ++mended;
+                            EXPECT_LE(relaxed.collisions, before);
+                          });
     EXPECT_GE(mended, 0.9 * 5 * times);
   }
 }
@@ -246,7 +237,7 @@ TEST(Relax, MovesAtomsByLessThanHalfAnAngstromIfTheBackboneMayTurn) {
     Question question(structure_of(file), "all");
     const std::size_t goal = question.by_brute_force(question.reference()).pairs.size();
     const int count = times * (question.molecule->structure().atoms.size() < 1000 ? 5 : 2);
-    turn_until_they_clash(question, side_chains(question), count, goal, [&](const auto& q, std::size_t) {
+    turn_until_they_clash(question, test::side_chains(*question.checker), count, goal, [&](const auto& q, std::size_t) {
       ++tried;
       const Relaxation relaxed = relax(*question.checker, q, question.how);
       const std::size_t left = question.by_brute_force(relaxed.q).pairs.size();

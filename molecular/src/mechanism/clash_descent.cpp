@@ -18,14 +18,12 @@ constexpr int most_evaluations = 150;
 
 double add_closures(ClosureEquations& equations, double weight, std::span<const double> q, std::span<double> gradient) {
   equations.set(q);
-  if (!gradient.empty()) {
-    equations.compute_jacobian();
-    const std::size_t columns = equations.columns();
-    for (std::size_t row = 0; row < equations.rows(); ++row)
-      for (std::size_t c = 0; c < columns; ++c)
-        gradient[equations.position(c)] +=
-            weight * 2.0 * equations.residuals()[row] * equations.jacobian()[row * columns + c];
-  }
+  equations.compute_jacobian();
+  const std::size_t columns = equations.columns();
+  for (std::size_t row = 0; row < equations.rows(); ++row)
+    for (std::size_t c = 0; c < columns; ++c)
+      gradient[equations.position(c)] +=
+          weight * 2.0 * equations.residuals()[row] * equations.jacobian()[row * columns + c];
   return weight * 2.0 * equations.cost();
 }
 

@@ -20,8 +20,7 @@ namespace hinge::molecular {
 /// a collision than this stay free in them.
 inline constexpr double file_rounding = 0.002;  // angstrom
 
-/// Adds weight * (sum of squared residuals) at q to the value that it returns, and its derivatives to `gradient` unless
-/// that is empty.
+/// Returns weight * (sum of squared residuals) at q and adds its derivatives to `gradient`.
 double add_closures(ClosureEquations& equations, double weight, std::span<const double> q, std::span<double> gradient);
 
 /// Minimises Checker::steric(q, softness) + mu * (sum of the squared displacements of all atoms from the start) +

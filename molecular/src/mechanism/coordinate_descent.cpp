@@ -48,13 +48,10 @@ CoordinateDescent::CoordinateDescent(Checker& checker, const TargetCoordinates& 
     : checker_(checker), minimiser_(stop), here_(target.atoms.size()) {
   check_target(checker, target);
   aim(target.positions);
-  const std::vector<double> reference(checker.dof_count(), 0.0);
-  poses_ = group_poses(checker.rigid_groups(), reference);
-  const std::vector<Vec3>& positions = checker.molecule().structure().models.front();
+  const std::vector<Vec3> local = positions_in_groups(checker);
   for (const std::uint32_t atom : target.atoms) {
     group_.push_back(index(checker.group_of(atom)));
-    const Pose& pose = poses_[group_.back()];
-    local_.push_back(product(Mat3(pose.rotation.transpose()), Vec3(positions[atom] - pose.translation)));
+    local_.push_back(local[atom]);
   }
   if (closures.empty()) return;
   const KinematicTree& tree = checker.molecule().model().tree();

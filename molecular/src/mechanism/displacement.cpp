@@ -11,19 +11,18 @@ namespace hinge::molecular {
 
 Displacement::Displacement(const Checker& checker, std::span<const double> start)
     : groups_(checker.rigid_groups()), bodies_(groups_.size()), start_(group_poses(groups_, start)) {
-  const std::vector<Vec3>& positions = checker.molecule().structure().models.front();
-  const std::vector<Pose> reference = group_poses(groups_, std::vector<double>(checker.dof_count(), 0.0));
-  std::vector<Vec3> local(positions.size());
-  for (std::size_t atom = 0; atom < positions.size(); ++atom) {
-    const std::size_t g = index(checker.group_of(static_cast<std::uint32_t>(atom)));
-    local[atom] = product(Mat3(reference[g].rotation.transpose()), Vec3(positions[atom] - reference[g].translation));
-    bodies_[g].count += 1.0;
-    bodies_[g].centre += local[atom];
+  const std::vector<Vec3> local = positions_in_groups(checker);
+  const auto body_of = [&](std::size_t atom) -> Body& {
+    return bodies_[index(checker.group_of(static_cast<std::uint32_t>(atom)))];
+  };
+  for (std::size_t atom = 0; atom < local.size(); ++atom) {
+    body_of(atom).count += 1.0;
+    body_of(atom).centre += local[atom];
   }
   for (Body& body : bodies_)
     if (body.count > 0.0) body.centre /= body.count;
-  for (std::size_t atom = 0; atom < positions.size(); ++atom) {
-    Body& body = bodies_[index(checker.group_of(static_cast<std::uint32_t>(atom)))];
+  for (std::size_t atom = 0; atom < local.size(); ++atom) {
+    Body& body = body_of(atom);
     const Vec3 y = local[atom] - body.centre;
     body.second += y * y.transpose();
   }
@@ -31,7 +30,7 @@ Displacement::Displacement(const Checker& checker, std::span<const double> start
 
 double Displacement::add(double weight, std::span<const double> q, std::span<double> gradient) const {
   const std::vector<Pose> poses = group_poses(groups_, q);
-  const Vec3 origin = start_.back().translation;
+  const Vec3 origin = start_.back().translation;  // near the molecule, so that moments keep their digits
   std::vector<Vec3> force(groups_.size(), Vec3::Zero()), moment(groups_.size(), Vec3::Zero());
   double sum = 0.0;
   for (std::size_t g = 1; g < groups_.size(); ++g) {

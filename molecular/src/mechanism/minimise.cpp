@@ -22,8 +22,9 @@ double Minimiser::call(unsigned n, const double* u, double* gradient, void* self
 }
 
 void Minimiser::minimise(std::vector<double>& u, const Objective& objective, int evaluations) {
-  constexpr double smallest_move = 1e-4;   // angstrom
-  constexpr unsigned stored_vectors = 20;  // with NLopt's choice, far more, they cost more than the objective
+  constexpr double smallest_move = 1e-4;  // angstrom
+  // NLopt stores up to one vector per evaluation if it may, and their products then take longer than the objective.
+  constexpr unsigned stored_vectors = 20;
   const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> optimiser(
       nlopt_create(NLOPT_LD_LBFGS, static_cast<unsigned>(u.size())), &nlopt_destroy);
   optimiser_ = optimiser.get();

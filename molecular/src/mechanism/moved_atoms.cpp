@@ -18,6 +18,17 @@ std::vector<Pose> group_poses(const RigidGroups& groups, std::span<const double>
   return poses;
 }
 
+std::vector<Vec3> positions_in_groups(const Checker& checker) {
+  const std::vector<double> reference(checker.dof_count(), 0.0);
+  const std::vector<Pose> poses = group_poses(checker.rigid_groups(), reference);
+  std::vector<Vec3> positions = checker.molecule().structure().models.front();
+  for (std::uint32_t atom = 0; atom < positions.size(); ++atom) {
+    const Pose& pose = poses[index(checker.group_of(atom))];
+    positions[atom] = product(Mat3(pose.rotation.transpose()), Vec3(positions[atom] - pose.translation));
+  }
+  return positions;
+}
+
 std::vector<double> gradient_by_values(const RigidGroups& groups, std::span<const Pose> poses, const Vec3& centre,
                                        std::vector<Vec3>& force, std::vector<Vec3>& moment, std::size_t count) {
   std::vector<double> gradient(count, 0.0);

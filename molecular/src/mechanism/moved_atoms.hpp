@@ -25,6 +25,9 @@ std::vector<MovedAtoms> find_moved_atoms(Checker& checker, std::span<const doubl
 /// Returns the pose of every rigid group at q.
 std::vector<Pose> group_poses(const RigidGroups& groups, std::span<const double> q);
 
+/// Returns the position of every atom in the frame of its rigid group.
+std::vector<Vec3> positions_in_groups(const Checker& checker);
+
 /// Returns the derivatives of a function of the atoms' positions by the values of a configuration. poses:
 /// group_poses(). force, moment: per group the sums over its atoms of dE/dx and of (x - centre) cross dE/dx; changed.
 std::vector<double> gradient_by_values(const RigidGroups& groups, std::span<const Pose> poses, const Vec3& centre,
