@@ -12,7 +12,7 @@
 
 namespace hinge::bench {
 
-/// Pairs i < j with their distances and thresholds, sorted by (i, j). Every contestant sorts by detail::sort_hits.
+/// Pairs i < j with their distances and thresholds, sorted by (i, j). All contestants sort in the same way.
 using PairList = std::vector<Hit>;
 
 /// Points, thresholds (angstrom) and admitted pairs. Prepared once per selection of DOF.

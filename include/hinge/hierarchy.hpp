@@ -274,7 +274,7 @@ class Hierarchy {
   D matrix_;
   mutable State<P> state_;     // queries compute what they need of the state
   mutable E engine_;           // scratch
-  mutable HitsWithin listed_;  // the memory of the longest list so far, which the allocator would give back and fetch
+  mutable HitsWithin listed_;  // keeps the memory of the longest list
   detail::LargestThreshold<D> largest_threshold_;
 };
 

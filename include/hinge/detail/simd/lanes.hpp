@@ -70,12 +70,11 @@ class Lanes {
       return __builtin_convertvector(k < parts ? low.v_[k] : high.v_[k - parts],
                                      typename Register<T, part_size / 2>::Vector);
     };
+    const auto join = [&]<std::size_t... I>(std::size_t p, std::index_sequence<I...>) __attribute__((always_inline)) {
+      return __builtin_shufflevector(half(2 * p), half(2 * p + 1), I...);
+    };
     Lanes r;
-    for (std::size_t p = 0; p < parts; ++p)
-      r.v_[p] = [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
-        return __builtin_shufflevector(half(2 * p), half(2 * p + 1), I...);
-      }
-    (std::make_index_sequence<part_size>());
+    for (std::size_t p = 0; p < parts; ++p) r.v_[p] = join(p, std::make_index_sequence<part_size>());
     return r;
   }
 
