@@ -11,7 +11,6 @@
 #include <string>
 #include <string_view>
 
-#include "hinge_tools/json_text.hpp"
 #include "hinge_tools/json_writer.hpp"
 
 namespace hinge::tool {
@@ -59,7 +58,6 @@ TEST(JsonWriter, StringsHaveTheBytesOfTheLibrary) {
       text += static_cast<char>(k % 2 == 0 ? random() % 128 : 'A' + random() % 60);
     EXPECT_EQ(json_string(text), nlohmann::json(text).dump());
   }
-  EXPECT_EQ(json_string("\xff"), json_text(nlohmann::json("\xff")));
   EXPECT_EQ(json_string("\xc3\xa5"), "\"\xc3\xa5\"");
 }
 

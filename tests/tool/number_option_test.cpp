@@ -16,6 +16,7 @@
 #include "hinge_tools/frequent_keys.hpp"
 #include "hinge_tools/input_file.hpp"
 #include "hinge_tools/json_text.hpp"
+#include "hinge_tools/json_writer.hpp"
 #include "hinge_tools/number_option.hpp"
 
 namespace hinge::tool {
@@ -95,6 +96,7 @@ TEST(JsonText, ReplacesWhatIsNoText) {
   EXPECT_TRUE(notes.starts_with("note: ")) << notes;
   EXPECT_EQ(notes.find('\n'), notes.size() - 1) << "said once";
   EXPECT_EQ(json_text(nlohmann::json{{"name", "C\xC3\xA9"}}), "{\"name\":\"C\xC3\xA9\"}");
+  EXPECT_EQ(json_string("\xff"), "\"\xEF\xBF\xBD\"");
 }
 
 std::string unreadable(const std::string& path) {
