@@ -256,9 +256,9 @@ std::vector<std::pair<std::string, std::string>> question_words(const Options& o
   const Robot& robot = *job.robot;
   std::vector<std::pair<std::string, std::string>> words{{"Robot", robot_text(options, robot)},
                                                          {"Tested", tested_text(job)}};
-  words.emplace_back("A pair collides if", options.clearance > 0.0
-                                               ? fmt::format("it touches or is closer than {} m", options.clearance)
-                                               : std::string("it touches"));
+  words.emplace_back("Links collide if", options.clearance > 0.0
+                                             ? fmt::format("they touch or are closer than {} m", options.clearance)
+                                             : std::string("they touch"));
   if (options.contained) words.emplace_back("Closed meshes", "are solid");
   std::string bodies;
   for (const Body& body : job.bodies) bodies += (bodies.empty() ? "" : "; ") + body.name;
