@@ -204,9 +204,7 @@ void run_molecule(const std::filesystem::path& file, const std::string& name, co
   const bench::LoopedMolecule subject(file, loop, free);
   const KeptClosures kept = subject.grown();
   const Checker checker = subject.checker(kept);
-  FreeSampling growth;
-  growth.prior = Prior::ramachandran;  // as biocd sample --collision-free
-  FreeSampler sampler(checker, growth, kept.closures, {});
+  FreeSampler sampler(checker, {}, kept.closures, {});
   PlanOptions how;
   how.closures = kept.closures;
   how.most_motions = UINT64_MAX;

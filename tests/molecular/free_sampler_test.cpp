@@ -140,9 +140,7 @@ TEST(FreeSampler, KeepsThePriorWhereNothingCollides) {
   options.thresholds.rho = 1e-3;
   const auto molecule = std::make_shared<const Molecule>(build_ideal_protein("ASA", "CCC"));
   const Checker checker(molecule, molecule->select(select_torsions(*molecule, "A:2:chi1", false)), options);
-  FreeSampling how;
-  how.prior = Prior::ramachandran;
-  FreeSampler sampler(checker, how, {}, {});
+  FreeSampler sampler(checker, {}, {}, {});
   const double reference = molecule->torsions()[molecule->torsion_of(checker.selection().dofs()[0])].reference;
   constexpr int n = 20'000;
   int plus = 0;  // serine: rotamer p, 48.7 %
