@@ -157,8 +157,6 @@ Exit run(int argc, char** argv) {
 
   CLI::App* relax = app.add_subcommand("relax", "mend the clashes of a conformation and move it as little as possible");
   biocd::add_model_options(*relax, o);
-  CLI::Option* relaxed = relax->get_option("--free");
-  relaxed->default_str("chi");
   biocd::add_output_options(*relax, o);
   biocd::add_out_option(*relax, o);
   biocd::add_view_option(*relax, o);
@@ -171,9 +169,8 @@ Exit run(int argc, char** argv) {
              "largest number of random restarts, if descent does not mend all clashes (default: 1000)");
   add_number(*relax, "--time", o.seconds, lengths_above_0, "end the search after this time")->type_name("SECONDS");
   add_number(*relax, "--seed", o.seed, seed_range, "seed of the restarts")->type_name("SEED");
-  relax->callback([&, relaxed] {
+  relax->callback([&] {
     o.keep_closures = o.keep_closures.value_or(true);
-    if (relaxed->count() == 0 && o.loop.empty()) o.free = "chi";
     command = biocd::run_relax;
   });
 

@@ -54,7 +54,7 @@ HelpTexts help_texts() {
                             {"biocd walk" + file + " --exempt-reference --steps 2000 --out walk.pdb",
                              "biocd walk" + file + " --exempt-reference --free A:70-76 --step-size 10 --steps 500"}};
   texts.commands["relax"] = {
-      both, {"biocd relax" + file + " --out relaxed.pdb", "biocd relax" + file + " --free A:1-10 --seed 2 --json"}};
+      both, {"biocd relax" + file + " --out relaxed.pdb", "biocd relax" + file + " --free chi --json"}};
   texts.commands["path"] = {both,
                             {"biocd path" + file + " --free A:72:psi --exempt-reference --from reference --to 20",
                              "biocd path" + file + " --free A:72:phi,psi --from 0,0 --to 30,-40 --sampled 0.5"}};

@@ -32,7 +32,8 @@ using namespace hinge::molecular;
 using hinge::tool::counted;
 
 constexpr double rounding = 5e-4;        // angstrom; PDB files do not show smaller displacements
-constexpr double listed_degrees = 0.05;  // smaller turns are not listed
+constexpr double listed_degrees = 0.05;  // JSON does not list smaller turns
+constexpr double shown_degrees = 1.0;    // the table only counts smaller turns
 
 /// A conformation, before or after.
 struct Conformation {
@@ -92,6 +93,20 @@ std::vector<Change> changes_of(const Job& job, const std::vector<double>& q) {
     return std::pair(!a.turns, std::abs(a.amount)) > std::pair(!b.turns, std::abs(b.amount));
   });
   return changes;
+}
+
+void print_changes(const std::vector<Change>& changes) {
+  std::size_t shown = 0;
+  for (const Change& change : changes)
+    if (!change.turns || std::abs(change.amount) >= shown_degrees) {
+      fmt::print("  {:<20} {:9.2f} {}\n", change.name, change.amount, change.turns ? "degrees" : "angstrom");
+      ++shown;
+    }
+  if (shown < changes.size())
+    fmt::print("{} by less than {} degree\n",
+               counted(changes.size() - shown, shown > 0 ? "more torsion turned" : "torsion turned",
+                       shown > 0 ? "more torsions turned" : "torsions turned"),
+               shown_degrees);
 }
 
 Json side_json(const Options& options, const Job& job, const Conformation& side) {
@@ -164,8 +179,7 @@ Exit run_relax(const Options& options) {
     if (motion.atoms > 0)
       fmt::print("{} of {} moved: RMSD {:.3f} angstrom, at most {:.3f}; RMSD of all atoms {:.3f}\n", motion.atoms,
                  counted(s.atoms.size(), "atom"), motion.rmsd_moved, motion.farthest, motion.rmsd);
-    for (const Change& change : changes)
-      fmt::print("  {:<20} {:9.2f} {}\n", change.name, change.amount, change.turns ? "degrees" : "angstrom");
+    print_changes(changes);
     if (!after.pairs.empty()) fmt::print("these pairs still collide:\n{}", pair_table(options, job, after.pairs, true));
     if (file.size() > 0) fmt::print("written to {}\n", options.out);
   }
