@@ -103,10 +103,8 @@ void print_changes(const std::vector<Change>& changes) {
       ++shown;
     }
   if (shown < changes.size())
-    fmt::print("{} by less than {} degree\n",
-               counted(changes.size() - shown, shown > 0 ? "more torsion turned" : "torsion turned",
-                       shown > 0 ? "more torsions turned" : "torsions turned"),
-               shown_degrees);
+    fmt::print("{} turned by less than {} degree\n",
+               counted(changes.size() - shown, shown > 0 ? "more torsion" : "torsion"), shown_degrees);
 }
 
 Json side_json(const Options& options, const Job& job, const Conformation& side) {

@@ -25,7 +25,7 @@ namespace hinge::molecular {
 /// Options of a FreeSampler.
 struct FreeSampling {
   Sampling sampling{};                ///< the seed, and the distribution of torsions without statistics
-  Prior prior = Prior::ramachandran;  ///< the distribution of torsions
+  Prior prior = Prior::ramachandran;  ///< the distribution of torsions; independent if Sampling::sigma is given
   std::uint64_t most_starts = 1000;   ///< starts of one sample, at least 1
   std::uint32_t most_draws = 10;      ///< draws of one residue, or of a loop's end, before growth goes back
   std::uint32_t most_returns = 60;    ///< dead ends of one start after its furthest residue, before it ends
