@@ -4,15 +4,34 @@
 
 #include <algorithm>
 #include <new>
+#include <string_view>
 
 #include "hinge/core/error.hpp"
 
 namespace hinge::molecular {
 
+namespace {
+
+/// The first bytes of formats that may hold a structure and are not read.
+struct Format {
+  std::string_view start, name;
+};
+constexpr Format unread_formats[] = {{"BZh", "packed by bzip2"},
+                                     {"\xfd\x37zXZ", "packed by xz"},
+                                     {"\x28\xb5\x2f\xfd", "packed by zstd"},
+                                     {"PK\x03\x04", "a zip archive"},
+                                     {"\x83\xa7", "BinaryCIF"}};
+
+}  // namespace
+
 UnpackedFile::UnpackedFile(const std::filesystem::path& path)
     : file_(path, "a PDB or mmCIF file"), packed_(std::size_t{1} << 16U) {
   constexpr int gzip_alone = 15 + 16;  // inflateInit2's window bits for gzip only
-  is_gzipped_ = fill() && stream_.avail_in >= 2 && starts_gzip(packed_[0], packed_[1]);
+  const bool has_data = fill();
+  for (const Format& format : unread_formats)
+    if (std::string_view(packed_.data(), stream_.avail_in).starts_with(format.start))
+      throw LoadError(path.string() + ": is " + std::string(format.name) + ", expected text, plain or gzipped");
+  is_gzipped_ = has_data && stream_.avail_in >= 2 && starts_gzip(packed_[0], packed_[1]);
   if (is_gzipped_ && inflateInit2(&stream_, gzip_alone) != Z_OK) throw std::bad_alloc();
 }
 

@@ -22,7 +22,7 @@ inline bool starts_gzip(char first, char second) noexcept { return first == '\x1
 /// gzread would stop at any other data after a member and drop them silently.
 class UnpackedFile {
  public:
-  /// Throws LoadError as tool::InputFile does.
+  /// Throws LoadError as tool::InputFile does, and for formats that are not read (bzip2, xz, zstd, zip, BinaryCIF).
   explicit UnpackedFile(const std::filesystem::path& path);
   UnpackedFile(const UnpackedFile&) = delete;
   UnpackedFile& operator=(const UnpackedFile&) = delete;
