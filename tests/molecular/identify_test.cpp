@@ -103,6 +103,21 @@ TEST(ResidueKind, LeavesOutAnAtomOfUnknownKindAndSaysSo) {
   EXPECT_TRUE(has_note(s, "A:UNX9: an atom of unknown kind, left out"));
 }
 
+// Drude models have a particle DN near N, and lone pairs. As an atom, DN would be a deuterium that overlaps N.
+TEST(VirtualSites, AreLeftOutWithANote) {
+  const Structure ideal = build_ideal_protein("AA", "CC");
+  const std::string protein = records(ideal, 0, "") + records(ideal, 1, "");
+  const Structure whole = read(protein, true);
+  const Structure s =
+      read(records(ideal, 0, "") + atom(" DN ", "ALA", 1, {0.1, 0, 0}, "EP") + atom("LPOA", "ALA", 1, {0.2, 0, 0}, "") +
+               records(ideal, 1, "") + atom(" LP1", "ALA", 2, {0.3, 0, 0}, ""),
+           true);
+  EXPECT_EQ(s.models, whole.models);
+  EXPECT_EQ(s.bonds.size(), whole.bonds.size());
+  EXPECT_EQ(s.atom_records, whole.atom_records + 3);
+  EXPECT_TRUE(has_note(s, "3 virtual sites, which have no mass, are left out (first: A:ALA1:DN)"));
+}
+
 TEST(Elements, OfCharmmIonsComeFromTheirNames) {
   const Structure ideal = build_ideal_protein("A", "C");
   const Structure s =

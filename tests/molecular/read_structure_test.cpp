@@ -11,8 +11,10 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "hinge/core/error.hpp"
 #include "molecular/test_files.hpp"
@@ -91,6 +93,95 @@ TEST(ReadStructure, RefusesEmptyMissingAndCutShortFiles) {
   EXPECT_THROW(read_structure("/nonexistent/file.pdb"), LoadError);
   EXPECT_THROW(read_structure("/tmp"), LoadError);
   EXPECT_NE(refusal("data_x\nloop_\n_atom_site.id\n_atom_site.type_symbol\n1 C 2\n", {}, ".cif"), "");
+}
+
+/// Returns an mmCIF file of alanine with these columns of atom_site.
+std::string cif_of_alanine(const std::vector<std::string>& columns) {
+  const std::vector<std::map<std::string, std::string>> atoms = {
+      {{"id", "1"}, {"type_symbol", "N"}, {"label_atom_id", "N"}, {"Cartn_x", "0.000"}, {"Cartn_y", "0.000"}},
+      {{"id", "2"}, {"type_symbol", "C"}, {"label_atom_id", "CA"}, {"Cartn_x", "1.458"}, {"Cartn_y", "0.000"}},
+      {{"id", "3"}, {"type_symbol", "C"}, {"label_atom_id", "C"}, {"Cartn_x", "2.009"}, {"Cartn_y", "1.420"}},
+      {{"id", "4"}, {"type_symbol", "O"}, {"label_atom_id", "O"}, {"Cartn_x", "1.251"}, {"Cartn_y", "2.390"}}};
+  const std::map<std::string, std::string> shared = {
+      {"group_PDB", "ATOM"}, {"label_alt_id", "."}, {"label_comp_id", "ALA"},   {"label_asym_id", "A"},
+      {"label_seq_id", "7"}, {"Cartn_z", "0.0"},    {"occupancy", "1.0"},       {"B_iso_or_equiv", "12.5"},
+      {"auth_asym_id", "B"}, {"auth_seq_id", "7"},  {"pdbx_PDB_model_num", "1"}};
+  std::string text = "data_x\nloop_\n";
+  for (const std::string& column : columns) text += "_atom_site." + column + "\n";
+  for (const auto& atom : atoms) {
+    for (const std::string& column : columns)
+      text += (atom.contains(column) ? atom.at(column) : shared.at(column)) + " ";
+    text += "\n";
+  }
+  return text;
+}
+
+TEST(ReadStructure, ReadsMmcifWithoutTheColumnsThatSomeProgramsLeaveOut) {
+  const std::vector<std::string> all = {
+      "group_PDB",     "id",           "type_symbol",    "label_atom_id",     "label_alt_id", "label_comp_id",
+      "label_asym_id", "label_seq_id", "Cartn_x",        "Cartn_y",           "Cartn_z",      "occupancy",
+      "auth_asym_id",  "auth_seq_id",  "B_iso_or_equiv", "pdbx_PDB_model_num"};
+  const TemporaryFile whole_file(cif_of_alanine(all), ".cif");
+  const Structure whole = read_structure(whole_file.path());
+  ASSERT_EQ(whole.atoms.size(), 4U);
+  const auto without = [&](std::vector<std::string> left_out) {
+    std::vector<std::string> columns;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(columns), [&](const std::string& column) {
+      return std::find(left_out.begin(), left_out.end(), column) == left_out.end();
+    });
+    return cif_of_alanine(columns);
+  };
+  // The second: what PyMOL writes.
+  for (const std::vector<std::string>& left_out :
+       std::vector<std::vector<std::string>>{{"group_PDB"},
+                                             {"auth_seq_id"},
+                                             {"label_seq_id"},
+                                             {"id"},
+                                             {"type_symbol"},
+                                             {"label_alt_id"},
+                                             {"label_asym_id"},
+                                             {"pdbx_PDB_model_num"},
+                                             {"occupancy", "B_iso_or_equiv"}}) {
+    SCOPED_TRACE(left_out.front());
+    const TemporaryFile file(without(left_out), ".cif");
+    const Structure s = read_structure(file.path());
+    ASSERT_EQ(s.atoms.size(), 4U);
+    EXPECT_EQ(s.models, whole.models);
+    EXPECT_EQ(s.bonds.size(), whole.bonds.size());
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      EXPECT_EQ(label(s, i), label(whole, i));
+      EXPECT_EQ(s.atoms[i].element, whole.atoms[i].element);
+    }
+  }
+  EXPECT_EQ(refusal(without({"label_seq_id", "auth_seq_id"}), {}, ".cif"),
+            ": has no _atom_site.auth_seq_id and no _atom_site.label_seq_id, expected it for each atom");
+  EXPECT_EQ(refusal(without({"Cartn_y"}), {}, ".cif"), ": has no _atom_site.Cartn_y, expected it for each atom");
+}
+
+TEST(ReadStructure, ReadsTheOneAtomOfMmcifWithoutALoop) {
+  const TemporaryFile file(
+      "data_x\n_atom_site.type_symbol ZN\n_atom_site.label_atom_id ZN\n_atom_site.label_comp_id ZN\n"
+      "_atom_site.label_seq_id 5\n_atom_site.Cartn_x 1\n_atom_site.Cartn_y 2\n_atom_site.Cartn_z 3\n",
+      ".cif");
+  const Structure s = read_structure(file.path());
+  ASSERT_EQ(s.atoms.size(), 1U);
+  EXPECT_EQ(label(s, 0), "_:ZN5:ZN");
+  EXPECT_EQ(s.models.front().front(), Vec3(1, 2, 3));
+}
+
+TEST(ReadStructure, SaysWhatAFileWithoutAtomsIs) {
+  EXPECT_EQ(refusal("data_x\n_cell.length_a 1\n", {}, ".cif"),
+            ": has no atoms, expected a CIF file with the category atom_site");
+  EXPECT_EQ(refusal("data_ATP\nloop_\n_chem_comp_atom.comp_id\n_chem_comp_atom.atom_id\nATP PG\n", {}, ".cif"),
+            ": has no atoms of a structure (atom_site), only components, which --components takes");
+  EXPECT_EQ(refusal("BZh91AY&SY"), ": is packed by bzip2, expected text, plain or gzipped");
+  EXPECT_EQ(refusal("\xfd"
+                    "7zXZ"),
+            ": is packed by xz, expected text, plain or gzipped");
+  EXPECT_EQ(refusal("PK\x03\x04"), ": is a zip archive, expected text, plain or gzipped");
+  EXPECT_EQ(refusal("\x83\xa7"
+                    "encoder"),
+            ": is BinaryCIF, expected text, plain or gzipped");
 }
 
 TEST(ReadStructure, RefusesWholeNumbersThatNoIntHolds) {

@@ -75,6 +75,12 @@ bool is_dummy(const RawResidue& residue) {
   return name == "UNK" || name == "UNX" || name == "DUM";
 }
 
+bool is_virtual_site(const RawAtom& atom, const RawResidue& residue, ResidueKind kind) {
+  if (atom.is_virtual) return true;
+  if (!atom.element.empty()) return false;
+  return kind == ResidueKind::water ? element_by_name(atom, residue).empty() : atom.name.rfind("LP", 0) == 0;
+}
+
 std::string element_by_name(const RawAtom& atom, const RawResidue& residue) {
   const std::string_view name = atom.name;
   for (const auto& [ion, element] : charmm_ions)

@@ -122,7 +122,10 @@ class Assembler {
     Residue residue{raw.name, raw.number, raw.insertion_code, 0, static_cast<std::uint32_t>(s_.atoms.size()), 0, kind};
     std::map<std::string, int> seen;
     for (const RawAtom& atom : raw.atoms) {
-      if (kind == ResidueKind::water && element_by_name(atom, raw).empty()) continue;  // virtual site of a water model
+      if (is_virtual_site(atom, raw, kind)) {
+        if (first && ++virtual_sites_ == 1) first_virtual_site_ = name_of(raw) + ":" + atom.name;
+        continue;
+      }
       if (atom.altloc != '\0' && atom.altloc != altloc) {
         if (first) conformers_->count_dropped(name_of(raw) + ":" + atom.name + " at " + atom.altloc);
         continue;
@@ -173,6 +176,9 @@ class Assembler {
 
   void say_repairs() {
     if (std::string note = conformers_->note(); !note.empty()) s_.notes.push_back(std::move(note));
+    if (virtual_sites_ > 0)
+      s_.notes.push_back(std::to_string(virtual_sites_) +
+                         " virtual sites, which have no mass, are left out (first: " + first_virtual_site_ + ")");
     if (repaired_ > 0)
       s_.notes.push_back("elements of " + std::to_string(repaired_) +
                          " atoms taken from their names (first: " + first_repair_ + ")");
@@ -242,6 +248,8 @@ class Assembler {
   Structure s_;
   std::string difference_;  ///< first atom of the current model that differs from the first model's
   std::optional<ConformerChoice> conformers_;
+  std::size_t virtual_sites_ = 0;
+  std::string first_virtual_site_;
   std::size_t repaired_ = 0;
   std::string first_repair_;
 };

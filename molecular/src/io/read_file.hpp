@@ -61,6 +61,7 @@ struct RawAtom {
   char altloc = '\0';
   int serial = 0;
   std::uint32_t record = 0;  ///< index among the atom records of its model
+  bool is_virtual = false;   ///< the file gives the element EP (extra point)
   double occupancy = 1.0;
   double b_factor = 0.0;
   Vec3 position = Vec3::Zero();  ///< angstrom
@@ -121,12 +122,22 @@ struct RawFile {
   std::vector<std::string> notes;
 };
 
-/// A PDB file's text for the parser, and the data that are withheld from it.
+/// Data of atoms that are withheld from the parser. gemmi merges split residues and chains and loses the order of
+/// atoms, so it gets indices from 0 as serial numbers.
+struct AtomIds {
+  std::vector<int> serials;                ///< serial number in the file, by index
+  std::vector<std::size_t> virtual_sites;  ///< indices of atoms with the element EP, ascending
+  std::vector<std::size_t> labels;         ///< mmCIF only: a number for each label_asym_id and label_seq_id
+  /// PDB only, per model: the number of its MODEL record, otherwise its position from 1.
+  std::vector<int> model_numbers;
+};
+
+/// A PDB file's text for the parser.
 struct PreparedPdb {
   std::string text;
-  std::vector<int> serials;        ///< serial number in the file of each atom record
-  std::vector<int> model_numbers;  ///< per model: the number of its MODEL record, otherwise its position from 1
+  AtomIds ids;
 };
+
 /// Numbers atoms from 0, cuts lines after `columns` and removes MODEL records. gemmi would start a new line after some
 /// characters beyond its own limit. It reads 0 and a blank as the same model number, and counts models without MODEL
 /// records by itself. Lengths at the end of LINK and SSBOND records are removed as well: gemmi would read beyond the
@@ -157,6 +168,10 @@ std::vector<Component> parse_components(const std::string& bytes, const std::str
 /// is a ligand (other) if it is not bonded to a neighbour and no residue of the polymer follows it in its chain (SAH,
 /// AMP).
 ResidueKind residue_kind(const std::vector<RawResidue>& residues, std::size_t r);
+
+/// True for a massless particle of a force field: element EP (extra point), without an element and named as a lone pair
+/// (LP...), or an atom of a water without an element.
+bool is_virtual_site(const RawAtom& atom, const RawResidue& residue, ResidueKind kind);
 
 /// True for an unidentified atom or ion: residue UNX, or one atom named UNK, UNX or DUM.
 bool is_dummy(const RawResidue& residue);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parser. The only file that includes gemmi, which takes long to compile.
+// The parser. The only file that includes gemmi's parsers, which take long to compile.
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -21,6 +21,7 @@
 #include <gemmi/resinfo.hpp>
 
 #include "hinge/core/error.hpp"
+#include "io/prepare_cif.hpp"
 #include "io/read_file.hpp"
 
 namespace hinge::molecular {
@@ -56,13 +57,6 @@ ResidueKind kind_of(const std::string& name) {
   return ResidueKind::other;
 }
 
-/// gemmi merges split residues and chains and loses the order of atoms, so it gets indices from 0 as serial numbers.
-struct AtomIds {
-  std::vector<int> serials;         ///< serial number in the file, by index
-  std::vector<std::size_t> labels;  ///< mmCIF only: a number for each label_asym_id and label_seq_id
-  std::vector<int> model_numbers;   ///< PDB only
-};
-
 RawModel convert(const gemmi::Model& model, int number, const AtomIds& ids) {
   RawModel raw;
   raw.number = number;
@@ -87,6 +81,7 @@ RawModel convert(const gemmi::Model& model, int number, const AtomIds& ids) {
         if (atom.element != gemmi::El::X) a.element = atom.element == gemmi::El::D ? "H" : atom.element.name();
         a.altloc = atom.altloc;
         const auto id = static_cast<std::size_t>(atom.serial);
+        a.is_virtual = std::binary_search(ids.virtual_sites.begin(), ids.virtual_sites.end(), id);
         a.serial = ids.serials.at(id);
         a.record = static_cast<std::uint32_t>(atom.serial - first);
         a.occupancy = or_zero(atom.occ);
@@ -100,41 +95,6 @@ RawModel convert(const gemmi::Model& model, int number, const AtomIds& ids) {
                      [](const RawResidue& a, const RawResidue& b) { return a.atoms[0].record < b.atoms[0].record; });
   }
   return raw;
-}
-
-/// Keeps only the categories that are read here: gemmi would refuse a file for errors in others, or expand them.
-/// gemmi's integers wrap around outside the range of int; such values are refused.
-void keep_what_is_read(gemmi::cif::Document& document) {
-  const auto is_read = [](const std::string& tag) {
-    for (const char* category :
-         {"_atom_site.", "_struct_conf.", "_struct_conn.", "_struct_sheet.", "_struct_sheet_range."})
-      if (gemmi::istarts_with(tag, category)) return true;
-    return false;
-  };
-  const auto check = [](const std::string& tag, const std::string& value) {
-    if (value.size() <= std::numeric_limits<int>::digits10) return;  // nearly all values
-    const std::string text = gemmi::cif::as_string(value);
-    std::size_t first = std::min(text.find_first_not_of(" \t\n\v\f\r"), text.size());
-    if (first < text.size() && (text[first] == '-' || text[first] == '+')) ++first;
-    std::size_t end = first;
-    while (end < text.size() && text[end] >= '0' && text[end] <= '9') ++end;
-    // Whatever follows: gemmi also takes the digits before a fraction or a letter as a number.
-    if (end - first > std::numeric_limits<int>::digits10)
-      throw std::runtime_error(tag + " is " + text + ", expected a number that starts with at most " +
-                               std::to_string(std::numeric_limits<int>::digits10) + " digits");
-  };
-  for (gemmi::cif::Block& block : document.blocks)
-    for (gemmi::cif::Item& item : block.items) {
-      if (item.type == gemmi::cif::ItemType::Pair && is_read(item.pair[0])) {
-        check(item.pair[0], item.pair[1]);
-      } else if (item.type == gemmi::cif::ItemType::Loop &&
-                 std::any_of(item.loop.tags.begin(), item.loop.tags.end(), is_read)) {
-        for (std::size_t k = 0; k < item.loop.values.size(); ++k)
-          check(item.loop.tags[k % item.loop.tags.size()], item.loop.values[k]);
-      } else {
-        item.erase();
-      }
-    }
 }
 
 /// Converts wwPDB's value_order or the type of a refinement dictionary; the first letters of the word decide.
@@ -210,28 +170,12 @@ std::optional<RecordedBonds> recorded_of(gemmi::cif::Document& document) {
   throw LoadError(what.find(path) != std::string::npos ? what : path + ": " + what);
 }
 
-/// Numbers the atoms from 0. A B factor that is no number becomes 0, as in PDB files; gemmi would take 50.
-void prepare_atoms(gemmi::cif::Document& document, AtomIds& ids) {
-  std::map<std::pair<std::string, std::string>, std::size_t> labels;
-  for (gemmi::cif::Block& block : document.blocks) {
-    gemmi::cif::Table atoms = block.find("_atom_site.", {"id", "?label_asym_id", "?label_seq_id", "?B_iso_or_equiv"});
-    for (auto row : atoms) {
-      ids.serials.push_back(gemmi::string_to_int(row[0], false));
-      row[0] = std::to_string(ids.serials.size() - 1);
-      if (row.has(3) && !std::isfinite(gemmi::cif::as_number(row[3]))) row[3] = "0";
-      const auto value = [&](std::size_t column) { return row.has(column) ? row[column] : std::string(); };
-      ids.labels.push_back(labels.emplace(std::pair(value(1), value(2)), labels.size()).first->second);
-    }
-  }
-}
-
 gemmi::Structure parse(const std::string& bytes, const std::string& path, bool cif, RawFile& raw, AtomIds& ids) {
   if (cif) {
     gemmi::cif::Document document = gemmi::cif::read_memory(bytes.data(), bytes.size(), path.c_str());
     raw.components = components_of(document, path);
     raw.recorded = recorded_of(document);
-    keep_what_is_read(document);
-    prepare_atoms(document, ids);
+    ids = prepare_cif(document);
     // NOLINTNEXTLINE(performance-move-const-arg): gemmi 0.6 and later take the document
     return gemmi::make_structure(std::move(document));
   }
@@ -239,8 +183,7 @@ gemmi::Structure parse(const std::string& bytes, const std::string& path, bool c
   const auto read = [&](int columns) {
     options.max_line_length = columns;
     PreparedPdb pdb = prepare_pdb(bytes, static_cast<std::size_t>(columns));
-    ids.serials = std::move(pdb.serials);
-    ids.model_numbers = std::move(pdb.model_numbers);
+    ids = std::move(pdb.ids);
     return gemmi::read_pdb_from_memory(pdb.text.data(), pdb.text.size(), path, options);
   };
   try {
