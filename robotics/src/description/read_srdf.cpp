@@ -190,13 +190,14 @@ class SrdfReader {
       const auto found = joint(element);
       if (!found) return;
       if (!named.insert(name_of(element)).second) twice_.add(element, name_of(element));
+      const auto position = independent_.find(*found);
+      if (position == independent_.end()) return;  // a fixed or mimicking joint: its value has no effect
       const auto values = parse_numbers(file_.attribute(element, "value"));
       if (!values || values->size() != 1 || !(std::abs(values->front()) <= largest_joint_value))
         file_.refuse(element.GetLineNum(), "joint '" + name_of(element) + "' has value \"" +
                                                element.Attribute("value") +
                                                "\", expected one finite number of at most 1e15");
-      const auto position = independent_.find(*found);
-      if (position != independent_.end()) configuration.values.emplace_back(position->second, values->front());
+      configuration.values.emplace_back(position->second, values->front());
     });
     srdf_.configurations.push_back(std::move(configuration));
   }
