@@ -95,12 +95,14 @@ TEST(ResidueKind, KeepsAModifiedResidueBetweenTwoBreaks) {
   EXPECT_TRUE(has_note(s, "break between ALA1 and SEP2"));
 }
 
-TEST(ResidueKind, LeavesOutAnAtomOfUnknownKindAndSaysSo) {
+TEST(ResidueKind, LeavesOutDummyAtomsAndSaysSo) {
   const Structure ideal = build_ideal_protein("AA", "CC");
   const Structure s =
-      read(records(ideal, 0, "") + records(ideal, 1, "") + atom("UNK", "UNX", 9, {20, 0, 0}, "X", "HETATM"), true);
+      read(records(ideal, 0, "") + records(ideal, 1, "") + atom("UNK", "UNX", 9, {20, 0, 0}, "X", "HETATM") +
+               atom("N", "DUM", 10, {25, 0, 0}, "N", "HETATM") + atom("O", "DUM", 10, {30, 0, 0}, "O", "HETATM"),
+           true);
   EXPECT_EQ(s.residues.size(), 2U);
-  EXPECT_TRUE(has_note(s, "A:UNX9: an atom of unknown kind, left out"));
+  EXPECT_TRUE(has_note(s, "3 dummy atoms are left out (first: A:UNX9)"));
 }
 
 // Drude models have a particle DN near N, and lone pairs. As an atom, DN would be a deuterium that overlaps N.

@@ -69,7 +69,7 @@ ResidueKind residue_kind(const std::vector<RawResidue>& residues, std::size_t r)
 }
 
 bool is_dummy(const RawResidue& residue) {
-  if (residue.name == "UNX") return true;
+  if (residue.name == "UNX" || residue.name == "DUM") return true;
   if (residue.atoms.size() != 1) return false;
   const std::string& name = residue.atoms.front().name;
   return name == "UNK" || name == "UNX" || name == "DUM";

@@ -53,6 +53,17 @@ class Assembler {
   }
 
  private:
+  /// Atoms that share a note.
+  struct Counted {
+    std::size_t number = 0;
+    std::string first{};
+
+    void add(std::string name, std::size_t atoms = 1) {
+      if (number == 0) first = std::move(name);
+      number += atoms;
+    }
+  };
+
   /// Keeps hetero atoms in a model without a polymer, and waters in a model of waters alone.
   void keep_what_is_there(const RawModel& model) {
     bool has_hetero = false;
@@ -113,8 +124,8 @@ class Assembler {
       return;
     }
     if (is_dummy(raw)) {
-      if (first) s_.notes.push_back(name_of(raw) + ": an atom of unknown kind, left out");
       if (first) s_.hetero_dropped += raw.atoms.size();
+      if (first) dummies_.add(name_of(raw), raw.atoms.size());
       return;
     }
     const char altloc = conformers_->altloc_of(raw);
@@ -123,7 +134,7 @@ class Assembler {
     std::map<std::string, int> seen;
     for (const RawAtom& atom : raw.atoms) {
       if (is_virtual_site(atom, raw, kind)) {
-        if (first && ++virtual_sites_ == 1) first_virtual_site_ = name_of(raw) + ":" + atom.name;
+        if (first) virtual_sites_.add(name_of(raw) + ":" + atom.name);
         continue;
       }
       if (atom.altloc != '\0' && atom.altloc != altloc) {
@@ -168,20 +179,21 @@ class Assembler {
     if (element.empty())
       throw LoadError(where +
                       ": neither the file nor the atom name gives the element, expected an element in the file");
-    if (element != atom.element && first && ++repaired_ == 1)
-      first_repair_ =
-          name_of(residue) + ":" + atom.name + ", in the file " + (atom.element.empty() ? "none" : atom.element);
+    if (element != atom.element && first)
+      repaired_.add(name_of(residue) + ":" + atom.name + ", in the file " +
+                    (atom.element.empty() ? "none" : atom.element));
     return element;
   }
 
   void say_repairs() {
     if (std::string note = conformers_->note(); !note.empty()) s_.notes.push_back(std::move(note));
-    if (virtual_sites_ > 0)
-      s_.notes.push_back(std::to_string(virtual_sites_) +
-                         " virtual sites, which have no mass, are left out (first: " + first_virtual_site_ + ")");
-    if (repaired_ > 0)
-      s_.notes.push_back("elements of " + std::to_string(repaired_) +
-                         " atoms taken from their names (first: " + first_repair_ + ")");
+    const auto say = [&](const Counted& counted, const std::string& before, const std::string& after) {
+      if (counted.number > 0)
+        s_.notes.push_back(before + std::to_string(counted.number) + after + " (first: " + counted.first + ")");
+    };
+    say(dummies_, "", " dummy atoms are left out");
+    say(virtual_sites_, "", " virtual sites, which have no mass, are left out");
+    say(repaired_, "elements of ", " atoms taken from their names");
   }
 
   using Key = std::tuple<std::string, int, char>;
@@ -248,10 +260,7 @@ class Assembler {
   Structure s_;
   std::string difference_;  ///< first atom of the current model that differs from the first model's
   std::optional<ConformerChoice> conformers_;
-  std::size_t virtual_sites_ = 0;
-  std::string first_virtual_site_;
-  std::size_t repaired_ = 0;
-  std::string first_repair_;
+  Counted dummies_, virtual_sites_, repaired_;
 };
 
 }  // namespace

@@ -173,7 +173,8 @@ ResidueKind residue_kind(const std::vector<RawResidue>& residues, std::size_t r)
 /// (LP...), or an atom of a water without an element.
 bool is_virtual_site(const RawAtom& atom, const RawResidue& residue, ResidueKind kind);
 
-/// True for an unidentified atom or ion: residue UNX, or one atom named UNK, UNX or DUM.
+/// True for an unidentified atom or ion (residue UNX, or one atom named UNK, UNX or DUM), and for dummy atoms (residue
+/// DUM), with which OPM marks the borders of a membrane.
 bool is_dummy(const RawResidue& residue);
 
 /// Returns the element: for residues in the tables by the atom's name, otherwise from the file, otherwise by name;
