@@ -132,6 +132,20 @@ TEST(Elements, OfCharmmIonsComeFromTheirNames) {
   EXPECT_EQ(s.atoms[s.residues[3].first_atom].element, "Ca");
 }
 
+// Files without elements: the columns of " CA ", " FE " and " BR1" tell carbon, fluorine and boron.
+TEST(Elements, OfIonsAndHalogensComeFromTheirNames) {
+  const Structure ideal = build_ideal_protein("A", "C");
+  const Structure s =
+      read(records(ideal, 0, "") + atom(" CA", "CA", 2, {20, 0, 0}, "", "HETATM") +
+               atom(" ZN", "ZN2", 3, {30, 0, 0}, "", "HETATM") + atom(" FE", "HEM", 4, {40, 0, 0}, "", "HETATM") +
+               atom(" NA", "HEM", 4, {42, 0, 0}, "", "HETATM") + atom(" BR1", "LGD", 5, {50, 0, 0}, "", "HETATM") +
+               atom(" CL1", "LGD", 6, {60, 0, 0}, "C", "HETATM"),
+           true);
+  std::vector<std::string> elements;
+  for (std::uint32_t i = s.residues[1].first_atom; i < s.atoms.size(); ++i) elements.push_back(s.atoms[i].element);
+  EXPECT_EQ(elements, (std::vector<std::string>{"Ca", "Zn", "Fe", "N", "Br", "C"}));
+}
+
 TEST(Bonds, JoinAMetalToItsDonorsOnly) {
   // Calcium bound by a bidentate carboxylate: 2.4 A from both oxygens, 2.75 A from the carbon.
   const std::string ligand = atom(" C", "ACT", 2, {20, 0, 0}, "C", "HETATM") +

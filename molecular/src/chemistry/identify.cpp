@@ -47,6 +47,19 @@ bool is_in_polymer(const std::vector<RawResidue>& residues, std::size_t r) {
   return false;
 }
 
+/// True for one ion whose residue is called as its element, with or without a digit: ZN, ZN2, FE2. In files without
+/// elements, the columns of its name may tell another one: ` CA ` is a carbon, `CA  ` is calcium.
+bool is_ion(const RawResidue& residue) {
+  static constexpr std::array<std::string_view, 25> symbols{"LI", "NA", "MG", "AL", "CL", "CA", "CR", "MN", "FE",
+                                                            "CO", "NI", "CU", "ZN", "BR", "RB", "SR", "AG", "CD",
+                                                            "CS", "BA", "PT", "AU", "HG", "PB", "EU"};
+  const std::string& name = residue.atoms.front().name;
+  const std::string_view rest = std::string_view(residue.name).substr(std::min(name.size(), residue.name.size()));
+  return std::find(symbols.begin(), symbols.end(), name) != symbols.end() && residue.name.starts_with(name) &&
+         (rest.empty() || (rest.size() == 1 && rest[0] >= '1' && rest[0] <= '9')) &&
+         std::all_of(residue.atoms.begin(), residue.atoms.end(), [&](const RawAtom& a) { return a.name == name; });
+}
+
 /// CHARMM's names of monatomic ions; their first letters are symbols of other elements.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 5> charmm_ions{
     {{"CLA", "Cl"}, {"SOD", "Na"}, {"POT", "K"}, {"CAL", "Ca"}, {"CES", "Cs"}}};
@@ -76,7 +89,7 @@ bool is_dummy(const RawResidue& residue) {
 }
 
 bool is_virtual_site(const RawAtom& atom, const RawResidue& residue, ResidueKind kind) {
-  if (atom.is_virtual) return true;
+  if (atom.element_field == ElementField::extra_point) return true;
   if (!atom.element.empty()) return false;
   return kind == ResidueKind::water ? element_by_name(atom, residue).empty() : atom.name.rfind("LP", 0) == 0;
 }
@@ -85,12 +98,16 @@ std::string element_by_name(const RawAtom& atom, const RawResidue& residue) {
   const std::string_view name = atom.name;
   for (const auto& [ion, element] : charmm_ions)
     if (name == ion && residue.name == ion) return std::string(element);
+  if (is_ion(residue)) return {name[0], static_cast<char>(name[1] - 'A' + 'a')};
   const std::size_t letter = name.find_first_not_of("0123456789");
   const char c = letter == std::string_view::npos ? '\0' : name[letter];
   if (find_residue_template(residue.name) != nullptr || find_nucleotide_template(residue.name) != nullptr) {
     if (residue.name == "MSE" && name == "SE") return "Se";
     if (std::string_view("CNOSHP").find(c) != std::string_view::npos) return {c};
   }
+  if (atom.element_field == ElementField::blank)
+    for (const std::string_view symbol : {"CL", "BR", "FE", "MG", "MN", "ZN"})
+      if (name.starts_with(symbol)) return {symbol[0], static_cast<char>(symbol[1] - 'A' + 'a')};
   if (!atom.element.empty()) return atom.element;
   if (std::string_view("CNOSPHF").find(c) != std::string_view::npos) return {c};
   return c == 'D' ? "H" : "";

@@ -123,7 +123,9 @@ AtomIds prepare_cif(gemmi::cif::Document& document) {
     gemmi::cif::Table atoms =
         block.find(atom_site, {"id", "type_symbol", "B_iso_or_equiv", "?label_asym_id", "?label_seq_id"});
     for (auto row : atoms) {
-      if (row[1] == "EP") ids.virtual_sites.push_back(ids.serials.size());
+      ids.elements.push_back(row[1] == "EP"                   ? ElementField::extra_point
+                             : row[1] == "?" || row[1] == "." ? ElementField::blank
+                                                              : ElementField::symbol);
       ids.serials.push_back(gemmi::string_to_int(row[0], false));
       row[0] = std::to_string(ids.serials.size() - 1);
       // A B factor that is no number becomes 0, as in PDB files; gemmi would take 50.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // prepare_pdb: the text of a PDB file as the parser receives it.
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstddef>
 #include <stdexcept>
@@ -19,6 +20,14 @@ namespace {
 bool is_record(std::string_view line, std::string_view name) {
   return line.size() >= name.size() &&
          std::equal(name.begin(), name.end(), line.begin(), [](char a, char b) { return a == (b & ~0x20); });
+}
+
+/// gemmi guesses the element if columns 77-78 have no letter.
+ElementField element_field(std::string_view line) {
+  const std::string_view field = line.substr(std::min<std::size_t>(76, line.size()), 2);
+  if (field == "EP") return ElementField::extra_point;
+  const bool has_letter = std::any_of(field.begin(), field.end(), [](unsigned char c) { return std::isalpha(c) != 0; });
+  return has_letter ? ElementField::symbol : ElementField::blank;
 }
 
 }  // namespace
@@ -58,7 +67,7 @@ PreparedPdb prepare_pdb(const std::string& text, std::size_t columns) {
       if (serials.size() == most_atoms)
         throw std::runtime_error("more than " + std::to_string(most_atoms) +
                                  " atoms, expected an mmCIF file for so many atoms");
-      if (line.size() >= 78 && line.substr(76, 2) == "EP") result.ids.virtual_sites.push_back(serials.size());
+      result.ids.elements.push_back(element_field(line));
       const std::string number = hybrid36(serials.size());
       serials.push_back(read_hybrid36(line.substr(6, 5)).value_or(0));
       kept.replace(kept.size() - line.size() + 6, 5, std::string(5 - number.size(), ' ') + number);

@@ -54,14 +54,17 @@ Vec3 read_pdb_coordinates(std::string_view line, const std::string& path, std::s
 void check_pdb(std::string_view text, const std::string& path, std::size_t number = 0,
                std::vector<std::string>* notes = nullptr);
 
+/// What a file has in the place of an atom's element. extra_point: EP, a massless particle.
+enum class ElementField : std::uint8_t { symbol, blank, extra_point };
+
 /// An atom as in the file, before conformers are chosen.
 struct RawAtom {
   std::string name;
-  std::string element;  ///< empty: the file has none, or an unknown one
+  std::string element;  ///< of the file; if that is blank, as the name's columns tell; empty: unknown
+  ElementField element_field = ElementField::symbol;
   char altloc = '\0';
   int serial = 0;
   std::uint32_t record = 0;  ///< index among the atom records of its model
-  bool is_virtual = false;   ///< the file gives the element EP (extra point)
   double occupancy = 1.0;
   double b_factor = 0.0;
   Vec3 position = Vec3::Zero();  ///< angstrom
@@ -125,9 +128,9 @@ struct RawFile {
 /// Data of atoms that are withheld from the parser. gemmi merges split residues and chains and loses the order of
 /// atoms, so it gets indices from 0 as serial numbers.
 struct AtomIds {
-  std::vector<int> serials;                ///< serial number in the file, by index
-  std::vector<std::size_t> virtual_sites;  ///< indices of atoms with the element EP, ascending
-  std::vector<std::size_t> labels;         ///< mmCIF only: a number for each label_asym_id and label_seq_id
+  std::vector<int> serials;            ///< serial number in the file, by index
+  std::vector<ElementField> elements;  ///< by index
+  std::vector<std::size_t> labels;     ///< mmCIF only, by index: a number for each label_asym_id and label_seq_id
   /// PDB only, per model: the number of its MODEL record, otherwise its position from 1.
   std::vector<int> model_numbers;
 };
@@ -177,8 +180,8 @@ bool is_virtual_site(const RawAtom& atom, const RawResidue& residue, ResidueKind
 /// DUM), with which OPM marks the borders of a membrane.
 bool is_dummy(const RawResidue& residue);
 
-/// Returns the element: for residues in the tables by the atom's name, otherwise from the file, otherwise by name;
-/// empty if unknown.
+/// Returns the element: of ions and of residues in the tables by the atom's name, otherwise from the file, otherwise by
+/// name; empty if unknown.
 std::string element_by_name(const RawAtom& atom, const RawResidue& residue);
 
 /// Describes the first atom that differs by name, residue number, insertion code or order; empty if there is none.

@@ -81,7 +81,7 @@ RawModel convert(const gemmi::Model& model, int number, const AtomIds& ids) {
         if (atom.element != gemmi::El::X) a.element = atom.element == gemmi::El::D ? "H" : atom.element.name();
         a.altloc = atom.altloc;
         const auto id = static_cast<std::size_t>(atom.serial);
-        a.is_virtual = std::binary_search(ids.virtual_sites.begin(), ids.virtual_sites.end(), id);
+        a.element_field = ids.elements.at(id);
         a.serial = ids.serials.at(id);
         a.record = static_cast<std::uint32_t>(atom.serial - first);
         a.occupancy = or_zero(atom.occ);
