@@ -188,12 +188,13 @@ TEST(BondsByDistance, AreRefusedWithoutRoomOrWithTheWrongLengthOrAngles) {
   refused(residue("ALA", 'A', {{"CA", -0.541, 1.322, 0.4}, {"CB", 0.0, 0.0, 0.0}}) + residue("LIG", 'B', acyl(1.5)));
 }
 
-/// Returns CB and SG of two cysteines, with SG 2.05 A apart. bent: the angle at both sulphurs is 104 degrees, otherwise
-/// one is 180.
-std::string cysteines(bool bent) {
-  const std::vector<Placed> second = bent ? std::vector<Placed>{{"CB", 2.488, 0.0, 1.756}, {"SG", 2.05, 0.0, 0.0}}
-                                          : std::vector<Placed>{{"CB", 3.86, 0.0, 0.0}, {"SG", 2.05, 0.0, 0.0}};
-  return residue("CYS", 'A', {{"CB", -0.438, 1.756, 0.0}, {"SG", 0.0, 0.0, 0.0}}) + residue("CYS", 'B', second);
+/// Returns CB and SG of two cysteines. length: from SG to SG, angstrom. bent: the angle at both sulphurs is 104
+/// degrees, otherwise one is 180.
+std::string cysteines(bool bent, double length = 2.05) {
+  const Placed sulphur{"SG", length, 0.0, 0.0};
+  const Placed carbon = bent ? Placed{"CB", length + 0.438, 0.0, 1.756} : Placed{"CB", length + 1.81, 0.0, 0.0};
+  return residue("CYS", 'A', {{"CB", -0.438, 1.756, 0.0}, {"SG", 0.0, 0.0, 0.0}}) +
+         residue("CYS", 'B', {carbon, sulphur});
 }
 
 TEST(BondsByDistance, DisulphidesWithoutARecord) {
@@ -204,6 +205,9 @@ TEST(BondsByDistance, DisulphidesWithoutARecord) {
             1);
   EXPECT_NE(notes_of(s).find("A:CYS1:SG - B:CYS1:SG, 2.050 angstrom"), std::string::npos) << notes_of(s);
   EXPECT_TRUE(bonds_between(read(cysteines(false))).empty());
+  for (const auto& [length, bonds] :
+       {std::pair(1.79, 0U), std::pair(1.81, 1U), std::pair(2.29, 1U), std::pair(2.31, 0U)})
+    EXPECT_EQ(bonds_between(read(cysteines(true, length))).size(), bonds) << length;
   EXPECT_TRUE(bonds_between(read(cysteines(true), BondSearch::recorded)).empty());
   // A third sulphur nearby finds no free partner.
   const std::string third = residue("CYS", 'C', {{"CB", -0.438, -1.756, 0.3}, {"SG", -2.0, -0.9, 0.2}});

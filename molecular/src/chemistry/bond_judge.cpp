@@ -20,6 +20,8 @@ namespace {
 /// Bond length minus the sum of covalent radii (angstrom). Between residues: C=N of a Schiff base -0.19, S-N and P-O of
 /// sulphonamides and phosphates -0.14; the longest known is +0.15 (1A4W, sulphonamide).
 constexpr double shortest_bond = -0.2, longest_bond = 0.2;
+/// Disulphides of crystals are down to 1.8 angstrom long.
+constexpr double shortest_disulphide = -0.3;
 /// Inside a residue, triple bonds have -0.32.
 constexpr double shortest_inside = -0.35;
 /// For metals, whose bonds vary more: Fe-O of oxymyoglobin -0.33, Ca-O up to +0.4 (the bound of BondList).
@@ -199,7 +201,7 @@ std::string BondJudge::refusal(std::uint32_t i, std::uint32_t j) const {
   if (is_metal(a)) return metal_refusal(i, j);
   if (is_metal(b)) return metal_refusal(j, i);
   const double excess = distance(i, j) - covalent_radius(a) - covalent_radius(b);
-  if (excess < shortest_bond) return "too close for a bond";
+  if (excess < (a == "S" && b == "S" ? shortest_disulphide : shortest_bond)) return "too close for a bond";
   if (excess > longest_bond) return "too far for a bond";
   if (is_any(a, {"N", "O"}) && is_any(b, {"N", "O"})) return "N and O of different residues form no bond";
   for (const std::uint32_t k : {i, j})
