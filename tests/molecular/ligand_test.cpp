@@ -273,6 +273,16 @@ TEST(Components, OfADictionaryThatOnlyShareTheNameAreNotUsed) {
   EXPECT_EQ(s.bonds.size(), 3U);
 }
 
+/// Its bonds are as long as bonds, but atoms that it knows are bonded otherwise: a truncated or reused name.
+TEST(Components, OfADictionaryThatLackBondsAreNotUsed) {
+  const Dictionary dictionary("LGD", component("LGD", "LGD C1 C2 SING N\nLGD C3 C7 SING N\nLGD C4 C8 SING N\n"));
+  const std::string atoms = hetatm(zigzag({1.53, 1.53, 1.53}), "LGD");
+  const Structure s = read(atoms, std::nullopt, dictionary.path());
+  EXPECT_EQ(source_of(s, "LGD"), "covalent radii");
+  EXPECT_TRUE(has_note(s, "0 of its 1 bonds are too long, and 2 are lacking"));
+  EXPECT_EQ(s.bonds.size(), 3U);
+}
+
 TEST(Components, LeaveAtomsTheyDoNotKnowToRadii) {
   const Structure s =
       read(hetatm(zigzag({1.53, 1.53, 1.53}), "LGD"), component("LGD", "LGD C1 C2 SING N\nLGD C2 C3 SING N\n"));
