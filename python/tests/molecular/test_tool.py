@@ -163,7 +163,7 @@ def test_walk(molecules, tmp_path):
 def test_relax(molecules, tmp_path):
     coordinates = tmp_path / "x.npy"
     told = biocd("relax", "1ubq", "--out", coordinates, ok=(0,))
-    c = hm.Checker(molecules("1ubq"), "chi")
+    c = hm.Checker(molecules("1ubq"), "all")
     found = c.relax()
     assert (found.collisions_before, found.collisions, found.restarts) == (1, 0, told["restarts"])
     assert c.positions(found.q[None]).tobytes() == np.load(coordinates).tobytes()
