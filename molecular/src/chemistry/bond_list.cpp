@@ -43,11 +43,15 @@ bool BondList::has(std::uint32_t i, std::uint32_t j) const {
   return seen_.contains(pair_key(std::min(i, j), std::max(i, j)));
 }
 
+double BondList::radii(std::uint32_t i, std::uint32_t j) const {
+  return covalent_radius(s_.atoms[i].element) + covalent_radius(s_.atoms[j].element);
+}
+
 bool BondList::within_radii(std::uint32_t i, std::uint32_t j) const {
   const std::string &a = s_.atoms[i].element, &b = s_.atoms[j].element;
   if (is_contact(a, b) || is_contact(b, a)) return false;
   const double d = distance(i, j);
-  return d > coincident_max && d < covalent_radius(a) + covalent_radius(b) + tolerance;
+  return d > coincident_max && d < radii(i, j) + tolerance;
 }
 
 std::optional<std::uint32_t> BondList::find(std::uint32_t r, std::string_view name) const {

@@ -27,6 +27,8 @@ class BondList {
 
   bool hydrogen(std::uint32_t i) const { return s_.atoms[i].element == "H"; }
   double distance(std::uint32_t i, std::uint32_t j) const { return std::sqrt(squared_norm(Vec3(x_[i] - x_[j]))); }
+  /// Sum of both covalent radii, angstrom.
+  double radii(std::uint32_t i, std::uint32_t j) const;
   /// True if the distance is below the covalent radii + tolerance. False for two copies of one atom, and for contacts
   /// of a metal ion across a ligand's oxygen.
   bool within_radii(std::uint32_t i, std::uint32_t j) const;

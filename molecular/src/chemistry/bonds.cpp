@@ -13,6 +13,7 @@
 #include "chemistry/bond_judge.hpp"
 #include "chemistry/bond_list.hpp"
 #include "chemistry/cell_grid.hpp"
+#include "chemistry/counted.hpp"
 #include "chemistry/residue_bonds.hpp"
 #include "chemistry/residue_table.hpp"
 #include "hinge/core/number_text.hpp"
@@ -95,8 +96,7 @@ class Perception {
   }
 
   void bond_recorded() {
-    std::size_t ignored = 0;
-    std::string first_ignored;
+    Counted ignored;
     for (const BondRecord& bond : s_.bond_records) {
       if (bond.conect && s_.atoms[bond.first].residue == s_.atoms[bond.second].residue) continue;  // in ResidueBonds
       const double d = bonds_.distance(bond.first, bond.second);
@@ -105,16 +105,14 @@ class Perception {
                                          : bonds_.within_radii(bond.first, bond.second) ||
                                                (metal && !bond.conect && d <= recorded_coordination_max);
       if (!holds) {
-        if (++ignored == 1) {
-          first_ignored = label(s_, bond.first) + " - " + label(s_, bond.second) + " is " + fixed_text(d, 2);
-        }
+        ignored.add([&] { return label(s_, bond.first) + " - " + label(s_, bond.second) + " is " + fixed_text(d, 2); });
         continue;
       }
       bonds_.add(bond.first, bond.second, origin_of(bond), bond.order);
     }
-    if (ignored > 0)
-      s_.notes.push_back("recorded bonds ignored because they are too long: " + std::to_string(ignored) +
-                         " (first: " + first_ignored + " angstrom)");
+    if (ignored.number > 0)
+      s_.notes.push_back("recorded bonds ignored because they are too long: " + std::to_string(ignored.number) +
+                         " (first: " + ignored.first + " angstrom)");
   }
 
   /// Adds bonds between residues that are known from their distance alone: disulphides, bonds that close a backbone,
@@ -129,13 +127,12 @@ class Perception {
     // Lengths closest to a typical bond's come first: each accepted bond uses up valences.
     std::stable_sort(found.begin(), found.end(),
                      [](const Candidate& a, const Candidate& b) { return a.misfit < b.misfit; });
-    std::size_t refused = 0;
-    std::string first_refused;
+    Counted refused;
     for (const Candidate& bond : found) {
       if (bonds_.has(bond.first, bond.second)) continue;
-      std::string reason = judge.refusal(bond.first, bond.second);
+      const std::string reason = judge.refusal(bond.first, bond.second);
       if (!reason.empty()) {
-        if (++refused == 1) first_refused = named(bond) + ": " + reason;
+        refused.add([&] { return named(bond) + ": " + reason; });
         continue;
       }
       bonds_.add(bond.first, bond.second, bond.origin);
@@ -146,9 +143,9 @@ class Perception {
     for (const Bond& bond : added)
       s_.notes.push_back("bond found by distance, not recorded in the file: " +
                          named({bond.first, bond.second, bond.origin, 0.0}));
-    if (refused > 0)
-      s_.notes.push_back("close enough for a bond, but not bonded: " + std::to_string(refused) +
-                         " pairs (first: " + first_refused + ")");
+    if (refused.number > 0)
+      s_.notes.push_back("close enough for a bond, but not bonded: " + std::to_string(refused.number) +
+                         " pairs (first: " + refused.first + ")");
   }
 
   /// Returns backbone bonds from the last residue of a chain to its first, if they are short enough.
@@ -171,8 +168,7 @@ class Perception {
   }
 
   Candidate candidate(std::uint32_t i, std::uint32_t j, BondOrigin origin) const {
-    const double radii = covalent_radius(s_.atoms[i].element) + covalent_radius(s_.atoms[j].element);
-    return {std::min(i, j), std::max(i, j), origin, std::abs(bonds_.distance(i, j) - radii)};
+    return {std::min(i, j), std::max(i, j), origin, std::abs(bonds_.distance(i, j) - bonds_.radii(i, j))};
   }
   std::string named(const Candidate& bond) const {
     return label(s_, bond.first) + " - " + label(s_, bond.second) + ", " +

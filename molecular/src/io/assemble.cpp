@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "chemistry/counted.hpp"
 #include "chemistry/recorded_bonds.hpp"
 #include "chemistry/residue_table.hpp"
 #include "hinge/core/error.hpp"
@@ -53,17 +54,6 @@ class Assembler {
   }
 
  private:
-  /// Atoms that share a note.
-  struct Counted {
-    std::size_t number = 0;
-    std::string first{};
-
-    void add(std::string name, std::size_t atoms = 1) {
-      if (number == 0) first = std::move(name);
-      number += atoms;
-    }
-  };
-
   /// Keeps hetero atoms in a model without a polymer, and waters in a model of waters alone.
   void keep_what_is_there(const RawModel& model) {
     bool has_hetero = false;
@@ -125,7 +115,7 @@ class Assembler {
     }
     if (is_dummy(raw)) {
       if (first) s_.hetero_dropped += raw.atoms.size();
-      if (first) dummies_.add(name_of(raw), raw.atoms.size());
+      if (first) dummies_.add([&] { return name_of(raw); }, raw.atoms.size());
       return;
     }
     const char altloc = conformers_->altloc_of(raw);
@@ -134,7 +124,7 @@ class Assembler {
     std::map<std::string, int> seen;
     for (const RawAtom& atom : raw.atoms) {
       if (is_virtual_site(atom, raw, kind)) {
-        if (first) virtual_sites_.add(name_of(raw) + ":" + atom.name);
+        if (first) virtual_sites_.add([&] { return name_of(raw) + ":" + atom.name; });
         continue;
       }
       if (atom.altloc != '\0' && atom.altloc != altloc) {
@@ -180,8 +170,9 @@ class Assembler {
       throw LoadError(where +
                       ": neither the file nor the atom name gives the element, expected an element in the file");
     if (element != atom.element && first)
-      repaired_.add(name_of(residue) + ":" + atom.name + ", in the file " +
-                    (atom.element.empty() ? "none" : atom.element));
+      repaired_.add([&] {
+        return name_of(residue) + ":" + atom.name + ", in the file " + (atom.element.empty() ? "none" : atom.element);
+      });
     return element;
   }
 
@@ -260,7 +251,7 @@ class Assembler {
   Structure s_;
   std::string difference_;  ///< first atom of the current model that differs from the first model's
   std::optional<ConformerChoice> conformers_;
-  Counted dummies_, virtual_sites_, repaired_;
+  Counted dummies_, virtual_sites_, repaired_;  // atoms
 };
 
 }  // namespace

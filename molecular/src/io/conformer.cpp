@@ -57,25 +57,25 @@ void ConformerChoice::count(char altloc, const std::string& residue) {
   if (altloc == '\0') return;
   if (conformer_ && altloc == *conformer_)
     ++inside_;
-  else if (++beside_ == 1)
-    first_beside_ = residue + " at " + altloc;
+  else
+    beside_.add([&] { return residue + " at " + altloc; });
 }
 
 void ConformerChoice::count_dropped(const std::string& atom) {
-  if (++dropped_ == 1) first_dropped_ = atom;
+  dropped_.add([&] { return atom; });
 }
 
 std::string ConformerChoice::note() const {
-  if (inside_ + beside_ == 0) return {};
+  if (inside_ + beside_.number == 0) return {};
   std::string text = "alternative locations: ";
   if (conformer_)
     text += std::string(1, *conformer_) + (asked_for_ ? " (--altloc)" : " (highest summed occupancy)") +
             " is used in " + std::to_string(inside_) + " residues; ";
-  if (beside_ > 0)
-    text += std::to_string(beside_) + " residues use their own location of highest occupancy (first: " + first_beside_ +
-            "); ";
-  text += std::to_string(dropped_) + " atoms are left out";
-  return text + (dropped_ > 0 ? " (first: " + first_dropped_ + ")" : "");
+  if (beside_.number > 0)
+    text += std::to_string(beside_.number) +
+            " residues use their own location of highest occupancy (first: " + beside_.first + "); ";
+  text += std::to_string(dropped_.number) + " atoms are left out";
+  return text + (dropped_.number > 0 ? " (first: " + dropped_.first + ")" : "");
 }
 
 }  // namespace hinge::molecular

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "chemistry/counted.hpp"
 #include "io/read_file.hpp"
 
 namespace hinge::molecular {
@@ -31,10 +32,10 @@ class ConformerChoice {
 
  private:
   std::optional<char> conformer_;
-  bool asked_for_;                       ///< requested in the options
-  std::size_t inside_ = 0, beside_ = 0;  // residues with alternative locations: read in conformer_, or not
-  std::size_t dropped_ = 0;              // atoms that were not read
-  std::string first_beside_, first_dropped_;
+  bool asked_for_;          ///< requested in the options
+  std::size_t inside_ = 0;  // residues with alternative locations that are read in conformer_
+  Counted beside_;          // those that are not
+  Counted dropped_;         // atoms that were not read
 };
 
 }  // namespace hinge::molecular
