@@ -19,11 +19,11 @@ namespace {
 /// hydroxyls of four tyrosines in an old 5PTI. If it is farther from every heavy atom of its residue, it stays
 /// unbonded.
 constexpr double hydrogen_bond_max = 1.6;
-/// A bond of a component is too long at `fitting_bond_max` times the sum of covalent radii: atoms two bonds apart are
-/// at 1.6 times that sum. It lacks a bond between two atoms that are at most `lacking_max` (angstrom) farther apart
-/// than that sum. If more than one bond in `fitting_share` is too long or lacking, or if no path of its bonds replaces
-/// a lacking one, the component of that name is another molecule. Fewer are inaccurate coordinates, as in the haems of
-/// 4HHB.
+/// A bond of a component is too long above `fitting_bond_max` times the sum of covalent radii: atoms two bonds apart
+/// are at 1.6 times that sum. A bond is lacking between two atoms of a component whose distance is below that sum +
+/// `lacking_max` (angstrom). A component is another molecule of the same name if more than one bond in `fitting_share`
+/// is too long or lacking, or if no other bonds connect the two atoms of a lacking bond. Fewer such bonds are
+/// inaccurate coordinates, as in the haems of 4HHB.
 constexpr double fitting_bond_max = 1.5, lacking_max = 0.2;
 constexpr std::size_t fitting_share = 4;
 
@@ -77,40 +77,35 @@ bool ResidueBonds::has_all(const std::set<std::uint32_t>& known, const Residue& 
 
 /// Returns the component of the residue's name; null if it is from a dictionary and does not fit the coordinates.
 const Component* ResidueBonds::fitting_component(std::uint32_t r) {
-  const Component* component = components_.find(s_.residues[r].name);
+  const Residue& residue = s_.residues[r];
+  const Component* component = components_.find(residue.name);
   if (component == nullptr || component->given) return component;
-  const auto excess = [&](std::uint32_t i, std::uint32_t j, double times) {
-    const double radii = covalent_radius(s_.atoms[i].element) + covalent_radius(s_.atoms[j].element);
-    return bonds_.distance(i, j) - times * radii;
-  };
-  std::map<std::uint32_t, std::uint32_t> pieces;  // heavy atom that the component knows -> an atom of its piece
+  BondJudge judge(s_, residue.first_atom, residue.last_atom);
+  std::set<std::uint32_t> known;
   std::set<std::pair<std::uint32_t, std::uint32_t>> bonded;
   std::size_t too_long = 0, lacking = 0, disconnected = 0;
   for (const ComponentBond& bond : component->bonds) {
     const auto i = bonds_.find(r, bond.first), j = bonds_.find(r, bond.second);
     if ((i && bonds_.hydrogen(*i)) || (j && bonds_.hydrogen(*j))) continue;
-    if (i) pieces.emplace(*i, *i);
-    if (j) pieces.emplace(*j, *j);
+    if (i) known.insert(*i);
+    if (j) known.insert(*j);
     if (!i || !j || !bonded.insert(std::minmax(*i, *j)).second) continue;
-    if (excess(*i, *j, fitting_bond_max) > 0.0) ++too_long;
-    const std::uint32_t from = pieces[*j], to = pieces[*i];
-    for (auto& [atom, piece] : pieces)
-      if (piece == from) piece = to;
+    judge.join(*i, *j);
+    if (bonds_.distance(*i, *j) > fitting_bond_max * bonds_.radii(*i, *j)) ++too_long;
   }
-  for (const auto& [i, piece_of_i] : pieces)
-    for (const auto& [j, piece_of_j] : pieces)
+  for (const std::uint32_t i : known)
+    for (const std::uint32_t j : known)
       if (i < j && !bonded.contains({i, j}) && !is_metal(s_.atoms[i].element) && !is_metal(s_.atoms[j].element) &&
-          bonds_.within_radii(i, j) && excess(i, j, 1.0) < lacking_max) {
+          bonds_.within_radii(i, j) && bonds_.distance(i, j) < bonds_.radii(i, j) + lacking_max) {
         ++lacking;
-        if (piece_of_i != piece_of_j) ++disconnected;
+        if (judge.bonds_around(i, j) == 0) ++disconnected;
       }
   if (disconnected == 0 && fitting_share * (too_long + lacking) <= bonded.size()) return component;
-  Misfit& misfit = misfits_[component->name];
-  if (++misfit.residues == 1)
-    misfit.note = component->name + " of " + component->source + " does not fit the residue of " +
-                  label(s_, s_.residues[r].first_atom) + ": " + std::to_string(too_long) + " of its " +
-                  std::to_string(bonded.size()) + " bonds are too long, and " + std::to_string(lacking) +
-                  " are lacking";
+  misfits_[component->name].add([&] {
+    return component->name + " of " + component->source + " does not fit the residue of " +
+           label(s_, residue.first_atom) + ": " + std::to_string(too_long) + " of its " +
+           std::to_string(bonded.size()) + " bonds are too long, and " + std::to_string(lacking) + " are lacking";
+  });
   return nullptr;
 }
 
@@ -149,8 +144,7 @@ void ResidueBonds::add_by_radii(const Residue& residue, const std::set<std::uint
     for (std::uint32_t j = residue.first_atom; j < i; ++j)
       if (!bonds_.hydrogen(i) && !bonds_.hydrogen(j) && !(known.contains(i) && known.contains(j)) &&
           bonds_.within_radii(i, j)) {
-        const double radii = covalent_radius(s_.atoms[i].element) + covalent_radius(s_.atoms[j].element);
-        found.push_back({-std::abs(bonds_.distance(i, j) - radii), {j, i}});
+        found.push_back({-std::abs(bonds_.distance(i, j) - bonds_.radii(i, j)), {j, i}});
         judge.join(j, i);
       }
   std::sort(found.begin(), found.end());
@@ -228,8 +222,8 @@ void ResidueBonds::add_hydrogen(std::uint32_t h, std::uint32_t r) {
 
 void ResidueBonds::say() {
   for (const auto& [name, misfit] : misfits_)
-    s_.notes.push_back(misfit.note +
-                       (misfit.residues > 1 ? " (and " + std::to_string(misfit.residues - 1) + " more residues)" : ""));
+    s_.notes.push_back(misfit.first +
+                       (misfit.number > 1 ? " (and " + std::to_string(misfit.number - 1) + " more residues)" : ""));
   std::string names;
   for (const std::string& name : extended_) append(names, name);
   if (!names.empty()) s_.notes.push_back("bonds by covalent radii for atoms that the template lacks: " + names);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "chemistry/bond_list.hpp"
+#include "chemistry/counted.hpp"
 #include "hinge/molecular/components.hpp"
 #include "hinge/molecular/structure.hpp"
 
@@ -40,19 +41,13 @@ class ResidueBonds {
   void add_hydrogen(std::uint32_t h, std::uint32_t r);
   std::string source_of(std::uint32_t r);
 
-  /// Residues that the dictionary's component of their name does not fit.
-  struct Misfit {
-    std::size_t residues = 0;
-    std::string note{};  // on the first
-  };
-
   Structure& s_;
   BondList& bonds_;
   ComponentLibrary& components_;
   std::vector<BondRecord> conect_;                                      // bonds inside residues, sorted by first atom
   std::map<std::pair<std::string, std::string>, std::size_t> sources_;  // (residue name, source) -> residues
-  std::map<std::string, Misfit> misfits_;                               // by component
-  std::set<std::string> extended_;  // names of residues with atoms that their table or component lacks
+  std::map<std::string, Counted> misfits_;  // residues that a component of the dictionary does not fit, by its name
+  std::set<std::string> extended_;          // names of residues with atoms that their table or component lacks
 };
 
 /// Returns the heavy atoms of a polymer residue that can bear a hydrogen of this name (IUPAC 1998 and older styles):
