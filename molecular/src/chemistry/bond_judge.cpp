@@ -20,7 +20,7 @@ namespace {
 /// Bond length minus the sum of covalent radii (angstrom). Between residues: C=N of a Schiff base -0.19, S-N and P-O of
 /// sulphonamides and phosphates -0.14; the longest known is +0.15 (1A4W, sulphonamide).
 constexpr double shortest_bond = -0.2, longest_bond = 0.2;
-/// Disulphides of crystals are down to 1.8 angstrom long.
+/// S-S has 1.8 angstrom then, as disulphide_min of perceive_bonds.
 constexpr double shortest_disulphide = -0.3;
 /// Inside a residue, triple bonds have -0.32.
 constexpr double shortest_inside = -0.35;

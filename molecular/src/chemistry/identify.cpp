@@ -47,22 +47,37 @@ bool is_in_polymer(const std::vector<RawResidue>& residues, std::size_t r) {
   return false;
 }
 
-/// True for one ion whose residue is called as its element, with or without a digit: ZN, ZN2, FE2. In files without
-/// elements, the columns of its name may tell another one: ` CA ` is a carbon, `CA  ` is calcium.
-bool is_ion(const RawResidue& residue) {
-  static constexpr std::array<std::string_view, 25> symbols{"LI", "NA", "MG", "AL", "CL", "CA", "CR", "MN", "FE",
-                                                            "CO", "NI", "CU", "ZN", "BR", "RB", "SR", "AG", "CD",
-                                                            "CS", "BA", "PT", "AU", "HG", "PB", "EU"};
-  const std::string& name = residue.atoms.front().name;
-  const std::string_view rest = std::string_view(residue.name).substr(std::min(name.size(), residue.name.size()));
-  return std::find(symbols.begin(), symbols.end(), name) != symbols.end() && residue.name.starts_with(name) &&
-         (rest.empty() || (rest.size() == 1 && rest[0] >= '1' && rest[0] <= '9')) &&
-         std::all_of(residue.atoms.begin(), residue.atoms.end(), [&](const RawAtom& a) { return a.name == name; });
-}
-
 /// CHARMM's names of monatomic ions; their first letters are symbols of other elements.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 5> charmm_ions{
     {{"CLA", "Cl"}, {"SOD", "Na"}, {"POT", "K"}, {"CAL", "Ca"}, {"CES", "Cs"}}};
+
+/// Monatomic ions whose residue has the name of their element. In files without elements, the columns of the name may
+/// tell another element: " CA " is carbon, "CA  " is calcium.
+constexpr std::array<std::string_view, 25> named_ions{"Li", "Na", "Mg", "Al", "Cl", "Ca", "Cr", "Mn", "Fe",
+                                                      "Co", "Ni", "Cu", "Zn", "Br", "Rb", "Sr", "Ag", "Cd",
+                                                      "Cs", "Ba", "Pt", "Au", "Hg", "Pb", "Eu"};
+
+/// Elements whose symbol, at the start of a name, means no other element.
+constexpr std::array<std::string_view, 6> named_elements{"Cl", "Br", "Fe", "Mg", "Mn", "Zn"};
+
+/// True if the name starts with the symbol in capitals.
+bool starts_with_symbol(std::string_view name, std::string_view symbol) {
+  return name.size() >= 2 && name[0] == symbol[0] && name[1] == (symbol[1] & ~0x20);
+}
+
+/// Returns the element of a monatomic ion: of CHARMM's names, or of residues such as ZN, ZN2 and FE2; empty otherwise.
+std::string_view element_of_ion(const RawAtom& atom, const RawResidue& residue) {
+  for (const auto& [ion, element] : charmm_ions)
+    if (atom.name == ion && residue.name == ion) return element;
+  const bool is_alone =
+      std::all_of(residue.atoms.begin(), residue.atoms.end(), [&](const RawAtom& a) { return a.name == atom.name; });
+  const std::string_view of = residue.name;
+  if (!is_alone || atom.name.size() != 2 || !of.starts_with(atom.name)) return {};
+  if (of.size() > 3 || (of.size() == 3 && (of[2] < '1' || of[2] > '9'))) return {};
+  const auto found = std::find_if(named_ions.begin(), named_ions.end(),
+                                  [&](std::string_view symbol) { return starts_with_symbol(atom.name, symbol); });
+  return found == named_ions.end() ? std::string_view() : *found;
+}
 
 }  // namespace
 
@@ -91,14 +106,12 @@ bool is_dummy(const RawResidue& residue) {
 bool is_virtual_site(const RawAtom& atom, const RawResidue& residue, ResidueKind kind) {
   if (atom.element_field == ElementField::extra_point) return true;
   if (!atom.element.empty()) return false;
-  return kind == ResidueKind::water ? element_by_name(atom, residue).empty() : atom.name.rfind("LP", 0) == 0;
+  return kind == ResidueKind::water ? element_by_name(atom, residue).empty() : atom.name.starts_with("LP");
 }
 
 std::string element_by_name(const RawAtom& atom, const RawResidue& residue) {
   const std::string_view name = atom.name;
-  for (const auto& [ion, element] : charmm_ions)
-    if (name == ion && residue.name == ion) return std::string(element);
-  if (is_ion(residue)) return {name[0], static_cast<char>(name[1] - 'A' + 'a')};
+  if (const std::string_view ion = element_of_ion(atom, residue); !ion.empty()) return std::string(ion);
   const std::size_t letter = name.find_first_not_of("0123456789");
   const char c = letter == std::string_view::npos ? '\0' : name[letter];
   if (find_residue_template(residue.name) != nullptr || find_nucleotide_template(residue.name) != nullptr) {
@@ -106,8 +119,8 @@ std::string element_by_name(const RawAtom& atom, const RawResidue& residue) {
     if (std::string_view("CNOSHP").find(c) != std::string_view::npos) return {c};
   }
   if (atom.element_field == ElementField::blank)
-    for (const std::string_view symbol : {"CL", "BR", "FE", "MG", "MN", "ZN"})
-      if (name.starts_with(symbol)) return {symbol[0], static_cast<char>(symbol[1] - 'A' + 'a')};
+    for (const std::string_view symbol : named_elements)
+      if (starts_with_symbol(name, symbol)) return std::string(symbol);
   if (!atom.element.empty()) return atom.element;
   if (std::string_view("CNOSPHF").find(c) != std::string_view::npos) return {c};
   return c == 'D' ? "H" : "";

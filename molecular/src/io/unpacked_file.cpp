@@ -27,11 +27,12 @@ constexpr Format unread_formats[] = {{"BZh", "packed by bzip2"},
 UnpackedFile::UnpackedFile(const std::filesystem::path& path)
     : file_(path, "a PDB or mmCIF file"), packed_(std::size_t{1} << 16U) {
   constexpr int gzip_alone = 15 + 16;  // inflateInit2's window bits for gzip only
-  const bool has_data = fill();
+  fill();
+  const std::string_view start(packed_.data(), stream_.avail_in);
   for (const Format& format : unread_formats)
-    if (std::string_view(packed_.data(), stream_.avail_in).starts_with(format.start))
+    if (start.starts_with(format.start))
       throw LoadError(path.string() + ": is " + std::string(format.name) + ", expected text, plain or gzipped");
-  is_gzipped_ = has_data && stream_.avail_in >= 2 && starts_gzip(packed_[0], packed_[1]);
+  is_gzipped_ = start.size() >= 2 && starts_gzip(start[0], start[1]);
   if (is_gzipped_ && inflateInit2(&stream_, gzip_alone) != Z_OK) throw std::bad_alloc();
 }
 
