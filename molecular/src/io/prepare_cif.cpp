@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// prepare_cif: atom_site with every column that the parser needs, and nothing that it may not see.
+// prepare_cif: adds the columns of atom_site that the parser needs, and removes the categories that nobody reads.
 #include "io/prepare_cif.hpp"
 
 #include <algorithm>
@@ -112,8 +112,8 @@ bool complete_atoms(gemmi::cif::Block& block) {
 
 }  // namespace
 
-AtomIds prepare_cif(gemmi::cif::Document& document) {
-  AtomIds ids;
+AtomFields prepare_cif(gemmi::cif::Document& document) {
+  AtomFields fields;
   std::map<std::pair<std::string, std::string>, std::size_t> labels;
   bool has_components = false;
   for (gemmi::cif::Block& block : document.blocks) {
@@ -123,22 +123,22 @@ AtomIds prepare_cif(gemmi::cif::Document& document) {
     gemmi::cif::Table atoms =
         block.find(atom_site, {"id", "type_symbol", "B_iso_or_equiv", "?label_asym_id", "?label_seq_id"});
     for (auto row : atoms) {
-      ids.elements.push_back(row[1] == "EP"                   ? ElementField::extra_point
-                             : row[1] == "?" || row[1] == "." ? ElementField::blank
-                                                              : ElementField::symbol);
-      ids.serials.push_back(gemmi::string_to_int(row[0], false));
-      row[0] = std::to_string(ids.serials.size() - 1);
+      fields.elements.push_back(row[1] == "EP"                   ? ElementField::extra_point
+                                : row[1] == "?" || row[1] == "." ? ElementField::blank
+                                                                 : ElementField::symbol);
+      fields.serials.push_back(gemmi::string_to_int(row[0], false));
+      row[0] = std::to_string(fields.serials.size() - 1);
       // A B factor that is no number becomes 0, as in PDB files; gemmi would take 50.
       if (!std::isfinite(gemmi::cif::as_number(row[2]))) row[2] = "0";
       const auto value = [&](std::size_t column) { return row.has(column) ? row[column] : std::string(); };
-      ids.labels.push_back(labels.emplace(std::pair(value(3), value(4)), labels.size()).first->second);
+      fields.labels.push_back(labels.emplace(std::pair(value(3), value(4)), labels.size()).first->second);
     }
   }
-  if (ids.serials.empty())
+  if (fields.serials.empty())
     throw std::runtime_error(has_components
                                  ? "has no atoms of a structure (atom_site), only components, which --components takes"
                                  : "has no atoms, expected a CIF file with the category atom_site");
-  return ids;
+  return fields;
 }
 
 }  // namespace hinge::molecular

@@ -14,6 +14,6 @@ namespace hinge::molecular {
 /// others, or expand them. Adds the columns of atom_site that gemmi needs and some programs do not write (PyMOL writes
 /// no auth_seq_id). Throws std::runtime_error if there are no atoms, a column without a substitute is missing, or a
 /// whole number has more digits than int holds: gemmi's would wrap around.
-AtomIds prepare_cif(gemmi::cif::Document& document);
+AtomFields prepare_cif(gemmi::cif::Document& document);
 
 }  // namespace hinge::molecular

@@ -43,7 +43,7 @@ PreparedPdb prepare_pdb(const std::string& text, std::size_t columns) {
   constexpr std::size_t length_column = 72;
   constexpr std::size_t most_atoms = 100000 + 26UL * 36 * 36 * 36 * 36;  // that gemmi reads from five columns
   PreparedPdb result;
-  std::vector<int>& serials = result.ids.serials;
+  std::vector<int>& serials = result.fields.serials;
   std::string& kept = result.text;
   kept.reserve(text.size());
   int model = 1;  // number of the open or the next model
@@ -54,7 +54,7 @@ PreparedPdb prepare_pdb(const std::string& text, std::size_t columns) {
     line =
         line.substr(0, is_record(line, "LINK") || is_record(line, "SSBO") ? std::min(columns, length_column) : columns);
     const bool is_model = is_record(line, "MODE");
-    const int next = static_cast<int>(result.ids.model_numbers.size()) + 1;
+    const int next = static_cast<int>(result.fields.model_numbers.size()) + 1;
     if (is_model) model = model_number(line, next);
     if (ends_pdb_model(line)) {
       model = next;
@@ -62,12 +62,12 @@ PreparedPdb prepare_pdb(const std::string& text, std::size_t columns) {
     }
     kept += is_model ? "REMARK" : line;
     if ((is_record(line, "ATOM") || is_record(line, "HETA")) && line.size() > 11) {
-      if (!open) result.ids.model_numbers.push_back(model);
+      if (!open) result.fields.model_numbers.push_back(model);
       open = true;
       if (serials.size() == most_atoms)
         throw std::runtime_error("more than " + std::to_string(most_atoms) +
                                  " atoms, expected an mmCIF file for so many atoms");
-      result.ids.elements.push_back(element_field(line));
+      result.fields.elements.push_back(element_field(line));
       const std::string number = hybrid36(serials.size());
       serials.push_back(read_hybrid36(line.substr(6, 5)).value_or(0));
       kept.replace(kept.size() - line.size() + 6, 5, std::string(5 - number.size(), ' ') + number);

@@ -125,9 +125,9 @@ struct RawFile {
   std::vector<std::string> notes;
 };
 
-/// Data of atoms that are withheld from the parser. gemmi merges split residues and chains and loses the order of
-/// atoms, so it gets indices from 0 as serial numbers.
-struct AtomIds {
+/// What gemmi does not keep of the atoms. It merges split residues and chains and loses the order of atoms, so it gets
+/// indices from 0 as serial numbers.
+struct AtomFields {
   std::vector<int> serials;            ///< serial number in the file, by index
   std::vector<ElementField> elements;  ///< by index
   std::vector<std::size_t> labels;     ///< mmCIF only, by index: a number for each label_asym_id and label_seq_id
@@ -138,7 +138,7 @@ struct AtomIds {
 /// A PDB file's text for the parser.
 struct PreparedPdb {
   std::string text;
-  AtomIds ids;
+  AtomFields fields;
 };
 
 /// Numbers atoms from 0, cuts lines after `columns` and removes MODEL records. gemmi would start a new line after some

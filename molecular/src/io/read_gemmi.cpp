@@ -57,7 +57,7 @@ ResidueKind kind_of(const std::string& name) {
   return ResidueKind::other;
 }
 
-RawModel convert(const gemmi::Model& model, int number, const AtomIds& ids) {
+RawModel convert(const gemmi::Model& model, int number, const AtomFields& fields) {
   RawModel raw;
   raw.number = number;
   int first = std::numeric_limits<int>::max();  // smallest index in the model
@@ -81,13 +81,13 @@ RawModel convert(const gemmi::Model& model, int number, const AtomIds& ids) {
         if (atom.element != gemmi::El::X) a.element = atom.element == gemmi::El::D ? "H" : atom.element.name();
         a.altloc = atom.altloc;
         const auto id = static_cast<std::size_t>(atom.serial);
-        a.element_field = ids.elements.at(id);
-        a.serial = ids.serials.at(id);
+        a.element_field = fields.elements.at(id);
+        a.serial = fields.serials.at(id);
         a.record = static_cast<std::uint32_t>(atom.serial - first);
         a.occupancy = or_zero(atom.occ);
         a.b_factor = or_zero(atom.b_iso);
         a.position = Vec3(atom.pos.x, atom.pos.y, atom.pos.z);
-        parts[ids.labels.empty() ? 0 : ids.labels.at(id)].push_back(std::move(a));
+        parts[fields.labels.empty() ? 0 : fields.labels.at(id)].push_back(std::move(a));
       }
       for (auto& part : parts) raw.residues.emplace_back(r).atoms = std::move(part.second);
     }
@@ -170,12 +170,12 @@ std::optional<RecordedBonds> recorded_of(gemmi::cif::Document& document) {
   throw LoadError(what.find(path) != std::string::npos ? what : path + ": " + what);
 }
 
-gemmi::Structure parse(const std::string& bytes, const std::string& path, bool cif, RawFile& raw, AtomIds& ids) {
+gemmi::Structure parse(const std::string& bytes, const std::string& path, bool cif, RawFile& raw, AtomFields& fields) {
   if (cif) {
     gemmi::cif::Document document = gemmi::cif::read_memory(bytes.data(), bytes.size(), path.c_str());
     raw.components = components_of(document, path);
     raw.recorded = recorded_of(document);
-    ids = prepare_cif(document);
+    fields = prepare_cif(document);
     // NOLINTNEXTLINE(performance-move-const-arg): gemmi 0.6 and later take the document
     return gemmi::make_structure(std::move(document));
   }
@@ -183,7 +183,7 @@ gemmi::Structure parse(const std::string& bytes, const std::string& path, bool c
   const auto read = [&](int columns) {
     options.max_line_length = columns;
     PreparedPdb pdb = prepare_pdb(bytes, static_cast<std::size_t>(columns));
-    ids = std::move(pdb.ids);
+    fields = std::move(pdb.fields);
     return gemmi::read_pdb_from_memory(pdb.text.data(), pdb.text.size(), path, options);
   };
   try {
@@ -214,9 +214,9 @@ std::vector<Component> parse_components(const std::string& bytes, const std::str
 RawFile parse_with_gemmi(const std::string& bytes, const std::string& path, bool cif) {
   RawFile raw;
   gemmi::Structure st;
-  AtomIds ids;
+  AtomFields fields;
   try {
-    st = parse(bytes, path, cif, raw, ids);
+    st = parse(bytes, path, cif, raw, fields);
   } catch (const std::exception& error) {
     refuse_file(error, path);
   }
@@ -224,8 +224,8 @@ RawFile parse_with_gemmi(const std::string& bytes, const std::string& path, bool
   raw.name = st.name;
   for (const gemmi::Model& model : st.models) {
     const int position = static_cast<int>(raw.models.size()) + 1;
-    const int number = cif ? number_of(model, position) : ids.model_numbers.at(raw.models.size());
-    raw.models.push_back(convert(model, number, ids));
+    const int number = cif ? number_of(model, position) : fields.model_numbers.at(raw.models.size());
+    raw.models.push_back(convert(model, number, fields));
   }
   for (const gemmi::Connection& link : st.connections)
     if (link.type == gemmi::Connection::Covale || link.type == gemmi::Connection::Disulf ||
