@@ -131,7 +131,7 @@ TEST(ReadStructure, ReadsMmcifWithoutTheColumnsThatSomeProgramsLeaveOut) {
     });
     return cif_of_alanine(columns);
   };
-  // The second: what PyMOL writes.
+  // PyMOL writes no auth_seq_id.
   for (const std::vector<std::string>& left_out :
        std::vector<std::vector<std::string>>{{"group_PDB"},
                                              {"auth_seq_id"},
@@ -178,6 +178,7 @@ TEST(ReadStructure, SaysWhatAFileWithoutAtomsIs) {
   EXPECT_EQ(refusal("\xfd"
                     "7zXZ"),
             ": is packed by xz, expected text, plain or gzipped");
+  EXPECT_EQ(refusal("\x28\xb5\x2f\xfd"), ": is packed by zstd, expected text, plain or gzipped");
   EXPECT_EQ(refusal("PK\x03\x04"), ": is a zip archive, expected text, plain or gzipped");
   EXPECT_EQ(refusal("\x83\xa7"
                     "encoder"),

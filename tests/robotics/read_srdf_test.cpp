@@ -95,11 +95,9 @@ TEST(ReadSrdf, ResolvesGroupsToJoints) {
 
 TEST(ReadSrdf, ReadsNamedConfigurations) {
   const Srdf srdf = read(
-      "<group name='g'><joint name='turn'/></group>\n<group_state name='open' group='g'><joint name='left' "
-      "value='0.04'/>"
-      "<joint name='right' value='9'/><joint name='tip' value='0 0 0 0 0 0 1'/><joint name='world_joint' value='0 0 "
-      "0'/>"
-      "</group_state>\n");
+      "<group name='g'><joint name='turn'/></group>\n"
+      "<group_state name='open' group='g'><joint name='left' value='0.04'/><joint name='right' value='9'/>"
+      "<joint name='tip' value='0 0 0 0 0 0 1'/><joint name='world_joint' value='0 0 0'/></group_state>\n");
   ASSERT_EQ(srdf.configurations.size(), 1U);
   EXPECT_EQ(srdf.configurations[0].name, "open");
   std::vector<double> q = {1.5, 2.5};
