@@ -120,6 +120,20 @@ TEST(VirtualSites, AreLeftOutWithANote) {
   EXPECT_TRUE(has_note(s, "3 virtual sites, which have no mass, are left out (first: A:ALA1:DN)"));
 }
 
+// PDBQT files have atom types in columns 78-79. Read as PDB, the chlorine "Cl" would be a carbon.
+TEST(Elements, OfAutoDockAtomsComeFromTheirTypes) {
+  const std::vector<std::array<std::string, 2>> expected = {
+      {"A", "C"},   {"C", "C"},   {"OA", "O"},  {"HD", "H"},  {"NA", "N"},  {"SA", "S"},  {"P", "P"},
+      {"F", "F"},   {"I", "I"},   {"Cl", "Cl"}, {"CL", "Cl"}, {"Br", "Br"}, {"BR", "Br"}, {"Zn", "Zn"},
+      {"FE", "Fe"}, {"Mg", "Mg"}, {"MN", "Mn"}, {"Ca", "Ca"}, {"Si", "Si"}, {"Na", "Na"}};
+  std::string text;
+  for (std::size_t k = 0; k < expected.size(); ++k)
+    text += atom(" X" + std::to_string(k), "LIG", 1, {10.0 * static_cast<double>(k), 0, 0}, " " + expected[k][0]);
+  const Structure s = read(text, true);
+  ASSERT_EQ(s.atoms.size(), expected.size());
+  for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_EQ(s.atoms[k].element, expected[k][1]) << expected[k][0];
+}
+
 TEST(Elements, OfCharmmIonsComeFromTheirNames) {
   const Structure ideal = build_ideal_protein("A", "C");
   const Structure s =

@@ -22,12 +22,27 @@ bool is_record(std::string_view line, std::string_view name) {
          std::equal(name.begin(), name.end(), line.begin(), [](char a, char b) { return a == (b & ~0x20); });
 }
 
+bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
+
 /// gemmi guesses the element if columns 77-78 have no letter.
 ElementField element_field(std::string_view line) {
   const std::string_view field = line.substr(std::min<std::size_t>(76, line.size()), 2);
   if (field == "EP") return ElementField::extra_point;
-  const bool has_letter = std::any_of(field.begin(), field.end(), [](unsigned char c) { return std::isalpha(c) != 0; });
-  return has_letter ? ElementField::symbol : ElementField::blank;
+  return std::any_of(field.begin(), field.end(), is_letter) ? ElementField::symbol : ElementField::blank;
+}
+
+/// Returns the element that AutoDock's atom type means, as two columns; empty if the record has no such type. PDBQT
+/// files have the type in columns 78-79 instead of an element in columns 77-78: "Cl", "OA" (an oxygen that accepts
+/// hydrogen bonds), "A" (an aromatic carbon).
+std::string element_of_type(std::string_view line) {
+  if (line.size() < 78 || line[76] != ' ') return {};
+  const char first = line[77], second = line.size() > 78 ? line[78] : ' ';
+  if (first == 'A' && !is_letter(second)) return " C";
+  if (!is_letter(first) || !is_letter(second)) return {};
+  for (const char* symbol : {"BR", "CA", "CL", "FE", "MG", "MN", "ZN"})  // types that are also written in capitals
+    if (line.substr(77, 2) == symbol) return symbol;
+  const bool is_symbol = std::islower(static_cast<unsigned char>(second)) != 0;
+  return is_symbol ? std::string{first, second} : std::string{' ', first};
 }
 
 }  // namespace
@@ -70,7 +85,9 @@ PreparedPdb prepare_pdb(const std::string& text, std::size_t columns) {
       result.fields.elements.push_back(element_field(line));
       const std::string number = hybrid36(serials.size());
       serials.push_back(read_hybrid36(line.substr(6, 5)).value_or(0));
-      kept.replace(kept.size() - line.size() + 6, 5, std::string(5 - number.size(), ' ') + number);
+      const std::size_t start = kept.size() - line.size();
+      kept.replace(start + 6, 5, std::string(5 - number.size(), ' ') + number);
+      if (const std::string element = element_of_type(line); !element.empty()) kept.replace(start + 76, 3, element);
     }
     if (end < text.size()) kept += '\n';
     first = end + 1;
