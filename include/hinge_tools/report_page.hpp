@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -42,7 +43,7 @@ struct ReportWords {
   std::string state;    ///< "free", "collides", "undecided", or "" for no verdict
   std::string verdict;  ///< one sentence
   std::vector<std::pair<std::string, std::string>> question{};  ///< names and values
-  std::vector<std::string> files{};                             ///< paths of the inputs
+  std::vector<std::filesystem::path> files{};                   ///< the inputs; empty paths are left out
   std::vector<std::string> notes{};                             ///< one sentence each
   bool is_path = false;                                         ///< the frames follow each other in time
   std::array<std::string, 2> frame_word{"frame", "frames"};     ///< singular and plural
@@ -89,7 +90,8 @@ Json report_head(const ReportWords& words, const char* kind) {
   head["question"] = Json::array();
   for (const auto& [name, value] : words.question) head["question"].push_back({{"name", name}, {"value", value}});
   head["files"] = Json::array();
-  for (const std::string& file : words.files) head["files"].push_back({{"name", file}, {"sha256", sha256_of(file)}});
+  for (const std::filesystem::path& file : words.files)
+    if (!file.empty()) head["files"].push_back({{"name", file.string()}, {"sha256", sha256_of(file.string())}});
   head["notes"] = words.notes;
   head["sequence"] = words.is_path ? "path" : "frames";
   head["frame_word"] = words.frame_word;

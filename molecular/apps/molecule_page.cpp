@@ -173,9 +173,7 @@ hinge::tool::ReportWords page_words(const Options& options, const Job& job) {
   words.tool = options.command_line.substr(0, options.command_line.find(' ', options.command_line.find(' ') + 1));
   words.command = options.command_line;
   words.question = question_words(options, job);
-  words.files = {options.file};
-  for (const auto* more : {&options.with, &options.trajectories, &options.settings})
-    words.files.insert(words.files.end(), more->begin(), more->end());
+  words.files = input_files(options);
   words.notes = all_notes(job);
   return words;
 }

@@ -78,9 +78,7 @@ hinge::tool::ReportWords page_words(const Options& options, const Job& job) {
   words.command = options.command_line;
   words.tool = words.command.substr(0, words.command.find(' ', words.command.find(' ') + 1));
   words.question = question_words(options, job);
-  words.files = {options.urdf};
-  if (!options.srdf.empty()) words.files.push_back(options.srdf);
-  words.files.insert(words.files.end(), options.settings.begin(), options.settings.end());
+  words.files = input_files(options);
   words.notes = job.notes;
   return words;
 }

@@ -188,6 +188,23 @@ TEST_F(RobocdPage, DrawsLargeMeshesCoarser) {
   EXPECT_EQ(unpacked<std::uint32_t>(data.at("robot").at("links").at(0).at("triangles")).size(), 36U);
 }
 
+TEST_F(RobocdPage, NamesEveryInputFile) {
+  const std::string rock = folder.write("rock.stl", test::cube_stl(Vec3(5, 5, 5), 0.5));
+  const std::string rows = folder.write("rows.csv", "shoulder,elbow\n0.5,0.25\n");
+  const std::string srdf = folder.write("arm.srdf", test::arm_srdf);
+  run_robocd("check" + folder.urdf() + " --srdf " + srdf + " --csv-in " + rows + " --env rock=" + rock +
+             " --env 'ball=sphere:0.1,xyz=5 0 0'" + report + "2>/dev/null");
+  std::vector<std::string> names, digests;
+  const Json data = page_data(page);
+  for (const Json& file : data.at("files")) {
+    names.push_back(file.at("name"));
+    digests.push_back(file.at("sha256"));
+  }
+  EXPECT_EQ(names.size(), 4U);
+  for (const std::string& file : {srdf, rows, rock}) EXPECT_NE(std::ranges::find(names, file), names.end()) << file;
+  for (const std::string& digest : digests) EXPECT_EQ(digest.size(), 64U);
+}
+
 TEST_F(RobocdPage, RefusesFilesThatAreNoPage) {
   const auto text = run_robocd("check" + folder.urdf() + " --zero --report page.txt 2>&1");
   EXPECT_EQ(text.status, 2);
