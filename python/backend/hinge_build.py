@@ -88,6 +88,14 @@ def _write_wheel(path, stage):
             archive.writestr(entry, data)
 
 
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    """Writes the metadata and returns the name of their folder, so that pip need not build a wheel to read them."""
+    info = pathlib.Path(metadata_directory) / f"hinge-{_version()}.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text(_metadata())
+    return info.name
+
+
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     """Builds the wheel and returns its file name."""
     settings = dict(config_settings or {})
