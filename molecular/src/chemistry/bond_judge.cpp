@@ -121,13 +121,17 @@ int BondJudge::room_of_carbon(std::uint32_t i) const {
 }
 
 int BondJudge::room_of_nitrogen(std::uint32_t i) const {
-  const int bonds = static_cast<int>(near(i).size());
   const Residue& residue = s_.residues[s_.atoms[i].residue];
   const std::string_view name = s_.atoms[i].name;
   const bool polymer = residue.kind == ResidueKind::amino_acid || residue.kind == ResidueKind::nucleotide;
-  // The nitrogens of peptides, Trp and Arg NE bear a hydrogen. His can lose its hydrogen.
-  if (polymer && bonds == 2 && name != "ND1" && name != "NE2") return 0;
-  return std::max(0, 3 - bonds);
+  const auto is_heavy = [&](const Neighbour& n) { return s_.atoms[n.atom].element != "H"; };
+  const auto is_inside = [&](const Neighbour& n) { return s_.atoms[n.atom].residue == s_.atoms[i].residue; };
+  // The nitrogens of peptides, Trp and Arg NE bear a hydrogen, which the file may lack. His can lose its hydrogen.
+  // Proline's N has two bonds inside its residue, and none to a hydrogen inside a chain.
+  const bool bears_hydrogen = polymer && name != "ND1" && name != "NE2" &&
+                              std::count_if(near(i).begin(), near(i).end(), is_heavy) == 2 &&
+                              !(name == "N" && std::all_of(near(i).begin(), near(i).end(), is_inside));
+  return bears_hydrogen ? 0 : std::max(0, 3 - static_cast<int>(near(i).size()));
 }
 
 int BondJudge::room_of_oxygen(std::uint32_t i) const {

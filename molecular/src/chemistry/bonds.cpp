@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -38,6 +40,7 @@ class Perception {
     ResidueBonds inside(s_, bonds_, components);
     for (std::uint32_t r = 0; r < s_.residues.size(); ++r) inside.add(r);
     for (const Chain& chain : s_.chains) bond_chain(chain);
+    find_misplaced();
     closing_ = closing_bonds();
     bond_recorded();
     if (between_ == BondSearch::geometry) bond_by_distance();
@@ -61,14 +64,28 @@ class Perception {
     std::optional<std::uint32_t> first, last;
     for (std::uint32_t r = chain.first_residue; r < chain.last_residue; ++r) {
       if (!in_polymer(r)) continue;
-      if (last && !bond_next(*last, r) && s_.residues[*last].kind == s_.residues[r].kind &&
-          s_.residues[r].kind != ResidueKind::other)
-        note_break(chain, *last, r);
+      if (!last || !bond_next(*last, r)) {
+        if (last && s_.residues[*last].kind == s_.residues[r].kind && s_.residues[r].kind != ResidueKind::other)
+          note_break(chain, *last, r);
+        if (last) stops_.emplace(std::pair(chain.name, s_.residues[*last].sequence_number), *last);
+        starts_.push_back(r);
+      }
       if (!first) first = r;
       last = r;
     }
+    if (last) stops_.emplace(std::pair(chain.name, s_.residues[*last].sequence_number), *last);
     // The ends of a cyclic backbone are bonded. A chain of two residues cannot form a ring.
     if (first && last && *last > *first + 1) ends_.emplace_back(*last, *first);
+  }
+
+  /// Residues may be out of order in the file. The bond to the residue with the number before is then one of the
+  /// backbone that joins ends.
+  void find_misplaced() {
+    for (const std::uint32_t r : starts_) {
+      const Residue& residue = s_.residues[r];
+      const auto stop = stops_.find({s_.chains[residue.chain].name, residue.sequence_number - 1});
+      if (stop != stops_.end() && stop->second + 1 != r) ends_.emplace_back(stop->second, r);
+    }
   }
 
   bool bond_next(std::uint32_t r, std::uint32_t t) {
@@ -220,7 +237,9 @@ class Perception {
   const std::vector<Vec3>& x_;
   BondSearch between_;
   BondList bonds_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends_;  // last and first residue of each polymer
+  std::vector<std::uint32_t> starts_;                           // residues without a bond to the one before in the file
+  std::map<std::pair<std::string, int>, std::uint32_t> stops_;  // by chain and number: those without a bond to the next
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends_;   // residues that a bond may join: last and first
   std::vector<Candidate> closing_;
 };
 
