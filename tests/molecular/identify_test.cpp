@@ -120,15 +120,76 @@ TEST(VirtualSites, AreLeftOutWithANote) {
   EXPECT_TRUE(has_note(s, "3 virtual sites, which have no mass, are left out (first: A:ALA1:DN)"));
 }
 
-// PDBQT files have atom types in columns 78-79. Read as PDB, the chlorine "Cl" would be a carbon.
-TEST(Elements, OfAutoDockAtomsComeFromTheirTypes) {
+/// A record of a PDBQT file: a charge in columns 67-76, a type in columns 78-79.
+std::string pdbqt(const std::string& name, const std::string& residue, const Vec3& x, const std::string& charge,
+                  const std::string& type) {
+  return atom(name, residue, 1, x, " " + type).replace(66, 10, std::string(10 - charge.size(), ' ') + charge);
+}
+
+// The parser reads the name of a segment in columns 73-76. With charges there, every atom would be a residue.
+TEST(Pdbqt, HasChargesThatPartNoResidue) {
+  const Structure ideal = build_ideal_protein("S", "C");
+  std::string text;
+  for (std::uint32_t i = 0; i < ideal.atoms.size(); ++i)
+    text += pdbqt(" " + ideal.atoms[i].name, "SER", ideal.models.front()[i], i % 2 == 0 ? "-0.342" : "0.197",
+                  ideal.atoms[i].element + (ideal.atoms[i].element == "O" ? "A" : " "));
+  const Structure s = read(text);
+  EXPECT_EQ(s.residues.size(), 1U);
+  EXPECT_EQ(s.bonds.size(), ideal.bonds.size());
+  EXPECT_TRUE(s.notes.empty());
+}
+
+TEST(Pdbqt, HasProbesThatAreNoAtoms) {
+  const std::string carbons =
+      pdbqt(" C1", "LIG", {0, 0, 0}, "0.019", "CG0") + pdbqt(" C2", "LIG", {1.5, 0, 0}, "0.108", "C ");
+  const Structure s =
+      read(carbons + pdbqt(" *1", "LIG", {0, 1.5, 0}, "0.000", "G0") +
+               pdbqt(" WAT", "LIG", {0, -2.8, 0}, "0.000", "W ") + pdbqt(" TZ", "LIG", {0, 0, 2}, "0.000", "TZ"),
+           true);
+  EXPECT_EQ(s.atoms.size(), 2U);
+  EXPECT_EQ(s.bonds.size(), 1U);
+  EXPECT_TRUE(has_note(s, "3 virtual sites, which have no mass, are left out (first: A:LIG1:*1)"));
+}
+
+// Some programs name all carbons of a ligand C. Without numbers, all but one would be lost.
+TEST(Names, OfAtomsCalledByTheirElementsAreNumbered) {
+  const std::string text = atom(" C ", "UNL", 1, {0, 0, 0}, "C") + atom(" C1", "UNL", 1, {1.5, 0, 0}, "C") +
+                           atom(" C ", "UNL", 1, {2.1, 1.4, 0}, "C") + atom(" O ", "UNL", 1, {3.5, 1.4, 0}, "O") +
+                           atom("CL ", "UNL", 1, {-1.2, 1.3, 0}, "CL") + atom("CL ", "UNL", 1, {-1.2, -1.3, 0}, "CL");
+  const Structure s = read("MODEL 1\n" + text + "ENDMDL\nMODEL 2\n" + text + "ENDMDL\n", true);
+  std::vector<std::string> names;
+  for (const Atom& a : s.atoms) names.push_back(a.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"C2", "C1", "C3", "O", "CL1", "CL2"}));
+  EXPECT_EQ(s.bonds.size(), 5U);
+  EXPECT_EQ(s.models.size(), 2U);
+  EXPECT_TRUE(has_note(s, "named by their elements alone, which are numbered: 1 (first: A:UNL1)"));
+}
+
+TEST(Names, OfOtherAtomsThatOccurTwiceMeanOneAtom) {
+  const Structure s = read(atom(" C7", "LIG", 1, {0, 0, 0}, "C") + atom(" C7", "LIG", 1, {0.9, 0, 0}, "C"), true);
+  EXPECT_EQ(s.atoms.size(), 1U);
+  EXPECT_TRUE(has_note(s, "atom C7 occurs more than once, the first is used"));
+}
+
+// A receptor of a docking program, whose first residue in the file belongs between two others.
+TEST(Bonds, JoinResiduesThatAreOutOfOrder) {
+  const Structure ideal = build_ideal_protein("ASPA", "CCCC");
+  const Structure s =
+      read(records(ideal, 1, "") + records(ideal, 0, "") + records(ideal, 2, "") + records(ideal, 3, ""));
+  EXPECT_EQ(s.bonds.size(), ideal.bonds.size());
+  EXPECT_TRUE(bonded(s, "A:ALA1:C", "A:SER2:N"));
+  EXPECT_TRUE(bonded(s, "A:SER2:C", "A:PRO3:N"));
+}
+
+// Read as PDB, the chlorine "Cl" would be a carbon.
+TEST(Pdbqt, HasTypesThatTellTheElements) {
   const std::vector<std::array<std::string, 2>> expected = {
       {"A", "C"},   {"C", "C"},   {"OA", "O"},  {"HD", "H"},  {"NA", "N"},  {"SA", "S"},  {"P", "P"},
       {"F", "F"},   {"I", "I"},   {"Cl", "Cl"}, {"CL", "Cl"}, {"Br", "Br"}, {"BR", "Br"}, {"Zn", "Zn"},
       {"FE", "Fe"}, {"Mg", "Mg"}, {"MN", "Mn"}, {"Ca", "Ca"}, {"Si", "Si"}, {"Na", "Na"}};
   std::string text;
   for (std::size_t k = 0; k < expected.size(); ++k)
-    text += atom(" X" + std::to_string(k), "LIG", 1, {10.0 * static_cast<double>(k), 0, 0}, " " + expected[k][0]);
+    text += pdbqt(" X" + std::to_string(k), "LIG", {10.0 * static_cast<double>(k), 0, 0}, "-0.250", expected[k][0]);
   const Structure s = read(text, true);
   ASSERT_EQ(s.atoms.size(), expected.size());
   for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_EQ(s.atoms[k].element, expected[k][1]) << expected[k][0];

@@ -2,6 +2,10 @@
 // The kind of a residue and the element of an atom, from names, records and neighbours.
 #include <algorithm>
 #include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -107,6 +111,31 @@ bool is_virtual_site(const RawAtom& atom, const RawResidue& residue, ResidueKind
   if (atom.element_field == ElementField::extra_point) return true;
   if (!atom.element.empty()) return false;
   return kind == ResidueKind::water ? element_by_name(atom, residue).empty() : atom.name.starts_with("LP");
+}
+
+std::optional<RawResidue> with_own_names(const RawResidue& residue) {
+  const auto is_symbol = [](const RawAtom& atom) {
+    return std::equal(atom.name.begin(), atom.name.end(), atom.element.begin(), atom.element.end(),
+                      [](char a, char b) { return a == b || a == (b & ~0x20); });
+  };
+  std::map<std::pair<std::string, char>, int> atoms;
+  std::set<std::string> repeated, taken;
+  for (const RawAtom& atom : residue.atoms) {
+    taken.insert(atom.name);
+    if (++atoms[{atom.name, atom.altloc}] > 1 && is_symbol(atom)) repeated.insert(atom.name);
+  }
+  if (repeated.empty()) return std::nullopt;
+  RawResidue named = residue;
+  std::map<std::pair<std::string, char>, int> numbers;
+  for (RawAtom& atom : named.atoms) {
+    if (!repeated.contains(atom.name)) continue;
+    int& number = numbers[{atom.name, atom.altloc}];
+    std::string name;
+    do name = atom.name + std::to_string(++number);
+    while (taken.contains(name));
+    atom.name = std::move(name);
+  }
+  return named;
 }
 
 std::string element_by_name(const RawAtom& atom, const RawResidue& residue) {

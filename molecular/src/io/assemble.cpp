@@ -87,7 +87,11 @@ class Assembler {
       if (first && end > begin + 1)
         s_.notes.push_back(name_of(residues[begin]) + ": " + std::to_string(end - begin) +
                            " residue types share the position, " + residues[best].name + " is used");
-      add_residue(residues[best], residue_kind(residues, best), first, positions);
+      const ResidueKind kind = residue_kind(residues, best);
+      const bool may_lack_names = kind == ResidueKind::other && !is_cap(residues[best].name);
+      const auto named = may_lack_names ? with_own_names(residues[best]) : std::nullopt;
+      if (named && first) named_.add([&] { return name_of(residues[best]); });
+      add_residue(named ? *named : residues[best], kind, first, positions);
       begin = end;
     }
     if (!difference_.empty() || (!first && positions.size() != s_.atoms.size()))
@@ -185,6 +189,7 @@ class Assembler {
     say(dummies_, "", " dummy atoms are left out");
     say(virtual_sites_, "", " virtual sites, which have no mass, are left out");
     say(repaired_, "elements of ", " atoms taken from their names");
+    say(named_, "residues with atoms named by their elements alone, which are numbered: ", "");
   }
 
   using Key = std::tuple<std::string, int, char>;
@@ -252,6 +257,7 @@ class Assembler {
   std::string difference_;  ///< first atom of the current model that differs from the first model's
   std::optional<ConformerChoice> conformers_;
   Counted dummies_, virtual_sites_, repaired_;  // atoms
+  Counted named_;                               // residues
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "io/hybrid36.hpp"
@@ -24,8 +25,26 @@ bool is_record(std::string_view line, std::string_view name) {
 
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 
+/// True for an atom of a PDBQT file: columns 67-76 hold its partial charge, a number with a point. In a PDB file, they
+/// are blank or end with the name of a segment.
+bool has_charge(std::string_view line) {
+  std::string_view field = line.substr(std::min<std::size_t>(66, line.size()), 10);
+  field.remove_prefix(std::min(field.find_first_not_of(' '), field.size()));
+  if (field.starts_with('+')) field.remove_prefix(1);
+  double charge = 0.0;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), charge);
+  return error == std::errc{} && end == field.data() + field.size() && field.find('.') != std::string_view::npos;
+}
+
+/// Types of PDBQT files that are no atoms: glue of broken rings (G0 to G3), water probes (W), probes around zinc (TZ).
+bool is_probe(std::string_view type) {
+  return type == "W" || type == "W " || type == "TZ" ||
+         (type.size() == 2 && type[0] == 'G' && type[1] >= '0' && type[1] <= '3');
+}
+
 /// gemmi guesses the element if columns 77-78 have no letter.
 ElementField element_field(std::string_view line) {
+  if (line.size() > 77 && has_charge(line) && is_probe(line.substr(77, 2))) return ElementField::extra_point;
   const std::string_view field = line.substr(std::min<std::size_t>(76, line.size()), 2);
   if (field == "EP") return ElementField::extra_point;
   return std::any_of(field.begin(), field.end(), is_letter) ? ElementField::symbol : ElementField::blank;
@@ -87,7 +106,10 @@ PreparedPdb prepare_pdb(const std::string& text, std::size_t columns) {
       serials.push_back(read_hybrid36(line.substr(6, 5)).value_or(0));
       const std::size_t start = kept.size() - line.size();
       kept.replace(start + 6, 5, std::string(5 - number.size(), ' ') + number);
-      if (const std::string element = element_of_type(line); !element.empty()) kept.replace(start + 76, 3, element);
+      if (has_charge(line)) {
+        if (const std::string element = element_of_type(line); !element.empty()) kept.replace(start + 76, 3, element);
+        kept.replace(start + 66, 10, 10, ' ');  // gemmi reads segments there, which part residues
+      }
     }
     if (end < text.size()) kept += '\n';
     first = end + 1;

@@ -172,13 +172,17 @@ std::vector<Component> parse_components(const std::string& bytes, const std::str
 /// AMP).
 ResidueKind residue_kind(const std::vector<RawResidue>& residues, std::size_t r);
 
-/// True for a massless particle of a force field: element EP (extra point), without an element and named as a lone pair
-/// (LP...), or an atom of a water without an element.
+/// True for a massless particle of a force field or of AutoDock: element EP (extra point), without an element and named
+/// as a lone pair (LP...), or an atom of a water without an element.
 bool is_virtual_site(const RawAtom& atom, const RawResidue& residue, ResidueKind kind);
 
 /// True for an unidentified atom or ion (residue UNX, or one atom named UNK, UNX or DUM), and for dummy atoms (residue
 /// DUM), with which OPM marks the borders of a membrane.
 bool is_dummy(const RawResidue& residue);
+
+/// Some programs name the atoms of ligands by their elements alone, so that a residue has many atoms C. Returns the
+/// residue with such atoms numbered, C1, C2 and so on; nullopt if every atom has a name of its own.
+std::optional<RawResidue> with_own_names(const RawResidue& residue);
 
 /// Returns the element: of ions and of residues in the tables by the atom's name, otherwise from the file, otherwise by
 /// name; empty if unknown.
