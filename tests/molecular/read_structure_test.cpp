@@ -75,6 +75,18 @@ TEST(ReadStructure, RefusesABlankCoordinateNamingLineAtomAndColumns) {
   EXPECT_EQ(refusal(text), ":5: atom 5 CB: coordinate y is blank, expected a number in columns 39-46");
 }
 
+// The parser reads these records as atoms, and blank coordinates as zeros.
+TEST(ReadStructure, RefusesBlankCoordinatesOfRecordsWithSixDigitsOrInLowerCase) {
+  for (const std::string record : {"ATOM 100005", "atom 100005"}) {
+    std::string text = alanine();
+    const std::size_t last = text.rfind("ATOM");
+    text.replace(last, 11, record);
+    EXPECT_EQ(refusal(text), "");
+    text.replace(last + 38, 8, "        ");
+    EXPECT_EQ(refusal(text), ":5: atom 100005 CB: coordinate y is blank, expected a number in columns 39-46");
+  }
+}
+
 TEST(ReadStructure, RefusesACoordinateThatIsNoNumber) {
   std::string text = alanine();
   text.replace(text.find("  -0.770"), 8, "     nan");

@@ -108,8 +108,7 @@ PdbModels::PdbModels(BinaryFile file, const Structure& structure, const ReadOpti
     append_identity(records_, line);
     all.push_back(read_pdb_coordinates(line, file_.name(), 0));
   });
-  // The parser also accepts "atom" and "ATOMX" as atoms. Direct reading is used only if it finds the same positions
-  // here.
+  // Direct reading is used only if it finds the positions that the parser found.
   for (std::size_t i = 0; i < known.records.size() && !records_.empty(); ++i) {
     kept_.push_back(known.records[i]);
     if (kept_[i] >= all.size() || all[kept_[i]] != known.positions[i]) records_.clear();

@@ -17,12 +17,6 @@ namespace hinge::molecular {
 
 namespace {
 
-/// gemmi compares four letters, in either case.
-bool is_record(std::string_view line, std::string_view name) {
-  return line.size() >= name.size() &&
-         std::equal(name.begin(), name.end(), line.begin(), [](char a, char b) { return a == (b & ~0x20); });
-}
-
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 
 /// True for an atom of a PDBQT file: columns 67-76 hold its partial charge, a number with a point. In a PDB file, they
@@ -95,7 +89,7 @@ PreparedPdb prepare_pdb(const std::string& text, std::size_t columns) {
       open = false;
     }
     kept += is_model ? "REMARK" : line;
-    if ((is_record(line, "ATOM") || is_record(line, "HETA")) && line.size() > 11) {
+    if (is_atom_record(line) && line.size() > 11) {
       if (!open) result.fields.model_numbers.push_back(model);
       open = true;
       if (serials.size() == most_atoms)

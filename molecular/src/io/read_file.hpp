@@ -2,6 +2,7 @@
 // The steps of read_structure that have files of their own. C++17: clang compiles read_gemmi.cpp in that mode.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -25,10 +26,14 @@ std::string read_bytes(const std::filesystem::path& path, bool first_model = fal
 /// True if the content is mmCIF.
 bool looks_like_cif(const std::string& bytes);
 
-/// True if this line of a PDB file holds an atom.
-inline bool is_atom_record(std::string_view line) {
-  return line.substr(0, 6) == "ATOM  " || line.substr(0, 6) == "HETATM";
+/// True if the line begins with the name of a record. gemmi compares four letters, in either case.
+inline bool is_record(std::string_view line, std::string_view name) {
+  return line.size() >= name.size() &&
+         std::equal(name.begin(), name.end(), line.begin(), [](char a, char b) { return a == (b & ~0x20); });
 }
+
+/// True if this line of a PDB file holds an atom for gemmi. A number of six digits begins in column 6.
+inline bool is_atom_record(std::string_view line) { return is_record(line, "ATOM") || is_record(line, "HETA"); }
 
 /// True for ENDMDL, and for the END that some programs write after each frame.
 inline bool ends_pdb_model(std::string_view line) {
