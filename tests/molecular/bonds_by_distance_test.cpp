@@ -188,6 +188,16 @@ TEST(BondsByDistance, AreRefusedWithoutRoomOrWithTheWrongLengthOrAngles) {
   refused(residue("ALA", 'A', {{"CA", -0.541, 1.322, 0.4}, {"CB", 0.0, 0.0, 0.0}}) + residue("LIG", 'B', acyl(1.5)));
 }
 
+// An isopeptide bond of lysine. The file may hold the one hydrogen that is left; an amine with two has no room.
+TEST(BondsByDistance, AnAmideNitrogenMayHaveItsHydrogenInTheFile) {
+  std::vector<Placed> lysine{{"CD", -2.1, 0.9, 0.9}, {"CE", -0.75, 1.25, 0.0}, {"NZ", 0.0, 0.0, 0.0}};
+  lysine.push_back({"HZ1", -0.5, -0.87, 0.0});
+  EXPECT_EQ(bonds_between(read(residue("LYS", 'A', lysine) + residue("LIG", 'B', acyl(1.34)))),
+            std::vector<std::string>{"A:LYS1:NZ - B:LIG1:C1"});
+  lysine.push_back({"HZ2", -0.3, -0.2, 0.95});
+  EXPECT_TRUE(bonds_between(read(residue("LYS", 'A', lysine) + residue("LIG", 'B', acyl(1.34)))).empty());
+}
+
 /// Returns CB and SG of two cysteines. length: from SG to SG, angstrom. bent: the angle at both sulphurs is 104
 /// degrees, otherwise one is 180.
 std::string cysteines(bool bent, double length = 2.05) {

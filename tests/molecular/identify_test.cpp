@@ -127,7 +127,7 @@ std::string pdbqt(const std::string& name, const std::string& residue, const Vec
 }
 
 // The parser reads the name of a segment in columns 73-76. With charges there, every atom would be a residue.
-TEST(Pdbqt, HasChargesThatPartNoResidue) {
+TEST(Pdbqt, HasChargesThatDoNotSplitResidues) {
   const Structure ideal = build_ideal_protein("S", "C");
   std::string text;
   for (std::uint32_t i = 0; i < ideal.atoms.size(); ++i)
@@ -139,7 +139,7 @@ TEST(Pdbqt, HasChargesThatPartNoResidue) {
   EXPECT_TRUE(s.notes.empty());
 }
 
-TEST(Pdbqt, HasProbesThatAreNoAtoms) {
+TEST(Pdbqt, HasPseudoAtomsThatAreLeftOut) {
   const std::string carbons =
       pdbqt(" C1", "LIG", {0, 0, 0}, "0.019", "CG0") + pdbqt(" C2", "LIG", {1.5, 0, 0}, "0.108", "C ");
   const Structure s =
@@ -179,6 +179,20 @@ TEST(Bonds, JoinResiduesThatAreOutOfOrder) {
   EXPECT_EQ(s.bonds.size(), ideal.bonds.size());
   EXPECT_TRUE(bonded(s, "A:ALA1:C", "A:SER2:N"));
   EXPECT_TRUE(bonded(s, "A:SER2:C", "A:PRO3:N"));
+
+  // The same with the hydrogen of SER2's N, which points away from C of ALA1 and CA.
+  const std::vector<Vec3>& x = ideal.models.front();
+  const auto at = [&](const std::string& name) {
+    for (std::uint32_t i = 0; i < ideal.atoms.size(); ++i)
+      if (label(ideal, i) == name) return x[i];
+    throw std::out_of_range(name);
+  };
+  const Vec3 n = at("A:SER2:N"), middle = 0.5 * (at("A:ALA1:C") + at("A:SER2:CA"));
+  const Vec3 h = n + (n - middle) / norm(Vec3(n - middle));
+  const Structure with_hydrogen = read(records(ideal, 1, "") + atom(" H", "SER", 2, h, "H") + records(ideal, 0, "") +
+                                       records(ideal, 2, "") + records(ideal, 3, ""));
+  EXPECT_EQ(with_hydrogen.bonds.size(), ideal.bonds.size() + 1);
+  EXPECT_TRUE(bonded(with_hydrogen, "A:ALA1:C", "A:SER2:N"));
 }
 
 // Read as PDB, the chlorine "Cl" would be a carbon.
@@ -193,6 +207,7 @@ TEST(Pdbqt, HasTypesThatTellTheElements) {
   const Structure s = read(text, true);
   ASSERT_EQ(s.atoms.size(), expected.size());
   for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_EQ(s.atoms[k].element, expected[k][1]) << expected[k][0];
+  EXPECT_THROW(read(atom(" X1", "LIG", 1, {0, 0, 0}, " A"), true), LoadError);  // no charge: not a PDBQT file
 }
 
 TEST(Elements, OfCharmmIonsComeFromTheirNames) {
