@@ -40,7 +40,7 @@ class Perception {
     ResidueBonds inside(s_, bonds_, components);
     for (std::uint32_t r = 0; r < s_.residues.size(); ++r) inside.add(r);
     for (const Chain& chain : s_.chains) bond_chain(chain);
-    find_misplaced();
+    find_out_of_order();
     closing_ = closing_bonds();
     bond_recorded();
     if (between_ == BondSearch::geometry) bond_by_distance();
@@ -67,25 +67,28 @@ class Perception {
       if (!last || !bond_next(*last, r)) {
         if (last && s_.residues[*last].kind == s_.residues[r].kind && s_.residues[r].kind != ResidueKind::other)
           note_break(chain, *last, r);
-        if (last) stops_.emplace(std::pair(chain.name, s_.residues[*last].sequence_number), *last);
-        starts_.push_back(r);
+        pieces_.emplace_back(r, r);
       }
+      pieces_.back().second = r;
       if (!first) first = r;
       last = r;
     }
-    if (last) stops_.emplace(std::pair(chain.name, s_.residues[*last].sequence_number), *last);
     // The ends of a cyclic backbone are bonded. A chain of two residues cannot form a ring.
     if (first && last && *last > *first + 1) ends_.emplace_back(*last, *first);
   }
 
-  /// Residues may be out of order in the file. The bond to the residue with the number before is then one of the
-  /// backbone that joins ends.
-  void find_misplaced() {
-    for (const std::uint32_t r : starts_) {
+  /// Finds pieces of a chain that follow each other by number, but not in the file. The bond between them is tested
+  /// like the bond that closes a backbone.
+  void find_out_of_order() {
+    const auto key = [&](std::uint32_t r, int before) {
       const Residue& residue = s_.residues[r];
-      const auto stop = stops_.find({s_.chains[residue.chain].name, residue.sequence_number - 1});
-      if (stop != stops_.end() && stop->second + 1 != r) ends_.emplace_back(stop->second, r);
-    }
+      return std::pair(s_.chains[residue.chain].name, residue.sequence_number - before);
+    };
+    std::map<std::pair<std::string, int>, std::uint32_t> lasts;
+    for (const auto& [first, last] : pieces_) lasts.emplace(key(last, 0), last);
+    for (const auto& [first, last] : pieces_)
+      if (const auto before = lasts.find(key(first, 1)); before != lasts.end())
+        ends_.emplace_back(before->second, first);
   }
 
   bool bond_next(std::uint32_t r, std::uint32_t t) {
@@ -165,7 +168,7 @@ class Perception {
                          " pairs (first: " + refused.first + ")");
   }
 
-  /// Returns backbone bonds from the last residue of a chain to its first, if they are short enough.
+  /// Returns backbone bonds between `ends_`, if they are short enough.
   std::vector<Candidate> closing_bonds() const {
     std::vector<Candidate> found;
     for (const auto& [last, first] : ends_)
@@ -237,9 +240,8 @@ class Perception {
   const std::vector<Vec3>& x_;
   BondSearch between_;
   BondList bonds_;
-  std::vector<std::uint32_t> starts_;                           // residues without a bond to the one before in the file
-  std::map<std::pair<std::string, int>, std::uint32_t> stops_;  // by chain and number: those without a bond to the next
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends_;   // residues that a bond may join: last and first
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pieces_;  // first and last residue of each bonded run of a chain
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends_;    // last and first residues that a bond may join
   std::vector<Candidate> closing_;
 };
 
