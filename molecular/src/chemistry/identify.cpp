@@ -108,7 +108,7 @@ bool is_dummy(const RawResidue& residue) {
 }
 
 bool is_virtual_site(const RawAtom& atom, const RawResidue& residue, ResidueKind kind) {
-  if (atom.element_field == ElementField::extra_point) return true;
+  if (atom.element_field == ElementField::virtual_site) return true;
   if (!atom.element.empty()) return false;
   return kind == ResidueKind::water ? element_by_name(atom, residue).empty() : atom.name.starts_with("LP");
 }
@@ -118,13 +118,12 @@ std::optional<RawResidue> with_own_names(const RawResidue& residue) {
     return std::equal(atom.name.begin(), atom.name.end(), atom.element.begin(), atom.element.end(),
                       [](char a, char b) { return a == b || a == (b & ~0x20); });
   };
-  std::map<std::pair<std::string, char>, int> atoms;
+  std::set<std::pair<std::string, char>> seen;
   std::set<std::string> repeated, taken;
-  for (const RawAtom& atom : residue.atoms) {
-    taken.insert(atom.name);
-    if (++atoms[{atom.name, atom.altloc}] > 1 && is_symbol(atom)) repeated.insert(atom.name);
-  }
+  for (const RawAtom& atom : residue.atoms)
+    if (!seen.emplace(atom.name, atom.altloc).second && is_symbol(atom)) repeated.insert(atom.name);
   if (repeated.empty()) return std::nullopt;
+  for (const RawAtom& atom : residue.atoms) taken.insert(atom.name);
   RawResidue named = residue;
   std::map<std::pair<std::string, char>, int> numbers;
   for (RawAtom& atom : named.atoms) {

@@ -33,7 +33,7 @@ Vec3 read_pdb_coordinates(std::string_view line, const std::string& path, std::s
     const std::size_t column = 30 + 8 * k;
     const std::string_view field = trimmed(line.size() > column ? line.substr(column, 8) : std::string_view());
     const auto refuse = [&](const std::string& what) {
-      const std::size_t number = is_record(line, "ATOM") ? 5 : 6;  // column of six or five digits
+      const std::size_t number = is_record(line, "ATOM") ? 5 : 6;  // ATOM leaves room for six digits, HETATM for five
       throw LoadError(where() + std::string(trimmed(line.substr(number, 11 - number))) + " " +
                       std::string(trimmed(line.substr(12, 4))) + ": coordinate " + "xyz"[k] + " is " + what +
                       ", expected a number in columns " + std::to_string(column + 1) + "-" +

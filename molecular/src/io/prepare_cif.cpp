@@ -123,7 +123,7 @@ AtomFields prepare_cif(gemmi::cif::Document& document) {
     gemmi::cif::Table atoms =
         block.find(atom_site, {"id", "type_symbol", "B_iso_or_equiv", "?label_asym_id", "?label_seq_id"});
     for (auto row : atoms) {
-      fields.elements.push_back(row[1] == "EP"                   ? ElementField::extra_point
+      fields.elements.push_back(row[1] == "EP"                   ? ElementField::virtual_site
                                 : row[1] == "?" || row[1] == "." ? ElementField::blank
                                                                  : ElementField::symbol);
       fields.serials.push_back(gemmi::string_to_int(row[0], false));

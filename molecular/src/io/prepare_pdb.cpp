@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // prepare_pdb: the text of a PDB file as the parser receives it.
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cstddef>
@@ -30,17 +31,18 @@ bool has_charge(std::string_view line) {
   return error == std::errc{} && end == field.data() + field.size() && field.find('.') != std::string_view::npos;
 }
 
-/// Types of PDBQT files that are no atoms: glue of broken rings (G0 to G3), water probes (W), probes around zinc (TZ).
-bool is_probe(std::string_view type) {
-  return type == "W" || type == "W " || type == "TZ" ||
-         (type.size() == 2 && type[0] == 'G' && type[1] >= '0' && type[1] <= '3');
+/// True for a pseudo atom of a PDBQT file: the partner of an atom in a macrocycle that docking opens (G0 to G3), a
+/// water (W), a site around zinc (TZ).
+bool is_pseudo_atom(std::string_view line) {
+  const std::string_view type = line.substr(std::min<std::size_t>(77, line.size()), 2);
+  constexpr std::array<std::string_view, 7> types{"G0", "G1", "G2", "G3", "TZ", "W", "W "};
+  return std::find(types.begin(), types.end(), type) != types.end();
 }
 
 /// gemmi guesses the element if columns 77-78 have no letter.
 ElementField element_field(std::string_view line) {
-  if (line.size() > 77 && has_charge(line) && is_probe(line.substr(77, 2))) return ElementField::extra_point;
   const std::string_view field = line.substr(std::min<std::size_t>(76, line.size()), 2);
-  if (field == "EP") return ElementField::extra_point;
+  if (field == "EP") return ElementField::virtual_site;
   return std::any_of(field.begin(), field.end(), is_letter) ? ElementField::symbol : ElementField::blank;
 }
 
@@ -95,14 +97,16 @@ PreparedPdb prepare_pdb(const std::string& text, std::size_t columns) {
       if (serials.size() == most_atoms)
         throw std::runtime_error("more than " + std::to_string(most_atoms) +
                                  " atoms, expected an mmCIF file for so many atoms");
-      result.fields.elements.push_back(element_field(line));
+      const bool is_pdbqt = has_charge(line);
+      result.fields.elements.push_back(is_pdbqt && is_pseudo_atom(line) ? ElementField::virtual_site
+                                                                        : element_field(line));
       const std::string number = hybrid36(serials.size());
       serials.push_back(read_hybrid36(line.substr(6, 5)).value_or(0));
       const std::size_t start = kept.size() - line.size();
       kept.replace(start + 6, 5, std::string(5 - number.size(), ' ') + number);
-      if (has_charge(line)) {
+      if (is_pdbqt) {
         if (const std::string element = element_of_type(line); !element.empty()) kept.replace(start + 76, 3, element);
-        kept.replace(start + 66, 10, 10, ' ');  // gemmi reads segments there, which part residues
+        kept.replace(start + 66, 10, 10, ' ');  // gemmi would split residues by segments there
       }
     }
     if (end < text.size()) kept += '\n';

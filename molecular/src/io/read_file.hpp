@@ -59,8 +59,8 @@ Vec3 read_pdb_coordinates(std::string_view line, const std::string& path, std::s
 void check_pdb(std::string_view text, const std::string& path, std::size_t number = 0,
                std::vector<std::string>* notes = nullptr);
 
-/// What a file has in the place of an atom's element. extra_point: EP, a massless particle.
-enum class ElementField : std::uint8_t { symbol, blank, extra_point };
+/// What a file has in the place of an atom's element. virtual_site: EP, or a type of AutoDock's pseudo atoms.
+enum class ElementField : std::uint8_t { symbol, blank, virtual_site };
 
 /// An atom as in the file, before conformers are chosen.
 struct RawAtom {
@@ -177,8 +177,8 @@ std::vector<Component> parse_components(const std::string& bytes, const std::str
 /// AMP).
 ResidueKind residue_kind(const std::vector<RawResidue>& residues, std::size_t r);
 
-/// True for a massless particle of a force field or of AutoDock: element EP (extra point), without an element and named
-/// as a lone pair (LP...), or an atom of a water without an element.
+/// True for a massless particle: an extra point of a force field (element EP), a pseudo atom of AutoDock, a lone pair
+/// (no element, named LP...), or an atom of a water without an element.
 bool is_virtual_site(const RawAtom& atom, const RawResidue& residue, ResidueKind kind);
 
 /// True for an unidentified atom or ion (residue UNX, or one atom named UNK, UNX or DUM), and for dummy atoms (residue
