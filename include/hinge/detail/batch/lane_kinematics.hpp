@@ -204,8 +204,9 @@ class LaneKinematics {
     return turn;
   }
 
-  [[gnu::always_inline]] static LaneVector add_used(LaneVector sum, const LaneFrame& frame, const Column& column,
-                                                    unsigned rest) noexcept {
+  [[gnu::always_inline]] static LaneVector add_used(const LaneVector& start, const LaneFrame& frame,
+                                                    const Column& column, unsigned rest) noexcept {
+    LaneVector sum = start;
     for (; rest != 0; rest &= rest - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(rest));
       sum = sum + frame[k] * simd::Float16(column.factor[k]);

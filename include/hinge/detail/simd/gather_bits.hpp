@@ -99,7 +99,7 @@ template <class Value>
 
 /// Sixteen indices below 16, prepared for look_up. The intrinsics are the zero-masked forms, because g++ 12 warns about
 /// an undefined operand of the plain forms.
-class Index16 {
+class HINGE_REGISTERS_ABI Index16 {
  public:
   Index16() = default;
 #if defined(__AVX512F__)

@@ -20,8 +20,12 @@ namespace hinge::detail::simd {
 /// Lane-wise arithmetic without fused multiply-add: each lane has the bits of scalar code in the same order. Memory
 /// need not be aligned. All functions are forced inline, because compilers otherwise emit calls that pass lanes through
 /// memory.
+///
+/// Code for different instruction sets can be linked into one program. So types with lanes have the same layout for all
+/// of them: the alignment does not depend on the registers. Functions that take or return lanes have different symbols
+/// (the ABI tag), because the registers decide how lanes are passed.
 template <class T, std::size_t N>
-class Lanes {
+class HINGE_REGISTERS_ABI Lanes {
   static constexpr std::size_t part_size = std::min(N, register_bytes / sizeof(T));
   static constexpr std::size_t parts = N / part_size;
   static_assert(parts * part_size == N);
@@ -184,7 +188,7 @@ class Lanes {
   }
 
   /// The result of a lane-wise comparison.
-  class Mask {
+  class HINGE_REGISTERS_ABI Mask {
    public:
     using Parts = std::array<decltype(Part::less(Vector{}, Vector{})), parts>;
     [[gnu::always_inline]] explicit Mask(const Parts& m) noexcept : m_(m) {}
@@ -242,11 +246,11 @@ class Lanes {
   }
 
  private:
-  std::array<Vector, parts> v_;
+  alignas(std::min<std::size_t>(N * sizeof(T), 64)) std::array<Vector, parts> v_;
 };
 
 /// Allocates memory at multiples of a cache line. Eigen's allocator aligns to the registers of the instruction set, so
-/// code for two instruction sets could not exchange vectors.
+/// code for different instruction sets could not exchange vectors.
 template <class T>
 struct LineAllocator {
   using value_type = T;

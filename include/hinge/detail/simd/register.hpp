@@ -21,12 +21,17 @@ namespace hinge::detail::simd {
 /// One bit per lane; lane 0 is the lowest bit.
 using Bits = std::uint32_t;
 
+// HINGE_REGISTERS_ABI is an attribute of types that hold registers (see Lanes). It is a macro because the attribute
+// takes only a literal.
 #if defined(__AVX512F__)
 inline constexpr std::size_t register_bytes = 64;
+#define HINGE_REGISTERS_ABI [[gnu::abi_tag("registers64")]]
 #elif defined(__AVX__)
 inline constexpr std::size_t register_bytes = 32;
+#define HINGE_REGISTERS_ABI [[gnu::abi_tag("registers32")]]
 #else
 inline constexpr std::size_t register_bytes = 16;
+#define HINGE_REGISTERS_ABI [[gnu::abi_tag("registers16")]]
 #endif
 
 /// Operations on one register. They are forced inline for the reason that `Lanes` gives.

@@ -11,8 +11,9 @@
 
 namespace hinge::robotics {
 
-/// Derivatives of distances: one row per pair, one column per independent joint, m per rad or m per m.
-using ClearanceJacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+/// Derivatives of distances: one row per pair, one column per independent joint, m per rad or m per m. Not aligned: the
+/// alignment of Eigen depends on the instruction set, and the library may be compiled for another one than its user.
+using ClearanceJacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor | Eigen::DontAlign>;
 
 /// A distance with its witness points, m, world frame.
 struct Clearance {
