@@ -1,16 +1,33 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# hinge_add_library(MODULE): adds hinge_MODULE, a static or shared library (BUILD_SHARED_LIBS), from the caller's
-# ${library_sources}. Only what is marked HINGE_API is visible outside the shared library.
+# hinge_add_library(MODULE FOLDER... [SYSTEM_INCLUDES DIR...] [LIBRARIES TARGET...]): adds hinge_MODULE, a static or
+# shared library (BUILD_SHARED_LIBS), from the caller's src/*/*.cpp. Only what is marked HINGE_API is visible outside the
+# shared library. FOLDER...: the folders of src whose code runs for every configuration. Programs for other instruction
+# sets compile these again (property HINGE_REPEATED_SOURCES). The other folders are compiled once, as hinge_MODULE_once.
+# SYSTEM_INCLUDES and LIBRARIES: private dependencies.
 function(hinge_add_library module)
-  add_library(hinge_${module} ${library_sources})
+  cmake_parse_arguments(PARSE_ARGV 1 needs "" "" "SYSTEM_INCLUDES;LIBRARIES")
+  file(GLOB sources CONFIGURE_DEPENDS src/*/*.cpp)
+  list(JOIN needs_UNPARSED_ARGUMENTS "|" folders)
+  set(repeated ${sources})
+  list(FILTER repeated INCLUDE REGEX "/src/(${folders})/")
+  list(REMOVE_ITEM sources ${repeated})
+  add_library(hinge_${module}_once STATIC ${sources})
+  add_library(hinge_${module} ${repeated} $<TARGET_OBJECTS:hinge_${module}_once>)
   add_library(hinge::${module} ALIAS hinge_${module})
+  target_link_libraries(hinge_${module} PUBLIC hinge)
+  target_link_libraries(hinge_${module}_once PRIVATE hinge)
+  foreach(target hinge_${module} hinge_${module}_once)
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
+                                               VISIBILITY_INLINES_HIDDEN ON UNITY_BUILD_BATCH_SIZE 0)
+    target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+                                                $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    target_include_directories(${target} PRIVATE src)
+    target_include_directories(${target} SYSTEM PRIVATE ${needs_SYSTEM_INCLUDES})
+    target_link_libraries(${target} PRIVATE ${needs_LIBRARIES} $<BUILD_INTERFACE:hinge_own>)
+  endforeach()
   # Before 1.0 every minor version may change the interface.
-  set_target_properties(hinge_${module} PROPERTIES EXPORT_NAME ${module} POSITION_INDEPENDENT_CODE ON
-                        VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
-                        CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-  target_include_directories(hinge_${module} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
-                                                    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-  target_include_directories(hinge_${module} PRIVATE src)
+  set_target_properties(hinge_${module} PROPERTIES EXPORT_NAME ${module} HINGE_REPEATED_SOURCES "${repeated}"
+                        VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 endfunction()
 
 # hinge_install_library(MODULE DESCRIPTION REQUIRES LIBS): installs hinge_MODULE, its headers, and hinge-MODULE.pc for

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# hinge_add_tool(NAME LIBRARY [SYSTEM_INCLUDES DIR...] [LIBRARIES TARGET...]): adds the command-line tool NAME from the
-# caller's apps/*.cpp and LIBRARY. The private dependencies of LIBRARY are given again.
+# hinge_add_tool(NAME LIBRARY [SOURCE...] [SYSTEM_INCLUDES DIR...] [LIBRARIES TARGET...]): adds the command-line tool NAME
+# from the caller's apps/*.cpp and LIBRARY. SOURCE...: those of apps whose code runs for every configuration. The private
+# dependencies of LIBRARY are given again.
 find_package(CLI11 QUIET)
 find_package(nlohmann_json QUIET)
 find_package(fmt QUIET)
@@ -40,15 +41,21 @@ function(hinge_add_tool tool library)
                              -DROOT=${PROJECT_SOURCE_DIR} -DFOLDER=${CMAKE_CURRENT_SOURCE_DIR}
                              -DPROGRAMS=${programs_from_bin} -P ${write_build_id})
   set_source_files_properties(${build_id} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  list(APPEND sources ${build_id})
   set(libraries hinge_ensemble hinge_own hinge_report CLI11::CLI11 nlohmann_json::nlohmann_json fmt::fmt)
-  add_executable(${tool} ${sources})
-  target_link_libraries(${tool} PRIVATE ${library} ${libraries})
+  list(TRANSFORM needs_UNPARSED_ARGUMENTS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE repeated)
+  list(REMOVE_ITEM sources ${repeated})
+  add_library(${tool}_once STATIC ${sources})
+  set_target_properties(${tool}_once PROPERTIES UNITY_BUILD_BATCH_SIZE 0)
+  target_include_directories(${tool}_once PRIVATE include)
+  target_link_libraries(${tool}_once PRIVATE ${libraries})
+  add_executable(${tool} ${repeated} ${build_id})
+  target_link_libraries(${tool} PRIVATE ${tool}_once ${library} ${libraries})
   set(programs ${tool})
-  # One more program per instruction set, compiled as a whole: a shared library would mix copies of inline functions.
-  # The tool starts the best program. Only for Release builds, where speed matters.
+  # One more program per instruction set, for Release builds. The tool starts the best one. A program's own objects come
+  # before the libraries in the linker's command. So where both have an inline function, the linker takes the copy for
+  # the program's instruction set.
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND CMAKE_BUILD_TYPE STREQUAL "Release")
-    get_target_property(library_sources ${library} SOURCES)
+    get_target_property(library_sources ${library} HINGE_REPEATED_SOURCES)
     set(x86-64-v3 avx2)
     set(x86-64-v4 avx512)
     foreach(level x86-64-v3 x86-64-v4)
@@ -61,12 +68,12 @@ function(hinge_add_tool tool library)
       if(NOT name)
         message(FATAL_ERROR "HINGE_TOOL_LEVELS has '${level}', expected x86-64-v3 and x86-64-v4")
       endif()
-      add_executable(${tool}-${name} ${sources} ${library_sources})
+      add_executable(${tool}-${name} ${repeated} ${build_id} ${library_sources})
       set_target_properties(${tool}-${name} PROPERTIES UNITY_BUILD_BATCH_SIZE 0)
       target_compile_options(${tool}-${name} PRIVATE -march=${level})
       target_include_directories(${tool}-${name} PRIVATE include src)
       target_include_directories(${tool}-${name} SYSTEM PRIVATE ${needs_SYSTEM_INCLUDES})
-      target_link_libraries(${tool}-${name} PRIVATE ${libraries} ${needs_LIBRARIES})
+      target_link_libraries(${tool}-${name} PRIVATE ${tool}_once ${library}_once ${libraries} ${needs_LIBRARIES})
       add_dependencies(${tool} ${tool}-${name})
       list(APPEND programs ${tool}-${name})
     endforeach()

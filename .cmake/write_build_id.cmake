@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Writes OUT, a source file that defines hinge_build_id: TOOL, VERSION and a hash of all sources of the core
-# (ROOT/include) and of the module in FOLDER. Programs with equal ids were compiled from the same sources, in any
-# folder. Also defines hinge_programs_folder: PROGRAMS, where an installation has the programs for other instruction
-# sets, relative to the folder of the tool.
+# Writes OUT, a source file with the definitions of include/hinge_tools/this_program.hpp. build_id: TOOL, VERSION and a
+# hash of all sources of the core (ROOT/include) and of the module in FOLDER. Programs with equal ids were compiled from
+# the same sources, in any folder. programs_folder: PROGRAMS.
 file(GLOB_RECURSE sources ${ROOT}/include/*.hpp ${FOLDER}/include/*.hpp ${FOLDER}/src/*.[hc]pp ${FOLDER}/apps/*.[hc]pp)
 list(SORT sources)
 set(hashes "")
@@ -13,8 +12,10 @@ foreach(source IN LISTS sources)
 endforeach()
 string(SHA256 hash "${hashes}")
 file(WRITE ${OUT} "// Made by .cmake/write_build_id.cmake.
-extern const char hinge_build_id[];
-const char hinge_build_id[] = \"hinge build id: ${TOOL} ${VERSION} ${hash}\";
-extern const char hinge_programs_folder[];
-const char hinge_programs_folder[] = \"${PROGRAMS}\";
+#include \"hinge_tools/this_program.hpp\"
+namespace hinge::tool {
+const detail::simd::InstructionSet instruction_set = detail::simd::compiled_for();
+const char build_id[] = \"hinge build id: ${TOOL} ${VERSION} ${hash}\";
+const char programs_folder[] = \"${PROGRAMS}\";
+}  // namespace hinge::tool
 ")

@@ -26,6 +26,7 @@
 #include "hinge_tools/parts_folder.hpp"
 #include "hinge_tools/progress_bar.hpp"
 #include "hinge_tools/rows.hpp"
+#include "hinge_tools/this_program.hpp"
 #include "hinge_tools/unit_file.hpp"
 
 namespace hinge::tool {
@@ -110,7 +111,7 @@ template <class Run>
 void serve_units(const Units<Run>& units) {
   const Question& question = units.question();
   print("ready " + std::to_string(question.units()) + " " + question.digest + " " +
-        std::string(detail::simd::name(detail::simd::compiled_for())) + "\n");
+        std::string(detail::simd::name(instruction_set)) + "\n");
   std::fflush(stdout);
   for (std::string line; std::getline(std::cin, line);) {
     const auto number = read_number<std::uint64_t>("unit", line, {0, std::max<std::uint64_t>(question.units(), 1) - 1});

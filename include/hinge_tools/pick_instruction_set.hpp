@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pick_instruction_set: a tool is installed once per instruction set, and the plain program replaces itself by the best
-// for the CPU. It uses exec: separately compiled programs share no inline functions, so no AVX code can enter the plain
-// one.
+// for the CPU. It uses exec: all code of the plain program is compiled for the baseline, so no AVX code can enter it.
 #pragma once
 
 #include <fcntl.h>
@@ -19,6 +18,7 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/detail/simd/instruction_set.hpp"
+#include "hinge_tools/this_program.hpp"
 
 namespace hinge::tool {
 
@@ -57,13 +57,13 @@ inline bool file_holds(int file, std::string_view text) {
 
 /// Replaces this process by the program NAME-avx512 or NAME-avx2, where NAME is the name of this program: the best set
 /// of the CPU, or the set named by HINGE_ISA (see wanted_instruction_set). The program is looked for next to this one,
-/// then in programs_folder, relative to the folder of this one. Returns if this program is the right one, or no other
-/// exists. All programs give the same answers. Throws LoadError, without running it, if the other program does not
-/// contain build_id, which all programs of one build contain; also if it cannot be run.
-inline void pick_instruction_set(char** argv, std::string_view build_id, std::string_view programs_folder) {
+/// then in programs_folder. Returns if this program is the right one, or no other exists. All programs give the same
+/// answers. Throws LoadError, without running it, if the other program does not contain build_id; also if it cannot be
+/// run.
+inline void pick_instruction_set(char** argv) {
   using detail::simd::InstructionSet;
   // The replacing programs call this too, and must not be replaced again.
-  if (detail::simd::compiled_for() != InstructionSet::baseline) return;
+  if (instruction_set != InstructionSet::baseline) return;
   for (InstructionSet set = wanted_instruction_set(); set != InstructionSet::baseline;
        set = static_cast<InstructionSet>(static_cast<unsigned char>(set) - 1)) {
     std::error_code error;
