@@ -23,6 +23,12 @@ using Doubles = pybind11::array_t<double, pybind11::array::c_style>;
 using Shape = std::vector<pybind11::ssize_t>;
 inline constexpr pybind11::ssize_t any = -1;
 
+/// Fills the gap after a small field of a structured array's row with zeros, so that equal rows have equal bytes.
+template <std::size_t bytes>
+struct Padding {
+  std::int8_t zeros[bytes] = {};
+};
+
 /// Returns the shape as Python writes it, "(10, 3)"; `any` is written as "n".
 std::string shape_text(std::span<const pybind11::ssize_t> shape);
 

@@ -14,6 +14,7 @@ namespace hinge::python {
 /// The answer for one path. bind_core() registers its dtype.
 struct PathRow {
   std::int8_t verdict;  ///< PathVerdict
+  Padding<7> padding;
   double parameter, half_width;
   std::int64_t i, j;  ///< a pair that collides or is not proved apart; -1: none
   double distance, threshold;
@@ -22,6 +23,7 @@ struct PathRow {
 
 inline PathRow path_row(const PathAnswer& answer) {
   PathRow row{static_cast<std::int8_t>(answer.verdict),
+              {},
               answer.parameter,
               answer.half_width,
               -1,

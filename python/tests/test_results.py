@@ -52,3 +52,34 @@ def test_of_robots():
     relaxed = checker.relax(q)
     line(relaxed, f"<Relaxation: free: {np.sum(relaxed.is_free)} of 5>")
     line(checker.relax(home), "<Relaxation: free, distance: 0>")
+
+
+def gaps(rows):
+    """The bytes of a structured array that belong to no field."""
+    used = np.zeros(rows.dtype.itemsize, bool)
+    for field, start in rows.dtype.fields.values():
+        used[start : start + field.itemsize] = True
+    return np.frombuffer(rows.tobytes(), np.uint8).reshape(rows.size, -1)[:, ~used]
+
+
+def test_gaps_of_rows_are_zero():
+    """Equal rows have equal bytes, and no bytes of other objects."""
+    molecule = hm.Checker(hm.Molecule(ROOT / "molecular/data/1ubq.pdb"), "A:72-76:phi,psi")
+    q = molecule.sample(4, seed=1)
+    arm = hr.Robot.from_urdf(DATA / "arm.urdf")
+    world = hr.Environment()
+    world.add(hr.Box((0.2, 0.2, 0.2)), (0.5, 0.3, 0.3), "box")
+    robot = hr.Checker(arm, environment=world)
+    p = np.zeros((3, robot.dof))
+    tables = [
+        molecule.pairs(q, within=1.0),
+        molecule.closest(q),
+        molecule.certify(q[0], q[1]),
+        robot.pairs(p, within=1.0),
+        robot.distances(p, within=1.0),
+        robot.closest(p),
+        robot.clearances(p, influence=1.0)[0],
+        robot.certify(p[0], p[0] + 0.1),
+    ]
+    for rows in map(np.atleast_1d, tables):
+        assert rows.size > 0 and not gaps(rows).any(), rows.dtype

@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "arrays.hpp"
 #include "hinge/molecular/checker.hpp"
 #include "hinge/molecular/kept_closures.hpp"
 #include "hinge/molecular/path_checker.hpp"
@@ -23,6 +24,7 @@ struct PairRow {
   std::uint32_t i, j;
   double distance, threshold;
   bool collides;
+  Padding<7> padding{};
 };
 
 /// A checker with what its molecule needs for samples and moves.

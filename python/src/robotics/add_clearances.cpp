@@ -22,6 +22,7 @@ struct ClearanceRow {
   double distance, gap;
   double point1[3], point2[3], normal[3];
   bool is_signed;
+  Padding<7> padding{};
 };
 
 ClearanceRow clearance_row(std::size_t configuration, std::int32_t first, std::int32_t second, const Clearance& c) {

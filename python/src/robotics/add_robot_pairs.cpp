@@ -20,6 +20,7 @@ struct ContainedRow {
   std::int64_t configuration;
   std::int32_t outer, inner;
   bool whole;
+  Padding<7> padding{};
 };
 
 LinkPairRow pair_row_of(std::size_t configuration, std::int32_t first, std::int32_t second, const Hit& hit) {

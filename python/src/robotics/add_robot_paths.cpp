@@ -18,6 +18,7 @@ namespace {
 /// The answer for one path.
 struct RobotPathRow {
   std::int8_t verdict;  ///< PathVerdict
+  Padding<7> padding;
   double parameter, half_width;
   std::int32_t first, second;  ///< a pair that collides or is not proved apart; -1: none
   double distance, threshold;
@@ -26,6 +27,7 @@ struct RobotPathRow {
 
 RobotPathRow robot_path_row(const RobotCheckerHandle& self, const RobotPathAnswer& answer) {
   RobotPathRow row{static_cast<std::int8_t>(answer.verdict),
+                   {},
                    answer.parameter,
                    answer.half_width,
                    -1,

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "arrays.hpp"
 #include "environment_handle.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/robotics/path_checker.hpp"
@@ -55,6 +56,7 @@ struct LinkDistanceRow {
   double distance, gap;
   double point1[3], point2[3], normal[3];
   bool collides;
+  Padding<7> padding{};
 };
 
 /// What a call asks about: the robot against itself, against the bodies, or both.
