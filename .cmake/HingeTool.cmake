@@ -46,6 +46,7 @@ function(hinge_add_tool tool library)
   list(REMOVE_ITEM sources ${repeated})
   add_library(${tool}_once STATIC ${sources})
   set_target_properties(${tool}_once PROPERTIES UNITY_BUILD_BATCH_SIZE 0)
+  # Not linked to ${library}: a program for another instruction set has its own copy of that code.
   target_include_directories(${tool}_once PRIVATE include)
   target_link_libraries(${tool}_once PRIVATE ${libraries})
   add_executable(${tool} ${repeated} ${build_id})
