@@ -119,8 +119,8 @@ std::vector<std::size_t> as_indices(py::handle value, const char* name, std::siz
   return indices;
 }
 
-std::span<const double> Configurations::slice(std::size_t first, std::size_t last) const {
-  const std::span<const double> numbers(array.data() + first * dof, (last - first) * dof);
+std::span<const double> Configurations::operator[](std::size_t k) const {
+  const std::span<const double> numbers = slice(k, k + 1);
   if (!is_finite(numbers)) require_finite(array, name);
   return numbers;
 }

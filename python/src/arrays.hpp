@@ -55,19 +55,20 @@ void require_finite(const Doubles& array, const char* name);
 /// outside 0 ... end - 1.
 std::vector<std::size_t> as_indices(pybind11::handle value, const char* name, std::size_t end);
 
-/// Configurations as an argument: one, of shape (dof,), or several, of shape (n, dof). The numbers are checked when
-/// they are asked for, just before their use, because reading a large array twice from memory costs time.
+/// Configurations as an argument: one, of shape (dof,), or several, of shape (n, dof).
 struct Configurations {
   Doubles array;     ///< keeps the memory alive
   const char* name;  ///< of the argument, for messages
   bool one = false;  ///< the argument has one dimension
   std::size_t count = 0, dof = 0;
 
-  /// Configuration k < count. Throws as slice() does.
-  std::span<const double> operator[](std::size_t k) const { return slice(k, k + 1); }
-  /// Configurations first ... last - 1, one after the other. Throws as require_finite() does if one of their numbers is
-  /// not finite.
-  std::span<const double> slice(std::size_t first, std::size_t last) const;
+  /// Configuration k < count. Throws as require_finite() does if one of its numbers is not finite.
+  std::span<const double> operator[](std::size_t k) const;
+  /// Configurations first ... last - 1, one after the other. Their numbers are not checked, because a further pass
+  /// over a large array costs time: use it for what refuses numbers that are not finite.
+  std::span<const double> slice(std::size_t first, std::size_t last) const {
+    return {array.data() + first * dof, (last - first) * dof};
+  }
 };
 
 /// Returns configurations of `dof` numbers each. name: the argument, for messages; it must outlive the result. Throws

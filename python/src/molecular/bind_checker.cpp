@@ -74,8 +74,13 @@ std::unique_ptr<CheckerHandle> make_checker(const MoleculeHandle& molecule, cons
 void find_colliding(Checker& checker, const Configurations& q, std::size_t first, std::size_t last,
                     std::uint8_t* verdicts) {
   if (q.dof > 0) {
-    const std::vector<std::uint8_t> found = checker.check_batch(q.slice(first, last));
-    std::copy(found.begin(), found.end(), verdicts + first);
+    try {
+      const std::vector<std::uint8_t> found = checker.check_batch(q.slice(first, last));
+      std::copy(found.begin(), found.end(), verdicts + first);
+    } catch (const ConfigurationError&) {  // it counts from `first`
+      require_finite(q.array, q.name);
+      throw;
+    }
   } else {
     for (std::size_t k = first; k < last; ++k) verdicts[k] = checker.check(q[k], any_pair).collides ? 1 : 0;
   }
