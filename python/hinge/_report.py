@@ -96,6 +96,8 @@ def report(
         raise TypeError(
             f"checker: a {type(checker).__name__}, expected a hinge.molecular.Checker or hinge.robotics.Checker"
         )
+    if isinstance(q, (str, bytes, os.PathLike)):
+        raise TypeError(f"q: a {type(q).__name__}, expected numbers or a Motion; the page's path is the argument file")
     if q is not None and coordinates is not None:
         raise TypeError("q and coordinates: both given, expected one of them")
     verdict = None

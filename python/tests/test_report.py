@@ -198,6 +198,8 @@ def test_bad_arguments_are_named():
         hinge.report(robot, coordinates=np.zeros((3, 3)))
     with pytest.raises(TypeError, match="matrix: given with a molecule"):
         hinge.report(checker, matrix=1)
+    with pytest.raises(TypeError, match="q: a str, .* path is the argument file"):
+        hinge.report(checker, "page.html")
     with pytest.raises(TypeError, match="both given"):
         hinge.report(checker, np.zeros(checker.dof), coordinates=np.zeros((1, 3)))
     with pytest.raises(ValueError, match="names: 2 of them, expected 1"):

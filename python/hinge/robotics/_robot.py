@@ -26,6 +26,8 @@ class Robot(_core.RobotBase):
     """
 
     def __init__(self, links, joints=(), *, name="", primitives="exact", tolerance=1e-3, solid=False):
+        if isinstance(links, (str, bytes, os.PathLike)):
+            raise TypeError(f"links: a {type(links).__name__}, expected Link objects; Robot.from_urdf() reads a file")
         links, joints = tuple(links), tuple(joints)
         options = {
             "name": _check.text("name", name),

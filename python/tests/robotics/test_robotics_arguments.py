@@ -137,6 +137,7 @@ def test_arrays_need_not_be_float64_in_c_order(checker, robot):
         (lambda c, q: hr.pose((0, 0)), ValueError, "xyz: shape"),
         (lambda c, q: hr.pose(rpy=(0, 0, np.inf)), ValueError, r"rpy\[2\] is inf"),
         (lambda c, q: hr.Robot([]), hinge.ModelError, "no links"),
+        (lambda c, q: hr.Robot("arm.urdf"), TypeError, r"links: a str, .* Robot.from_urdf\(\) reads a file"),
         (lambda c, q: hr.Robot([3]), TypeError, "links: a int, expected a Link"),
         (lambda c, q: hr.Robot([hr.Link("a", [3])]), TypeError, "links: link 'a' has a int"),
         (lambda c, q: hr.Robot(["a"], [3]), TypeError, "joints: a int, expected a Joint"),
