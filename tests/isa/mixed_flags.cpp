@@ -23,12 +23,16 @@ namespace {
 
 constexpr std::uint64_t seed = 41;
 
+template <class T>
+constexpr bool is_aligned_to_its_size(std::size_t size) {
+  const bool has_size = sizeof(T) == size;
+  return has_size && alignof(T) == size;
+}
+
 // Layouts must not depend on the instruction set: these types are members of others.
-static_assert(alignof(detail::simd::Float4) == 16 && sizeof(detail::simd::Float4) == 16);
-static_assert(alignof(detail::simd::Double4) == 32 && sizeof(detail::simd::Double4) == 32);
-static_assert(alignof(detail::simd::Float16) == 64 && sizeof(detail::simd::Float16) == 64);
-static_assert(alignof(detail::simd::Double8) == 64 && sizeof(detail::simd::Double8) == 64);
-static_assert(alignof(detail::simd::Integer8) == 64 && sizeof(detail::simd::Integer8) == 64);
+static_assert(is_aligned_to_its_size<detail::simd::Float4>(16) && is_aligned_to_its_size<detail::simd::Double4>(32));
+static_assert(is_aligned_to_its_size<detail::simd::Float16>(64) && is_aligned_to_its_size<detail::simd::Double8>(64));
+static_assert(is_aligned_to_its_size<detail::simd::Integer8>(64));
 
 TEST(MixedFlags, LanesAreReturnedAsTheCallerExpects) {
   std::vector<float> numbers(detail::simd::width), here(numbers), there(numbers);
