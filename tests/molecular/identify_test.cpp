@@ -168,7 +168,7 @@ TEST(Names, OfAtomsCalledByTheirElementsAreNumbered) {
 TEST(Names, OfOtherAtomsThatOccurTwiceMeanOneAtom) {
   const Structure s = read(atom(" C7", "LIG", 1, {0, 0, 0}, "C") + atom(" C7", "LIG", 1, {0.9, 0, 0}, "C"), true);
   EXPECT_EQ(s.atoms.size(), 1U);
-  EXPECT_TRUE(has_note(s, "atom C7 occurs more than once, the first is used"));
+  EXPECT_TRUE(has_note(s, "atoms that repeat a name of their residue and are left out: 1 (first: A:LIG1:C7)"));
 }
 
 // A receptor of a docking program, whose first residue in the file belongs between two others.

@@ -140,8 +140,7 @@ class Assembler {
       const std::string element = element_of(atom, raw, where, first);
       if (element == "H" && !options_.keep_hydrogens) continue;
       if (++seen[atom.name] > 1) {
-        if (first)
-          s_.notes.push_back(name_of(raw) + ": atom " + atom.name + " occurs more than once, the first is used");
+        if (first) repeated_.add([&] { return name_of(raw) + ":" + atom.name; });
         continue;
       }
       if (!first && difference_.empty() && !is_same(positions.size(), atom, raw))
@@ -189,6 +188,7 @@ class Assembler {
     say(dummies_, "", " dummy atoms are left out");
     say(virtual_sites_, "", " virtual sites, which have no mass, are left out");
     say(repaired_, "elements of ", " atoms taken from their names");
+    say(repeated_, "atoms that repeat a name of their residue and are left out: ", "");
     say(named_, "residues with atoms named by their elements alone, which are numbered: ", "");
   }
 
@@ -256,8 +256,8 @@ class Assembler {
   Structure s_;
   std::string difference_;  ///< first atom of the current model that differs from the first model's
   std::optional<ConformerChoice> conformers_;
-  Counted dummies_, virtual_sites_, repaired_;  // atoms
-  Counted named_;                               // residues
+  Counted dummies_, virtual_sites_, repaired_, repeated_;  // atoms
+  Counted named_;                                          // residues
 };
 
 }  // namespace

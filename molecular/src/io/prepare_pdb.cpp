@@ -78,6 +78,7 @@ PreparedPdb prepare_pdb(const std::string& text, std::size_t columns) {
   kept.reserve(text.size());
   int model = 1;  // number of the open or the next model
   bool open = false;
+  std::size_t ters = 0;
   for (std::size_t first = 0; first < text.size();) {
     const std::size_t end = std::min(text.find('\n', first), text.size());
     std::string_view line = std::string_view(text).substr(first, end - first);
@@ -90,10 +91,12 @@ PreparedPdb prepare_pdb(const std::string& text, std::size_t columns) {
       model = next;
       open = false;
     }
+    if (is_record(line, "TER")) ++ters;
     kept += is_model ? "REMARK" : line;
     if (is_atom_record(line) && line.size() > 11) {
       if (!open) result.fields.model_numbers.push_back(model);
       open = true;
+      result.fields.ters.push_back(ters);
       if (serials.size() == most_atoms)
         throw std::runtime_error("more than " + std::to_string(most_atoms) +
                                  " atoms, expected an mmCIF file for so many atoms");

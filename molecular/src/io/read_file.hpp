@@ -136,6 +136,7 @@ struct AtomFields {
   std::vector<int> serials;            ///< serial number in the file, by index
   std::vector<ElementField> elements;  ///< by index
   std::vector<std::size_t> labels;     ///< mmCIF only, by index: a number for each label_asym_id and label_seq_id
+  std::vector<std::size_t> ters;       ///< PDB only, by index: the number of TER records before the atom
   /// PDB only, per model: the number of its MODEL record, otherwise its position from 1.
   std::vector<int> model_numbers;
 };

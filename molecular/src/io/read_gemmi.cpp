@@ -9,11 +9,13 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <gemmi/cif.hpp>
 #include <gemmi/mmcif.hpp>
@@ -57,6 +59,34 @@ ResidueKind kind_of(const std::string& name) {
   return ResidueKind::other;
 }
 
+/// gemmi joins residues of one chain that have the same name and number: those of a second molecule in a file without
+/// chain names, and those of a numbering that begins again. Returns the atoms of each. A further residue begins at an
+/// atom that does not follow the one before it in the file, if the atoms from there on repeat a name. follows(a, b): of
+/// two atoms.
+template <class Follows>
+std::vector<std::vector<RawAtom>> separated(std::vector<RawAtom> atoms, const Follows& follows) {
+  std::vector<std::vector<RawAtom>> residues(1);
+  const auto jumps = [&](const RawAtom& a, const RawAtom& b) { return !follows(a, b); };
+  if (std::adjacent_find(atoms.begin(), atoms.end(), jumps) == atoms.end()) {  // nearly always
+    residues.back() = std::move(atoms);
+    return residues;
+  }
+  std::set<std::pair<std::string, char>> names;  // of the last residue
+  for (auto first = atoms.begin(), end = first; first != atoms.end(); first = end) {
+    end = std::adjacent_find(first, atoms.end(), jumps);
+    if (end != atoms.end()) ++end;
+    if (std::any_of(first, end, [&](const RawAtom& atom) { return names.count({atom.name, atom.altloc}) > 0; })) {
+      residues.emplace_back();
+      names.clear();
+    }
+    for (auto atom = first; atom != end; ++atom) {
+      names.emplace(atom->name, atom->altloc);
+      residues.back().push_back(std::move(*atom));
+    }
+  }
+  return residues;
+}
+
 RawModel convert(const gemmi::Model& model, int number, const AtomFields& fields) {
   RawModel raw;
   raw.number = number;
@@ -64,6 +94,12 @@ RawModel convert(const gemmi::Model& model, int number, const AtomFields& fields
   for (const gemmi::Chain& chain : model.chains)
     for (const gemmi::Residue& residue : chain.residues)
       for (const gemmi::Atom& atom : residue.atoms) first = std::min(first, atom.serial);
+  const auto ters = [&](const RawAtom& atom) {
+    return fields.ters.empty() ? 0 : fields.ters.at(static_cast<std::size_t>(first) + atom.record);
+  };
+  const auto follows = [&](const RawAtom& a, const RawAtom& b) {
+    return b.record == a.record + 1 && ters(a) == ters(b);
+  };
   for (const gemmi::Chain& chain : model.chains) {
     const auto chain_start = static_cast<std::ptrdiff_t>(raw.residues.size());
     for (const gemmi::Residue& residue : chain.residues) {
@@ -89,7 +125,9 @@ RawModel convert(const gemmi::Model& model, int number, const AtomFields& fields
         a.position = Vec3(atom.pos.x, atom.pos.y, atom.pos.z);
         parts[fields.labels.empty() ? 0 : fields.labels.at(id)].push_back(std::move(a));
       }
-      for (auto& part : parts) raw.residues.emplace_back(r).atoms = std::move(part.second);
+      for (auto& part : parts)
+        for (std::vector<RawAtom>& atoms : separated(std::move(part.second), follows))
+          raw.residues.emplace_back(r).atoms = std::move(atoms);
     }
     std::stable_sort(raw.residues.begin() + chain_start, raw.residues.end(),
                      [](const RawResidue& a, const RawResidue& b) { return a.atoms[0].record < b.atoms[0].record; });
