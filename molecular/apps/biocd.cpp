@@ -220,7 +220,7 @@ Exit run(int argc, char** argv) {
 
   CLI::App* demo = app.add_subcommand("demo", "demonstrate the library on one protein: sample, time, verify, draw");
   demo->option_defaults()->group(title::input);
-  demo->add_option("FILE", o.file, "PDB or mmCIF file, plain or .gz")->required();
+  demo->add_option("FILE", o.file, "PDB, mmCIF or PQR file, plain or .gz")->required();
   demo->option_defaults()->group(title::output);
   demo->add_option("--out", o.out, "folder for the plot and the viewer scripts")->required()->type_name("FOLDER");
   demo->option_defaults()->group(title::sampling);

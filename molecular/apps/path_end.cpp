@@ -78,7 +78,7 @@ struct NamedFile {
 };
 
 bool has_structure(const std::string& path) {
-  return std::ranges::any_of(std::array{".pdb", ".ent", ".cif", ".mmcif"}, [&](const char* extension) {
+  return std::ranges::any_of(std::array{".pdb", ".ent", ".cif", ".mmcif", ".pqr"}, [&](const char* extension) {
     return path.ends_with(extension) || path.ends_with(std::string(extension) + ".gz");
   });
 }

@@ -29,7 +29,7 @@ constexpr const char* conformations = "DCD, XTC, .npy, PDB, mmCIF, plain or .gz"
 
 void add_input_options(CLI::App& command, Options& o) {
   command.option_defaults()->group(title::input);
-  command.add_option("FILE", o.file, "PDB or mmCIF file, plain or .gz")->required();
+  command.add_option("FILE", o.file, "PDB, mmCIF or PQR file, plain or .gz")->required();
   repeatable(command.add_option("--with", o.with,
                                 "one more file in addition to FILE; all of it is kept except waters (repeatable)"),
              "FILE");
@@ -245,7 +245,8 @@ void add_closures_option(CLI::App& command, Options& o) {
 
 void add_ends(CLI::App& command, Options& o, bool from_is_required) {
   constexpr const char* end =
-      ": reference; coordinates that the torsions are fitted to, which are model:N of FILE, a PDB or mmCIF file (:N "
+      ": reference; coordinates that the torsions are fitted to, which are model:N of FILE, a PDB, mmCIF or PQR file "
+      "(:N "
       "for "
       "its model N) or TRAJECTORY:FRAME; or changes from the reference, one per DOF in degrees, as a list joined by "
       "commas or in @FILE";

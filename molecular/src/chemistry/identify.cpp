@@ -114,8 +114,9 @@ bool is_virtual_site(const RawAtom& atom, const RawResidue& residue, ResidueKind
 }
 
 std::optional<RawResidue> with_own_names(const RawResidue& residue) {
-  const auto is_symbol = [](const RawAtom& atom) {
-    return std::equal(atom.name.begin(), atom.name.end(), atom.element.begin(), atom.element.end(),
+  const auto is_symbol = [&](const RawAtom& atom) {
+    const std::string element = atom.element.empty() ? element_by_name(atom, residue) : atom.element;
+    return std::equal(atom.name.begin(), atom.name.end(), element.begin(), element.end(),
                       [](char a, char b) { return a == b || a == (b & ~0x20); });
   };
   std::set<std::pair<std::string, char>> seen;
@@ -151,6 +152,8 @@ std::string element_by_name(const RawAtom& atom, const RawResidue& residue) {
       if (starts_with_symbol(name, symbol)) return std::string(symbol);
   if (!atom.element.empty()) return atom.element;
   if (std::string_view("CNOSPHF").find(c) != std::string_view::npos) return {c};
+  if ((c == 'I' || c == 'K') && name.find_first_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ", letter + 1) == std::string_view::npos)
+    return {c};
   return c == 'D' ? "H" : "";
 }
 

@@ -153,6 +153,15 @@ struct PreparedPdb {
 /// end of the line at the start of "nan" or "inf".
 PreparedPdb prepare_pdb(const std::string& text, std::size_t columns);
 
+/// True if the name of a file ends with .pqr or .pqr.gz, in either case.
+bool is_pqr(std::filesystem::path path);
+
+/// Returns a PQR file's text as mmCIF. Blanks separate the fields of an atom record: record, serial number, name,
+/// residue, chain (may be absent), residue number, x, y, z, charge, radius. Where they do not, because fields touch,
+/// the columns of PDB files are read. A residue ends where its name, number or chain changes, and at TER. Models are
+/// numbered from 1; charges and radii are dropped. Throws LoadError with the line.
+std::string pqr_as_cif(std::string_view text, const std::string& path);
+
 /// Parses the bytes of a PDB or mmCIF file with gemmi. Throws LoadError with the parser's message.
 RawFile parse_with_gemmi(const std::string& bytes, const std::string& path, bool cif);
 

@@ -105,14 +105,17 @@ std::string read_bytes(const std::filesystem::path& path, bool first_model, bool
 }
 
 RawFile read_raw(const std::string& bytes, const std::filesystem::path& path, bool first_model, bool* cut_short) {
-  const bool cif = looks_like_cif(bytes);
+  const bool cif = looks_like_cif(bytes), pqr = !cif && is_pqr(path);
   std::vector<std::string> notes;
-  if (!cif) check_pdb(bytes, path.string(), 0, &notes);
-  RawFile raw = parse_with_gemmi(bytes, path.string(), cif);
+  if (pqr)
+    notes.emplace_back("PQR file: its charges and radii are not used");
+  else if (!cif)
+    check_pdb(bytes, path.string(), 0, &notes);
+  RawFile raw = parse_with_gemmi(pqr ? pqr_as_cif(bytes, path.string()) : bytes, path.string(), cif || pqr);
   raw.notes.insert(raw.notes.end(), notes.begin(), notes.end());
   if (!cif) {
     raw.conect = read_conect(bytes);
-    raw.recorded = read_recorded(bytes, raw.conect);
+    if (!pqr) raw.recorded = read_recorded(bytes, raw.conect);
   }
   if (raw.name.empty() || raw.name == path.string()) raw.name = stem(path);
   if (first_model && raw.models.size() > 1) {

@@ -41,7 +41,7 @@ struct Trajectory::Format {
 
   static Format open(const std::filesystem::path& path, const Structure& molecule, const ReadOptions& options,
                      bool may_have_more);
-  /// Reads the models of an mmCIF file.
+  /// Reads the models of an mmCIF or PQR file.
   static Models models(const std::filesystem::path& path, const Structure& molecule, const ReadOptions& options,
                        bool may_have_more);
 };
@@ -73,7 +73,7 @@ Trajectory::Format Trajectory::Format::open(const std::filesystem::path& path, c
   if (NpyFile::is_one(file)) return {NpyFile(std::move(file))};
   std::string text(std::size_t{1} << 16, '\0');
   text.resize(file.read(0, text));
-  if (looks_like_cif(text)) return {models(path, molecule, options, may_have_more)};
+  if (looks_like_cif(text) || is_pqr(path)) return {models(path, molecule, options, may_have_more)};
   return {PdbModels(std::move(file), molecule, options, may_have_more)};
 }
 

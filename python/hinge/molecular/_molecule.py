@@ -49,7 +49,8 @@ def _table(columns, **more):
 class Molecule(_core.MoleculeBase):
     """A molecule as a mechanism: rigid groups of atoms joined by torsions. It does not change after construction.
 
-    source: path of a PDB or mmCIF file, plain or gzipped, or its content as bytes.
+    source: path of a PDB, mmCIF or PQR file, plain or gzipped, or the content of a PDB or mmCIF
+        file as bytes.
     with_files: further files (or contents) that become part of the molecule; all of them is kept except waters.
     hydrogens: 'keep' or 'drop'. model: number of the model to read; None: all, and model 0 is the reference.
     altloc: alternative location to use; None: the one of highest summed occupancy.

@@ -10,7 +10,7 @@ from ._molecule import Molecule
 
 
 class Trajectory(_core.TrajectoryBase):
-    """The conformations of a molecule in a file: DCD, XTC, NumPy, PDB or mmCIF, plain or gzipped.
+    """The conformations of a molecule in a file: DCD, XTC, NumPy, PDB, mmCIF or PQR, plain or gzipped.
 
     molecule: a Molecule. path: the file; its content decides the format. may_have_more: PDB and mmCIF models may have
     further atoms, which are left out. Frames are read when they are asked for, in the molecule's atoms and order.

@@ -35,10 +35,10 @@ struct ReadOptions {
   std::filesystem::path index_folder = {};
 };
 
-/// Returns the atoms, coordinates (angstrom) and bonds of a PDB or mmCIF file. If models differ, the common atoms are
-/// kept, and a note says so. Throws LoadError, with the file, the line or entity, and what was found and expected, if
-/// the file cannot be opened, unpacks to more than 64 MiB + 200 times its size, has no atoms, blank or non-finite
-/// coordinates, or broken MODEL records. Throws OtherAtoms if the models have no atom in common.
+/// Returns the atoms, coordinates (angstrom) and bonds of a PDB, mmCIF or PQR (.pqr) file. If models differ, the common
+/// atoms are kept, and a note says so. Throws LoadError, with the file, the line or entity, and what was found and
+/// expected, if the file cannot be opened, unpacks to more than 64 MiB + 200 times its size, has no atoms, blank or
+/// non-finite coordinates, or broken MODEL records. Throws OtherAtoms if the models have no atom in common.
 HINGE_API Structure read_structure(const std::filesystem::path& path, const ReadOptions& options = {});
 
 }  // namespace hinge::molecular

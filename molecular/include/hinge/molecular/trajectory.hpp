@@ -15,10 +15,11 @@
 
 namespace hinge::molecular {
 
-/// A DCD, XTC, NumPy (frames x atoms x 3, angstrom), PDB or mmCIF file, gzipped or not; the content decides. Frames of
-/// the first three have as many atoms as the first model of the molecule's file has atom records, or as the molecule
-/// has atoms, in the same order; PDB and mmCIF models name their atoms. mmCIF and gzipped files are held in memory;
-/// other files only one frame and the offsets of all. Const members may be called by many threads at once.
+/// A DCD, XTC, NumPy (frames x atoms x 3, angstrom), PDB, mmCIF or PQR file, gzipped or not; the content decides, for
+/// PQR the name. Frames of the first three have as many atoms as the first model of the molecule's file has atom
+/// records, or as the molecule has atoms, in the same order; PDB and mmCIF models name their atoms. mmCIF and gzipped
+/// files are held in memory; other files only one frame and the offsets of all. Const members may be called by many
+/// threads at once.
 class HINGE_API Trajectory {
  public:
   /// Opens a file. The molecule must outlive this object. may_have_more: PDB and mmCIF models may have further atoms,

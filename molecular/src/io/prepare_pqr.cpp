@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// prepare_pqr: the text of a PQR file (APBS, PDB2PQR) as mmCIF, whose values may have any width.
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "hinge/core/error.hpp"
+#include "hinge/core/finite.hpp"
+#include "io/hybrid36.hpp"
+#include "io/read_file.hpp"
+
+namespace hinge::molecular {
+
+namespace {
+
+/// The fields of an atom record, as text.
+struct PqrAtom {
+  std::string_view serial, name, residue, chain, number, insertion_code;
+  std::array<std::string_view, 3> position;
+};
+
+std::vector<std::string_view> words_of(std::string_view line) {
+  constexpr std::string_view separators = " \t\r";
+  std::vector<std::string_view> words;
+  for (std::size_t end = 0;;) {
+    const std::size_t first = line.find_first_not_of(separators, end);
+    if (first == std::string_view::npos) return words;
+    end = std::min(line.find_first_of(separators, first), line.size());
+    words.push_back(line.substr(first, end - first));
+  }
+}
+
+std::string_view word(std::string_view line, std::size_t column, std::size_t width) {
+  const std::vector<std::string_view> words = words_of(line.substr(std::min(column, line.size()), width));
+  return words.empty() ? std::string_view() : words.front();
+}
+
+bool is_number(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size() && is_finite(value);
+}
+
+/// Takes the chain, the number and the insertion code of a residue from the texts, of which the first may be empty or
+/// hold all three ("A1001B"). Returns false if there is no number.
+bool take_number(PqrAtom& atom, std::string_view chain, std::string_view number) {
+  if (chain.empty() && !number.empty() && std::isalpha(static_cast<unsigned char>(number[0])) != 0) {
+    chain = number.substr(0, 1);
+    number.remove_prefix(1);
+  }
+  int value = 0;
+  const char* const last = number.data() + number.size();
+  const auto [end, error] = std::from_chars(number.data(), last, value);
+  if (error != std::errc{} || last - end > 1 || (end != last && std::isalpha(static_cast<unsigned char>(*end)) == 0))
+    return false;
+  const auto digits = static_cast<std::size_t>(end - number.data());
+  atom.chain = chain;
+  atom.number = number.substr(0, digits);
+  atom.insertion_code = number.substr(digits);
+  return true;
+}
+
+/// Reads fields that blanks separate: record, serial, name, residue, chain or nothing, number, x, y, z, charge, radius.
+/// What follows is not read.
+std::optional<PqrAtom> by_blanks(std::string_view line) {
+  const std::size_t record = line.find_first_of(" \t0123456789");  // a long serial number may follow without a blank
+  const std::vector<std::string_view> words = words_of(line.substr(std::min(record, line.size())));
+  for (const std::size_t chains : {std::size_t{1}, std::size_t{0}}) {
+    const std::size_t number = 3 + chains;
+    if (words.size() < number + 6 || !std::all_of(words.begin() + static_cast<std::ptrdiff_t>(number) + 1,
+                                                  words.begin() + static_cast<std::ptrdiff_t>(number) + 6, is_number))
+      continue;
+    PqrAtom atom{words[0], words[1], words[2], {}, {}, {}, {words[number + 1], words[number + 2], words[number + 3]}};
+    if (take_number(atom, chains == 1 ? words[3] : std::string_view(), words[number])) return atom;
+  }
+  return std::nullopt;
+}
+
+/// Reads the columns of a PDB file, whose fields may touch.
+std::optional<PqrAtom> by_columns(std::string_view line) {
+  PqrAtom atom{word(line, 6, 5), word(line, 12, 4), word(line, 17, 4), {}, {}, {}, {}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    atom.position[k] = word(line, 30 + 8 * k, 8);
+    if (!is_number(atom.position[k])) return std::nullopt;
+  }
+  if (atom.name.empty() || atom.residue.empty() || !take_number(atom, word(line, 21, 1), word(line, 22, 5)))
+    return std::nullopt;
+  return atom;
+}
+
+std::string cif_text(std::string_view text) {
+  const char mark = text.find('"') == std::string_view::npos ? '"' : '\'';
+  return mark + std::string(text) + mark;
+}
+
+}  // namespace
+
+bool is_pqr(std::filesystem::path path) {
+  if (path.extension() == ".gz") path.replace_extension();
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return extension == ".pqr";
+}
+
+std::string pqr_as_cif(std::string_view text, const std::string& path) {
+  std::string cif = "data_\nloop_\n";
+  for (const char* tag :
+       {"group_PDB", "id", "label_atom_id", "label_comp_id", "label_asym_id", "label_seq_id", "auth_asym_id",
+        "auth_seq_id", "pdbx_PDB_ins_code", "Cartn_x", "Cartn_y", "Cartn_z", "pdbx_PDB_model_num"})
+    cif += "_atom_site." + std::string(tag) + '\n';
+  std::size_t number = 0, atoms = 0, residues = 0;
+  int model = 1;
+  bool ended = false;   // the model, if another atom follows
+  std::string residue;  // the open one; empty: none
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    ++number;
+    ended = ended || (atoms > 0 && ends_pdb_model(line));
+    if (is_record(line, "TER")) residue.clear();
+    if (!is_atom_record(line)) continue;
+    std::optional<PqrAtom> atom = by_blanks(line);
+    if (!atom) atom = by_columns(line);
+    if (!atom)
+      throw LoadError(path + ":" + std::to_string(number) +
+                      ": expected a record of PQR: ATOM serial name residue [chain] number x y z charge radius, "
+                      "separated by blanks");
+    if (ended) {
+      ++model;
+      ended = false;
+      residue.clear();
+    }
+    std::string name = cif_text(atom->residue);
+    std::string place = atom->chain.empty() ? "''" : cif_text(atom->chain);
+    place += ' ' + std::string(atom->number) + ' ' +
+             (atom->insertion_code.empty() ? "?" : std::string(atom->insertion_code));
+    if (residue.empty() || residue != name + place) ++residues;  // label_seq_id: a number of its own for each residue
+    residue = name + place;
+    cif += is_record(line, "HETA") ? "HETATM " : "ATOM ";
+    cif += std::to_string(read_hybrid36(atom->serial).value_or(0)) + ' ' + cif_text(atom->name) + ' ' + name + " . " +
+           std::to_string(residues) + ' ' + place;
+    for (std::string_view x : atom->position) {
+      if (x.starts_with('+')) x.remove_prefix(1);
+      cif += ' ';
+      cif += x;
+    }
+    cif += ' ' + std::to_string(model) + '\n';
+    ++atoms;
+  }
+  if (atoms == 0) throw LoadError(path + ": has no ATOM or HETATM records, expected a PQR file");
+  return cif;
+}
+
+}  // namespace hinge::molecular
