@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -12,7 +13,8 @@
 #include <vector>
 
 #include "hinge/core/error.hpp"
-#include "hinge/core/finite.hpp"
+#include "hinge/core/number_text.hpp"
+#include "hinge/core/vec3.hpp"
 #include "io/hybrid36.hpp"
 #include "io/read_file.hpp"
 
@@ -22,8 +24,9 @@ namespace {
 
 /// The fields of an atom record, as text.
 struct PqrAtom {
-  std::string_view serial, name, residue, chain, number, insertion_code;
-  std::array<std::string_view, 3> position;
+  std::string_view serial, name, residue, chain, insertion_code;
+  int number = 0;  ///< of the residue
+  Vec3 position = Vec3::Zero();
 };
 
 std::vector<std::string_view> words_of(std::string_view line) {
@@ -42,11 +45,23 @@ std::string_view word(std::string_view line, std::size_t column, std::size_t wid
   return words.empty() ? std::string_view() : words.front();
 }
 
-bool is_number(std::string_view text) {
+/// Numbers have at most nine digits before the point, which is what prepare_cif() accepts.
+constexpr int limit = 1'000'000'000;
+
+std::optional<double> number_of(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size() && is_finite(value);
+  if (error != std::errc{} || end != text.data() + text.size() || !(std::abs(value) < limit)) return std::nullopt;
+  return value;
+}
+
+/// Returns a serial number, which may be hybrid-36; 0: it is none.
+int serial_of(std::string_view text) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc{} && end == text.data() + text.size()) return value > -limit && value < limit ? value : 0;
+  return text.size() == 5 ? read_hybrid36(text).value_or(0) : 0;
 }
 
 /// Takes the chain, the number and the insertion code of a residue from the texts, of which the first may be empty or
@@ -56,15 +71,22 @@ bool take_number(PqrAtom& atom, std::string_view chain, std::string_view number)
     chain = number.substr(0, 1);
     number.remove_prefix(1);
   }
-  int value = 0;
   const char* const last = number.data() + number.size();
-  const auto [end, error] = std::from_chars(number.data(), last, value);
+  const auto [end, error] = std::from_chars(number.data(), last, atom.number);
   if (error != std::errc{} || last - end > 1 || (end != last && std::isalpha(static_cast<unsigned char>(*end)) == 0))
     return false;
-  const auto digits = static_cast<std::size_t>(end - number.data());
   atom.chain = chain;
-  atom.number = number.substr(0, digits);
-  atom.insertion_code = number.substr(digits);
+  atom.insertion_code = number.substr(static_cast<std::size_t>(end - number.data()));
+  return atom.number > -limit && atom.number < limit;
+}
+
+/// Takes x, y and z. Returns false if one of them is not a number.
+bool take_position(PqrAtom& atom, const std::array<std::string_view, 3>& words) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::optional<double> x = number_of(words[k]);
+    if (!x) return false;
+    atom.position[static_cast<Eigen::Index>(k)] = *x;
+  }
   return true;
 }
 
@@ -73,29 +95,31 @@ bool take_number(PqrAtom& atom, std::string_view chain, std::string_view number)
 std::optional<PqrAtom> by_blanks(std::string_view line) {
   const std::size_t record = line.find_first_of(" \t0123456789");  // a long serial number may follow without a blank
   const std::vector<std::string_view> words = words_of(line.substr(std::min(record, line.size())));
-  for (const std::size_t chains : {std::size_t{1}, std::size_t{0}}) {
-    const std::size_t number = 3 + chains;
-    if (words.size() < number + 6 || !std::all_of(words.begin() + static_cast<std::ptrdiff_t>(number) + 1,
-                                                  words.begin() + static_cast<std::ptrdiff_t>(number) + 6, is_number))
-      continue;
-    PqrAtom atom{words[0], words[1], words[2], {}, {}, {}, {words[number + 1], words[number + 2], words[number + 3]}};
-    if (take_number(atom, chains == 1 ? words[3] : std::string_view(), words[number])) return atom;
+  for (const std::size_t number : {4, 3}) {  // with a chain or without
+    if (words.size() < number + 6 || !number_of(words[number + 4]) || !number_of(words[number + 5])) continue;
+    PqrAtom atom{words[0], words[1], words[2], {}, {}};
+    if (take_position(atom, {words[number + 1], words[number + 2], words[number + 3]}) &&
+        take_number(atom, number == 4 ? words[3] : std::string_view(), words[number]))
+      return atom;
   }
   return std::nullopt;
 }
 
 /// Reads the columns of a PDB file, whose fields may touch.
 std::optional<PqrAtom> by_columns(std::string_view line) {
-  PqrAtom atom{word(line, 6, 5), word(line, 12, 4), word(line, 17, 4), {}, {}, {}, {}};
-  for (std::size_t k = 0; k < 3; ++k) {
-    atom.position[k] = word(line, 30 + 8 * k, 8);
-    if (!is_number(atom.position[k])) return std::nullopt;
-  }
-  if (atom.name.empty() || atom.residue.empty() || !take_number(atom, word(line, 21, 1), word(line, 22, 5)))
+  PqrAtom atom{word(line, 6, 5), word(line, 12, 4), word(line, 17, 4), {}, {}};
+  if (atom.name.empty() || atom.residue.empty() ||
+      !take_position(atom, {word(line, 30, 8), word(line, 38, 8), word(line, 46, 8)}) ||
+      !take_number(atom, word(line, 21, 1), word(line, 22, 5)))
     return std::nullopt;
   return atom;
 }
 
+/// True if mmCIF can hold all words of the line.
+bool can_be_quoted(std::string_view line) {
+  constexpr auto none = std::string_view::npos;
+  return line.find('\0') == none && (line.find('"') == none || line.find('\'') == none);
+}
 std::string cif_text(std::string_view text) {
   const char mark = text.find('"') == std::string_view::npos ? '"' : '\'';
   return mark + std::string(text) + mark;
@@ -129,8 +153,11 @@ std::string pqr_as_cif(std::string_view text, const std::string& path) {
     ended = ended || (atoms > 0 && ends_pdb_model(line));
     if (is_record(line, "TER")) residue.clear();
     if (!is_atom_record(line)) continue;
-    std::optional<PqrAtom> atom = by_blanks(line);
-    if (!atom) atom = by_columns(line);
+    std::optional<PqrAtom> atom;
+    if (can_be_quoted(line)) {
+      atom = by_blanks(line);
+      if (!atom) atom = by_columns(line);
+    }
     if (!atom)
       throw LoadError(path + ":" + std::to_string(number) +
                       ": expected a record of PQR: ATOM serial name residue [chain] number x y z charge radius, "
@@ -142,18 +169,14 @@ std::string pqr_as_cif(std::string_view text, const std::string& path) {
     }
     std::string name = cif_text(atom->residue);
     std::string place = atom->chain.empty() ? "''" : cif_text(atom->chain);
-    place += ' ' + std::string(atom->number) + ' ' +
+    place += ' ' + std::to_string(atom->number) + ' ' +
              (atom->insertion_code.empty() ? "?" : std::string(atom->insertion_code));
     if (residue.empty() || residue != name + place) ++residues;  // label_seq_id: a number of its own for each residue
     residue = name + place;
     cif += is_record(line, "HETA") ? "HETATM " : "ATOM ";
-    cif += std::to_string(read_hybrid36(atom->serial).value_or(0)) + ' ' + cif_text(atom->name) + ' ' + name + " . " +
+    cif += std::to_string(serial_of(atom->serial)) + ' ' + cif_text(atom->name) + ' ' + name + " . " +
            std::to_string(residues) + ' ' + place;
-    for (std::string_view x : atom->position) {
-      if (x.starts_with('+')) x.remove_prefix(1);
-      cif += ' ';
-      cif += x;
-    }
+    for (const double x : atom->position) cif += ' ' + number_text(x);
     cif += ' ' + std::to_string(model) + '\n';
     ++atoms;
   }
