@@ -87,7 +87,7 @@ void check_pdb(std::string_view text, const std::string& path, std::size_t numbe
       if (open_model != 0 && atoms == atoms_before)
         throw LoadError(path + ":" + std::to_string(open_model) + ": the MODEL has no ATOM or HETATM record");
       open_model = 0;
-    } else if (line.starts_with("CONECT") || line.starts_with("MASTER") || ends_pdb_model(line)) {
+    } else if (line.starts_with("CONECT") || line.starts_with("MASTER") || is_end(line)) {
       is_closed = true;
     }
   }

@@ -49,17 +49,24 @@ class PdbModels::Finder {
 
   /// Adds the next line, without its line end.
   void add(std::string_view line) {
-    const bool is_model = line.starts_with("MODEL ");
-    if (!open_ && (is_model || is_atom_record(line))) {
+    const bool is_model = line.starts_with("MODEL "), is_atom = is_atom_record(line);
+    if (ended_ && (is_model || is_atom)) {
+      open_ = !is_model && atom_columns(line) != first_atom_;
+      ended_ = false;
+    }
+    if (!open_ && (is_model || is_atom)) {
       open_ = true;
+      first_atom_.clear();
       const int position = static_cast<int>(models_.size()) + 1;
       models_.push_back({at_, at_, lines_, is_model ? model_number(line, position) : position});
       named_ = named_ || is_model;
     }
+    if (is_atom && first_atom_.empty()) first_atom_ = atom_columns(line);
     at_ += line.size() + 1;
     ++lines_;
-    if (open_) models_.back().end = at_;
-    if (ends_pdb_model(line)) open_ = false;
+    if (open_ && !ended_) models_.back().end = at_;
+    if (is_endmdl(line)) open_ = ended_ = false;
+    if (is_end(line)) ended_ = open_;
   }
 
   bool named() const noexcept { return named_; }
@@ -69,6 +76,8 @@ class PdbModels::Finder {
   std::uint64_t at_ = 0;
   std::size_t lines_ = 0;
   bool open_ = false;
+  bool ended_ = false;      // the open model, by END, unless atoms of the same model follow
+  std::string first_atom_;  // columns of the open model's first atom
   bool named_ = false;
 };
 
@@ -139,7 +148,7 @@ std::vector<Vec3> PdbModels::frame(std::size_t k) const {
   bool same = !own.empty(), ended = false;
   for_lines(own, [&](std::string_view line) {
     ++line_number;
-    ended = ends_pdb_model(line);
+    ended = is_endmdl(line) || is_end(line);
     if (!same || !is_atom_record(line)) return;
     record.clear();
     append_identity(record, line);

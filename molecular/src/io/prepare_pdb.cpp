@@ -78,7 +78,10 @@ PreparedPdb prepare_pdb(const std::string& text, std::size_t columns) {
   kept.reserve(text.size());
   int model = 1;  // number of the open or the next model
   bool open = false;
-  std::size_t ters = 0;
+  std::size_t ters = 0, lines = 0;
+  std::string_view first_atom;  // columns of the open model's first atom
+  constexpr auto none = std::string::npos;
+  std::size_t end_at = none, end_line = 0;  // of an END in the open model: offset in `kept`, line
   for (std::size_t first = 0; first < text.size();) {
     const std::size_t end = std::min(text.find('\n', first), text.size());
     std::string_view line = std::string_view(text).substr(first, end - first);
@@ -86,15 +89,34 @@ PreparedPdb prepare_pdb(const std::string& text, std::size_t columns) {
         line.substr(0, is_record(line, "LINK") || is_record(line, "SSBO") ? std::min(columns, length_column) : columns);
     const bool is_model = is_record(line, "MODE");
     const int next = static_cast<int>(result.fields.model_numbers.size()) + 1;
+    ++lines;
+    const bool is_atom = is_atom_record(line) && line.size() > 11;
+    if (end_at != none && (is_atom || is_model)) {
+      if (is_atom && atom_columns(line) != first_atom) {
+        if (result.joined_at == 0) result.joined_at = end_line;
+      } else {
+        kept.replace(end_at, 6, "ENDMDL");
+        model = next;
+        open = false;
+      }
+      end_at = none;
+    }
     if (is_model) model = model_number(line, next);
-    if (ends_pdb_model(line)) {
+    if (is_endmdl(line)) {
       model = next;
       open = false;
+      end_at = none;
+    } else if (is_end(line) && open) {
+      end_at = kept.size();
+      end_line = lines;
     }
     if (is_record(line, "TER")) ++ters;
-    kept += is_model ? "REMARK" : line;
-    if (is_atom_record(line) && line.size() > 11) {
-      if (!open) result.fields.model_numbers.push_back(model);
+    kept += is_model || is_end(line) ? "REMARK" : line;
+    if (is_atom) {
+      if (!open) {
+        result.fields.model_numbers.push_back(model);
+        first_atom = atom_columns(line);
+      }
       open = true;
       result.fields.ters.push_back(ters);
       if (serials.size() == most_atoms)

@@ -143,15 +143,17 @@ std::string pqr_as_cif(std::string_view text, const std::string& path) {
     cif += "_atom_site." + std::string(tag) + '\n';
   std::size_t number = 0, atoms = 0, residues = 0;
   int model = 1;
-  bool ended = false;   // the model, if another atom follows
-  std::string residue;  // the open one; empty: none
+  bool end = false, endmdl = false;  // since the last atom
+  std::string first_atom;            // of the model
+  std::string residue;               // the open one; empty: none
   while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    const std::size_t length = text.find('\n');
+    const std::string_view line = text.substr(0, length);
+    text.remove_prefix(length == std::string_view::npos ? text.size() : length + 1);
     ++number;
-    ended = ended || (atoms > 0 && ends_pdb_model(line));
-    if (is_record(line, "TER")) residue.clear();
+    end = end || (atoms > 0 && is_end(line));
+    endmdl = endmdl || (atoms > 0 && is_endmdl(line));
+    if (is_record(line, "TER") || end || endmdl) residue.clear();
     if (!is_atom_record(line)) continue;
     std::optional<PqrAtom> atom;
     if (can_be_quoted(line)) {
@@ -162,17 +164,16 @@ std::string pqr_as_cif(std::string_view text, const std::string& path) {
       throw LoadError(path + ":" + std::to_string(number) +
                       ": expected a record of PQR: ATOM serial name residue [chain] number x y z charge radius, "
                       "separated by blanks");
-    if (ended) {
-      ++model;
-      ended = false;
-      residue.clear();
-    }
     std::string name = cif_text(atom->residue);
     std::string place = atom->chain.empty() ? "''" : cif_text(atom->chain);
     place += ' ' + std::to_string(atom->number) + ' ' +
              (atom->insertion_code.empty() ? "?" : std::string(atom->insertion_code));
     if (residue.empty() || residue != name + place) ++residues;  // label_seq_id: a number of its own for each residue
     residue = name + place;
+    const std::string this_atom = residue + std::string(atom->name);
+    if (endmdl || (end && this_atom == first_atom)) ++model;
+    if (atoms == 0 || endmdl) first_atom = this_atom;
+    end = endmdl = false;
     cif += is_record(line, "HETA") ? "HETATM " : "ATOM ";
     cif += std::to_string(serial_of(atom->serial)) + ' ' + cif_text(atom->name) + ' ' + name + " . " +
            std::to_string(residues) + ' ' + place;

@@ -35,10 +35,18 @@ inline bool is_record(std::string_view line, std::string_view name) {
 /// True if this line of a PDB file holds an atom for gemmi. A number of six digits begins in column 6.
 inline bool is_atom_record(std::string_view line) { return is_record(line, "ATOM") || is_record(line, "HETA"); }
 
-/// True for ENDMDL, and for the END that some programs write after each frame.
-inline bool ends_pdb_model(std::string_view line) {
-  return line.substr(0, 6) == "ENDMDL" ||
-         (line.substr(0, 3) == "END" && line.find_first_not_of(" \t\r", 3) == std::string_view::npos);
+/// True for ENDMDL, which ends a model of a PDB file.
+inline bool is_endmdl(std::string_view line) { return line.substr(0, 6) == "ENDMDL"; }
+
+/// True for END. It ends a model if a MODEL follows, or an atom with the columns of the model's first one: some
+/// programs write END after each frame. Other atoms after END are of the same model, for example of a second file.
+inline bool is_end(std::string_view line) {
+  return line.substr(0, 3) == "END" && line.find_first_not_of(" \t\r", 3) == std::string_view::npos;
+}
+
+/// Columns 13-27 of an atom record: the atom's name, alternative location, and residue.
+inline std::string_view atom_columns(std::string_view line) {
+  return line.substr(std::min<std::size_t>(12, line.size()), 15);
 }
 
 /// MODEL numbers have four columns. In files with more models, writers start again; in other files, a repeated number
@@ -145,12 +153,14 @@ struct AtomFields {
 struct PreparedPdb {
   std::string text;
   AtomFields fields;
+  std::size_t joined_at = 0;  ///< line of the first END that atoms of the same model follow; 0: none
 };
 
 /// Numbers atoms from 0, cuts lines after `columns` and removes MODEL records. gemmi would start a new line after some
 /// characters beyond its own limit. It reads 0 and a blank as the same model number, and counts models without MODEL
 /// records by itself. Lengths at the end of LINK and SSBOND records are removed as well: gemmi would read beyond the
-/// end of the line at the start of "nan" or "inf".
+/// end of the line at the start of "nan" or "inf". gemmi stops at END, so none is left; it becomes ENDMDL
+/// where it ends a model.
 PreparedPdb prepare_pdb(const std::string& text, std::size_t columns);
 
 /// True if the name of a file ends with .pqr or .pqr.gz, in either case.

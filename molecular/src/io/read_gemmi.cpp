@@ -218,19 +218,28 @@ gemmi::Structure parse(const std::string& bytes, const std::string& path, bool c
     return gemmi::make_structure(std::move(document));
   }
   gemmi::PdbReadOptions options;
+  std::size_t joined_at = 0;
   const auto read = [&](int columns) {
     options.max_line_length = columns;
     PreparedPdb pdb = prepare_pdb(bytes, static_cast<std::size_t>(columns));
     fields = std::move(pdb.fields);
+    joined_at = pdb.joined_at;
     return gemmi::read_pdb_from_memory(pdb.text.data(), pdb.text.size(), path, options);
   };
+  const auto note_joined = [&] {
+    if (joined_at != 0)
+      raw.notes.push_back("line " + std::to_string(joined_at) + ": atoms follow END; they belong to the same model");
+  };
   try {
-    return read(120);  // more columns than gemmi reads
+    gemmi::Structure st = read(120);  // more columns than gemmi reads
+    note_joined();
+    return st;
   } catch (const std::exception& first) {
     // Before 1996, columns 73-80 held the entry's name and a line number; now they hold segment, element and charge.
     try {
       gemmi::Structure st = read(72);
       raw.notes.emplace_back("old PDB format: columns 73-80 ignored, elements taken from atom names");
+      note_joined();
       return st;
     } catch (const std::exception&) {
       throw std::runtime_error(first.what());

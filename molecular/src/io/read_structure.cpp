@@ -50,9 +50,16 @@ class FirstModel {
     for (std::size_t line_end = 0; (line_end = text.find('\n', next_)) != std::string_view::npos;
          next_ = line_end + 1) {
       const std::string_view line = text.substr(next_, line_end - next_);
+      const bool is_atom = is_atom_record(line);
       if (end_ == std::string_view::npos) {
-        if (ends_pdb_model(line)) end_ = line_end + 1;
-      } else if (is_atom_record(line) || line.starts_with("MODEL ")) {
+        if (is_atom && first_atom_.empty()) first_atom_ = atom_columns(line);
+        ended_by_end_ = is_end(line);
+        if (ended_by_end_ || is_endmdl(line)) end_ = line_end + 1;
+      } else if (is_atom && ended_by_end_ && atom_columns(line) != first_atom_) {
+        end_ = std::string_view::npos;
+      } else if (is_endmdl(line)) {
+        ended_by_end_ = false;
+      } else if (is_atom || line.starts_with("MODEL ")) {
         return end_;
       }
     }
@@ -60,7 +67,9 @@ class FirstModel {
   }
 
  private:
+  std::string first_atom_;  // its columns
   std::size_t end_ = std::string_view::npos;
+  bool ended_by_end_ = false;
   std::size_t next_ = 0;  // offset of the next line
 };
 
