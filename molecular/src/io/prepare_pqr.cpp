@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,9 +26,21 @@ namespace {
 
 /// The fields of an atom record, as text.
 struct PqrAtom {
-  std::string_view serial, name, residue, chain, insertion_code;
+  std::string_view serial, name, residue, chain = {}, insertion_code = {};
   int number = 0;  ///< of the residue
   Vec3 position = Vec3::Zero();
+  bool hetero = false;
+  int model = 1;
+  std::size_t part = 0;  ///< number of TER, END and ENDMDL records before it
+
+  bool is_beside(const PqrAtom& other) const {
+    return model == other.model && part == other.part && chain == other.chain && number == other.number &&
+           insertion_code == other.insertion_code;
+  }
+  bool repeats(const PqrAtom& other) const {
+    return name == other.name && residue == other.residue && chain == other.chain && number == other.number &&
+           insertion_code == other.insertion_code;
+  }
 };
 
 std::vector<std::string_view> words_of(std::string_view line) {
@@ -97,7 +111,7 @@ std::optional<PqrAtom> by_blanks(std::string_view line) {
   const std::vector<std::string_view> words = words_of(line.substr(std::min(record, line.size())));
   for (const std::size_t number : {4, 3}) {  // with a chain or without
     if (words.size() < number + 6 || !number_of(words[number + 4]) || !number_of(words[number + 5])) continue;
-    PqrAtom atom{words[0], words[1], words[2], {}, {}};
+    PqrAtom atom{.serial = words[0], .name = words[1], .residue = words[2]};
     if (take_position(atom, {words[number + 1], words[number + 2], words[number + 3]}) &&
         take_number(atom, number == 4 ? words[3] : std::string_view(), words[number]))
       return atom;
@@ -107,7 +121,7 @@ std::optional<PqrAtom> by_blanks(std::string_view line) {
 
 /// Reads the columns of a PDB file, whose fields may touch.
 std::optional<PqrAtom> by_columns(std::string_view line) {
-  PqrAtom atom{word(line, 6, 5), word(line, 12, 4), word(line, 17, 4), {}, {}};
+  PqrAtom atom{.serial = word(line, 6, 5), .name = word(line, 12, 4), .residue = word(line, 17, 4)};
   if (atom.name.empty() || atom.residue.empty() ||
       !take_position(atom, {word(line, 30, 8), word(line, 38, 8), word(line, 46, 8)}) ||
       !take_number(atom, word(line, 21, 1), word(line, 22, 5)))
@@ -125,6 +139,62 @@ std::string cif_text(std::string_view text) {
   return mark + std::string(text) + mark;
 }
 
+std::vector<PqrAtom> read_atoms(std::string_view text, const std::string& path) {
+  std::vector<PqrAtom> atoms;
+  std::size_t line_number = 0, parts = 0, first = 0;  // first: index of the model's first atom
+  bool end = false, endmdl = false;                   // since the last atom
+  while (!text.empty()) {
+    const std::size_t length = text.find('\n');
+    const std::string_view line = text.substr(0, length);
+    text.remove_prefix(length == std::string_view::npos ? text.size() : length + 1);
+    ++line_number;
+    end = end || is_end(line);
+    endmdl = endmdl || is_endmdl(line);
+    if (is_record(line, "TER") || is_end(line) || is_endmdl(line)) ++parts;
+    if (!is_atom_record(line)) continue;
+    std::optional<PqrAtom> atom;
+    if (can_be_quoted(line)) {
+      atom = by_blanks(line);
+      if (!atom) atom = by_columns(line);
+    }
+    if (!atom)
+      throw LoadError(path + ":" + std::to_string(line_number) +
+                      ": expected a record of PQR: ATOM serial name residue [chain] number x y z charge radius, "
+                      "separated by blanks");
+    atom->hetero = is_record(line, "HETA");
+    atom->part = parts;
+    if (!atoms.empty()) {
+      atom->model = atoms.back().model;
+      if (endmdl || (end && atom->repeats(atoms[first]))) {
+        ++atom->model;
+        first = atoms.size();
+      }
+    }
+    end = endmdl = false;
+    atoms.push_back(*atom);
+  }
+  if (atoms.empty()) throw LoadError(path + ": has no ATOM or HETATM records, expected a PQR file");
+  return atoms;
+}
+
+/// With CHARMM's names, PDB2PQR gives some atoms of a residue the name of a patch: THR 5 begins with N and CA of TER 5.
+/// Where names of residues of one number take turns, all atoms get the most frequent one.
+void unite_residues(std::vector<PqrAtom>& atoms) {
+  for (auto begin = atoms.begin(), end = begin; begin != atoms.end(); begin = end) {
+    end = std::find_if(begin, atoms.end(), [&](const PqrAtom& atom) { return !atom.is_beside(*begin); });
+    std::map<std::string_view, std::ptrdiff_t> counts;
+    std::size_t runs = 0;
+    for (auto atom = begin; atom != end; ++atom) {
+      ++counts[atom->residue];
+      if (atom == begin || atom->residue != std::prev(atom)->residue) ++runs;
+    }
+    if (runs == counts.size()) continue;
+    const auto most = std::max_element(counts.begin(), counts.end(),
+                                       [](const auto& a, const auto& b) { return a.second < b.second; });
+    for (auto atom = begin; atom != end; ++atom) atom->residue = most->first;
+  }
+}
+
 }  // namespace
 
 bool is_pqr(std::filesystem::path path) {
@@ -136,52 +206,21 @@ bool is_pqr(std::filesystem::path path) {
 }
 
 std::string pqr_as_cif(std::string_view text, const std::string& path) {
+  std::vector<PqrAtom> atoms = read_atoms(text, path);
+  unite_residues(atoms);
   std::string cif = "data_\nloop_\n";
   for (const char* tag :
        {"group_PDB", "id", "label_atom_id", "label_comp_id", "label_asym_id", "label_seq_id", "auth_asym_id",
         "auth_seq_id", "pdbx_PDB_ins_code", "Cartn_x", "Cartn_y", "Cartn_z", "pdbx_PDB_model_num"})
     cif += "_atom_site." + std::string(tag) + '\n';
-  std::size_t number = 0, atoms = 0, residues = 0;
-  int model = 1;
-  bool end = false, endmdl = false;  // since the last atom
-  std::string first_atom;            // of the model
-  std::string residue;               // the open one; empty: none
-  while (!text.empty()) {
-    const std::size_t length = text.find('\n');
-    const std::string_view line = text.substr(0, length);
-    text.remove_prefix(length == std::string_view::npos ? text.size() : length + 1);
-    ++number;
-    end = end || (atoms > 0 && is_end(line));
-    endmdl = endmdl || (atoms > 0 && is_endmdl(line));
-    if (is_record(line, "TER") || end || endmdl) residue.clear();
-    if (!is_atom_record(line)) continue;
-    std::optional<PqrAtom> atom;
-    if (can_be_quoted(line)) {
-      atom = by_blanks(line);
-      if (!atom) atom = by_columns(line);
-    }
-    if (!atom)
-      throw LoadError(path + ":" + std::to_string(number) +
-                      ": expected a record of PQR: ATOM serial name residue [chain] number x y z charge radius, "
-                      "separated by blanks");
-    std::string name = cif_text(atom->residue);
-    std::string place = atom->chain.empty() ? "''" : cif_text(atom->chain);
-    place += ' ' + std::to_string(atom->number) + ' ' +
-             (atom->insertion_code.empty() ? "?" : std::string(atom->insertion_code));
-    if (residue.empty() || residue != name + place) ++residues;  // label_seq_id: a number of its own for each residue
-    residue = name + place;
-    const std::string this_atom = residue + std::string(atom->name);
-    if (endmdl || (end && this_atom == first_atom)) ++model;
-    if (atoms == 0 || endmdl) first_atom = this_atom;
-    end = endmdl = false;
-    cif += is_record(line, "HETA") ? "HETATM " : "ATOM ";
-    cif += std::to_string(serial_of(atom->serial)) + ' ' + cif_text(atom->name) + ' ' + name + " . " +
-           std::to_string(residues) + ' ' + place;
-    for (const double x : atom->position) cif += ' ' + number_text(x);
-    cif += ' ' + std::to_string(model) + '\n';
-    ++atoms;
+  for (const PqrAtom& atom : atoms) {
+    cif += atom.hetero ? "HETATM " : "ATOM ";
+    cif += std::to_string(serial_of(atom.serial)) + ' ' + cif_text(atom.name) + ' ' + cif_text(atom.residue) + " . " +
+           std::to_string(atom.part) + ' ' + (atom.chain.empty() ? "''" : cif_text(atom.chain)) + ' ' +
+           std::to_string(atom.number) + ' ' + (atom.insertion_code.empty() ? "?" : std::string(atom.insertion_code));
+    for (const double x : atom.position) cif += ' ' + number_text(x);
+    cif += ' ' + std::to_string(atom.model) + '\n';
   }
-  if (atoms == 0) throw LoadError(path + ": has no ATOM or HETATM records, expected a PQR file");
   return cif;
 }
 

@@ -168,8 +168,8 @@ bool is_pqr(std::filesystem::path path);
 
 /// Returns a PQR file's text as mmCIF. Blanks separate the fields of an atom record: record, serial number, name,
 /// residue, chain (may be absent), residue number, x, y, z, charge, radius. Where they do not, because fields touch,
-/// the columns of PDB files are read. A residue ends where its name, number or chain changes, and at TER. Models are
-/// numbered from 1; charges and radii are dropped. Throws LoadError with the line.
+/// the columns of PDB files are read. Models are numbered from 1; charges and radii are dropped. Throws LoadError with
+/// the line.
 std::string pqr_as_cif(std::string_view text, const std::string& path);
 
 /// Parses the bytes of a PDB or mmCIF file with gemmi. Throws LoadError with the parser's message.
