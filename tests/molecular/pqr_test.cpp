@@ -159,7 +159,7 @@ TEST(Pqr, WithErrorsIsRefused) {
                           "ATOM 2 CA GLY 1 1.5 0 0 0\n", "ATOM 2 CA GLY A B 1.5 0 0 0 1\n", "ATOM\n",
                           "ATOM 2 CA GLY 99999999999 1.5 0 0 0 1\n", "ATOM 2 CA GLY 1 1e999 0 0 0 1\n"})
     EXPECT_EQ(refusal(good + bad), ":2" + expected) << bad;
-  EXPECT_EQ(refusal(good + std::string("ATOM 2 C\0 GLY 1 0 0 0 0 1\n", 27)), ":2" + expected);
+  EXPECT_EQ(refusal(good + std::string("ATOM 2 C\0 GLY 1 0 0 0 0 1\n", 26)), ":2" + expected);
   EXPECT_EQ(refusal("REMARK\n"), ": has no ATOM or HETATM records, expected a PQR file");
 }
 

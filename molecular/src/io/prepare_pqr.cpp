@@ -109,7 +109,7 @@ bool take_position(PqrAtom& atom, const std::array<std::string_view, 3>& words) 
 std::optional<PqrAtom> by_blanks(std::string_view line) {
   const std::size_t record = line.find_first_of(" \t0123456789");  // a long serial number may follow without a blank
   const std::vector<std::string_view> words = words_of(line.substr(std::min(record, line.size())));
-  for (const std::size_t number : {4, 3}) {  // with a chain or without
+  for (const std::size_t number : {std::size_t{4}, std::size_t{3}}) {  // with a chain or without
     if (words.size() < number + 6 || !number_of(words[number + 4]) || !number_of(words[number + 5])) continue;
     PqrAtom atom{.serial = words[0], .name = words[1], .residue = words[2]};
     if (take_position(atom, {words[number + 1], words[number + 2], words[number + 3]}) &&
