@@ -23,11 +23,10 @@ struct PathEnd {
 
 /// Reads "reference", "model:N" (number in the file), a file of coordinates, "@FILE" or a list. A file is PDB, mmCIF or
 /// PQR, with ":N" for a model other than the first, or a trajectory "FILE:FRAME" of the molecule. A list, or the file
-/// after
-/// @, has values relative to the reference, one per selected DOF, in degrees (moves in angstrom), separated by commas,
-/// blanks or line ends. Coordinates are fitted (fit_coordinates); fit and stop are for that. Throws ModelError, naming
-/// the option, if the text, a count or a number is wrong; LoadError for the same in a file, or for one that is not of
-/// this molecule.
+/// after @, has values relative to the reference, one per selected DOF, in degrees (moves in angstrom), separated by
+/// commas, blanks or line ends. Coordinates are fitted (fit_coordinates); fit and stop are for that. Throws ModelError,
+/// naming the option, if the text, a count or a number is wrong; LoadError for the same in a file, or for one that is
+/// not of this molecule.
 PathEnd read_path_end(const char* option, const std::string& text, const Options& options, const Job& job,
                       const hinge::molecular::FitOptions& fit = {}, const std::function<bool()>& stop = {});
 

@@ -246,10 +246,8 @@ void add_closures_option(CLI::App& command, Options& o) {
 void add_ends(CLI::App& command, Options& o, bool from_is_required) {
   constexpr const char* end =
       ": reference; coordinates that the torsions are fitted to, which are model:N of FILE, a PDB, mmCIF or PQR file "
-      "(:N "
-      "for "
-      "its model N) or TRAJECTORY:FRAME; or changes from the reference, one per DOF in degrees, as a list joined by "
-      "commas or in @FILE";
+      "(:N for its model N) or TRAJECTORY:FRAME; or changes from the reference, one per DOF in degrees, as a list "
+      "joined by commas or in @FILE";
   CLI::Option* from = command.add_option("--from", o.from, std::string("start") + end)->type_name("END");
   if (from_is_required)
     from->required();

@@ -24,7 +24,7 @@ namespace hinge::molecular {
 
 namespace {
 
-/// The fields of an atom record, as text.
+/// An atom record. Names are parts of the file's text.
 struct PqrAtom {
   std::string_view serial, name, residue, chain = {}, insertion_code = {};
   int number = 0;  ///< of the residue
