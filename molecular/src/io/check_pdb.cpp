@@ -2,9 +2,11 @@
 // check_pdb: refuses errors in the text of a PDB file that a lenient parser turns into zeros.
 #include <algorithm>
 #include <charconv>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "hinge/core/error.hpp"
@@ -23,6 +25,14 @@ std::string_view trimmed(std::string_view text) {
 
 }  // namespace
 
+std::optional<double> finite_number(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !is_finite(value)) return std::nullopt;
+  return value;
+}
+
 Vec3 read_pdb_coordinates(std::string_view line, const std::string& path, std::size_t line_number) {
   const auto where = [&] { return path + ":" + std::to_string(line_number) + ": atom "; };
   if (line.size() < 30)
@@ -40,12 +50,9 @@ Vec3 read_pdb_coordinates(std::string_view line, const std::string& path, std::s
                       std::to_string(column + 8));
     };
     if (field.empty()) refuse("blank");
-    double value = 0.0;
-    const std::string_view digits = field.front() == '+' ? field.substr(1) : field;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error != std::errc{} || end != digits.data() + digits.size() || !is_finite(value))
-      refuse("'" + std::string(field) + "'");
-    position[static_cast<Eigen::Index>(k)] = value;
+    const std::optional<double> value = finite_number(field);
+    if (!value) refuse("'" + std::string(field) + "'");
+    position[static_cast<Eigen::Index>(k)] = *value;
   }
   return position;
 }

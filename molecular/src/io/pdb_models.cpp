@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hinge/core/error.hpp"
+#include "io/model_scan.hpp"
 #include "io/read_file.hpp"
 
 namespace hinge::molecular {
@@ -49,24 +50,15 @@ class PdbModels::Finder {
 
   /// Adds the next line, without its line end.
   void add(std::string_view line) {
-    const bool is_model = line.starts_with("MODEL "), is_atom = is_atom_record(line);
-    if (ended_ && (is_model || is_atom)) {
-      open_ = !is_model && atom_columns(line) != first_atom_;
-      ended_ = false;
-    }
-    if (!open_ && (is_model || is_atom)) {
-      open_ = true;
-      first_atom_.clear();
+    const bool is_model = line.starts_with("MODEL "), was_inside = scan_.is_inside();
+    if (scan_.add_pdb(line, is_model) == ModelScan::Step::begin) {
       const int position = static_cast<int>(models_.size()) + 1;
       models_.push_back({at_, at_, lines_, is_model ? model_number(line, position) : position});
       named_ = named_ || is_model;
     }
-    if (is_atom && first_atom_.empty()) first_atom_ = atom_columns(line);
     at_ += line.size() + 1;
     ++lines_;
-    if (open_ && !ended_) models_.back().end = at_;
-    if (is_endmdl(line)) open_ = ended_ = false;
-    if (is_end(line)) ended_ = open_;
+    if (was_inside || scan_.is_inside()) models_.back().end = at_;
   }
 
   bool named() const noexcept { return named_; }
@@ -75,9 +67,7 @@ class PdbModels::Finder {
   std::vector<Model>& models_;
   std::uint64_t at_ = 0;
   std::size_t lines_ = 0;
-  bool open_ = false;
-  bool ended_ = false;      // the open model, by END, unless atoms of the same model follow
-  std::string first_atom_;  // columns of the open model's first atom
+  ModelScan scan_;
   bool named_ = false;
 };
 

@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "io/hybrid36.hpp"
+#include "io/model_scan.hpp"
 #include "io/read_file.hpp"
 
 namespace hinge::molecular {
@@ -25,10 +25,7 @@ bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0
 bool has_charge(std::string_view line) {
   std::string_view field = line.substr(std::min<std::size_t>(66, line.size()), 10);
   field.remove_prefix(std::min(field.find_first_not_of(' '), field.size()));
-  if (field.starts_with('+')) field.remove_prefix(1);
-  double charge = 0.0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), charge);
-  return error == std::errc{} && end == field.data() + field.size() && field.find('.') != std::string_view::npos;
+  return finite_number(field) && field.find('.') != std::string_view::npos;
 }
 
 /// True for a pseudo atom of a PDBQT file: the partner of an atom in a macrocycle that docking opens (G0 to G3), a
@@ -76,12 +73,11 @@ PreparedPdb prepare_pdb(const std::string& text, std::size_t columns) {
   std::vector<int>& serials = result.fields.serials;
   std::string& kept = result.text;
   kept.reserve(text.size());
-  int model = 1;  // number of the open or the next model
-  bool open = false;
+  ModelScan scan;
+  int model = 1;            // number of the open model
+  bool is_counted = false;  // the open model has an atom
   std::size_t ters = 0, lines = 0;
-  std::string_view first_atom;  // columns of the open model's first atom
-  constexpr auto none = std::string::npos;
-  std::size_t end_at = none, end_line = 0;  // of an END in the open model: offset in `kept`, line
+  std::size_t end_at = std::string::npos, end_line = 0;  // of the last END in a model: offset in `kept`, line
   for (std::size_t first = 0; first < text.size();) {
     const std::size_t end = std::min(text.find('\n', first), text.size());
     std::string_view line = std::string_view(text).substr(first, end - first);
@@ -90,34 +86,24 @@ PreparedPdb prepare_pdb(const std::string& text, std::size_t columns) {
     const bool is_model = is_record(line, "MODE");
     const int next = static_cast<int>(result.fields.model_numbers.size()) + 1;
     ++lines;
-    const bool is_atom = is_atom_record(line) && line.size() > 11;
-    if (end_at != none && (is_atom || is_model)) {
-      if (is_atom && atom_columns(line) != first_atom) {
-        if (result.joined_at == 0) result.joined_at = end_line;
-      } else {
-        kept.replace(end_at, 6, "ENDMDL");
-        model = next;
-        open = false;
-      }
-      end_at = none;
+    const bool was_inside = scan.is_inside();
+    const ModelScan::Step step = scan.add_pdb(line, is_model);
+    if (step == ModelScan::Step::begin) {
+      if (end_at != std::string::npos) kept.replace(end_at, 6, "ENDMDL");
+      is_counted = false;
+      model = is_model ? model_number(line, next) : next;
     }
-    if (is_model) model = model_number(line, next);
-    if (is_endmdl(line)) {
-      model = next;
-      open = false;
-      end_at = none;
-    } else if (is_end(line) && open) {
+    if (step == ModelScan::Step::resume && result.joined_at == 0) result.joined_at = end_line;
+    if (step != ModelScan::Step::none || is_endmdl(line)) end_at = std::string::npos;
+    if (was_inside && is_end(line)) {
       end_at = kept.size();
       end_line = lines;
     }
     if (is_record(line, "TER")) ++ters;
     kept += is_model || is_end(line) ? "REMARK" : line;
-    if (is_atom) {
-      if (!open) {
-        result.fields.model_numbers.push_back(model);
-        first_atom = atom_columns(line);
-      }
-      open = true;
+    if (is_atom_record(line) && line.size() > 11) {
+      if (!is_counted) result.fields.model_numbers.push_back(model);
+      is_counted = true;
       result.fields.ters.push_back(ters);
       if (serials.size() == most_atoms)
         throw std::runtime_error("more than " + std::to_string(most_atoms) +

@@ -18,6 +18,7 @@
 #include "hinge/core/number_text.hpp"
 #include "hinge/core/vec3.hpp"
 #include "io/hybrid36.hpp"
+#include "io/model_scan.hpp"
 #include "io/read_file.hpp"
 
 namespace hinge::molecular {
@@ -30,15 +31,11 @@ struct PqrAtom {
   int number = 0;  ///< of the residue
   Vec3 position = Vec3::Zero();
   bool hetero = false;
-  int model = 1;
+  int model = 0;         ///< from 1
   std::size_t part = 0;  ///< number of TER, END and ENDMDL records before it
 
   bool is_beside(const PqrAtom& other) const {
     return model == other.model && part == other.part && chain == other.chain && number == other.number &&
-           insertion_code == other.insertion_code;
-  }
-  bool repeats(const PqrAtom& other) const {
-    return name == other.name && residue == other.residue && chain == other.chain && number == other.number &&
            insertion_code == other.insertion_code;
   }
 };
@@ -62,12 +59,10 @@ std::string_view word(std::string_view line, std::size_t column, std::size_t wid
 /// Numbers have at most nine digits before the point, which is what prepare_cif() accepts.
 constexpr int limit = 1'000'000'000;
 
-std::optional<double> number_of(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !(std::abs(value) < limit)) return std::nullopt;
-  return value;
+/// Returns the number that is the whole text, if its magnitude is below the limit.
+std::optional<double> small_number(std::string_view text) {
+  const std::optional<double> number = finite_number(text);
+  return number && std::abs(*number) < limit ? number : std::nullopt;
 }
 
 /// Returns a serial number, which may be hybrid-36; 0: it is none.
@@ -97,7 +92,7 @@ bool take_number(PqrAtom& atom, std::string_view chain, std::string_view number)
 /// Takes x, y and z. Returns false if one of them is not a number.
 bool take_position(PqrAtom& atom, const std::array<std::string_view, 3>& words) {
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::optional<double> x = number_of(words[k]);
+    const std::optional<double> x = small_number(words[k]);
     if (!x) return false;
     atom.position[static_cast<Eigen::Index>(k)] = *x;
   }
@@ -110,7 +105,7 @@ std::optional<PqrAtom> by_blanks(std::string_view line) {
   const std::size_t record = line.find_first_of(" \t0123456789");  // a long serial number may follow without a blank
   const std::vector<std::string_view> words = words_of(line.substr(std::min(record, line.size())));
   for (const std::size_t number : {std::size_t{4}, std::size_t{3}}) {  // with a chain or without
-    if (words.size() < number + 6 || !number_of(words[number + 4]) || !number_of(words[number + 5])) continue;
+    if (words.size() < number + 6 || !small_number(words[number + 4]) || !small_number(words[number + 5])) continue;
     PqrAtom atom{.serial = words[0], .name = words[1], .residue = words[2]};
     if (take_position(atom, {words[number + 1], words[number + 2], words[number + 3]}) &&
         take_number(atom, number == 4 ? words[3] : std::string_view(), words[number]))
@@ -139,19 +134,28 @@ std::string cif_text(std::string_view text) {
   return mark + std::string(text) + mark;
 }
 
+std::string identity_of(const PqrAtom& atom) {
+  std::string text;
+  for (const std::string_view name : {atom.name, atom.residue, atom.chain, atom.insertion_code})
+    text.append(name) += ' ';
+  return text + std::to_string(atom.number);
+}
+
 std::vector<PqrAtom> read_atoms(std::string_view text, const std::string& path) {
   std::vector<PqrAtom> atoms;
-  std::size_t line_number = 0, parts = 0, first = 0;  // first: index of the model's first atom
-  bool end = false, endmdl = false;                   // since the last atom
+  ModelScan scan;
+  int model = 0;
+  std::size_t line_number = 0, parts = 0;
   while (!text.empty()) {
     const std::size_t length = text.find('\n');
     const std::string_view line = text.substr(0, length);
     text.remove_prefix(length == std::string_view::npos ? text.size() : length + 1);
     ++line_number;
-    end = end || is_end(line);
-    endmdl = endmdl || is_endmdl(line);
     if (is_record(line, "TER") || is_end(line) || is_endmdl(line)) ++parts;
-    if (!is_atom_record(line)) continue;
+    if (!is_atom_record(line)) {
+      scan.add(line, false, std::nullopt);
+      continue;
+    }
     std::optional<PqrAtom> atom;
     if (can_be_quoted(line)) {
       atom = by_blanks(line);
@@ -163,14 +167,8 @@ std::vector<PqrAtom> read_atoms(std::string_view text, const std::string& path) 
                       "separated by blanks");
     atom->hetero = is_record(line, "HETA");
     atom->part = parts;
-    if (!atoms.empty()) {
-      atom->model = atoms.back().model;
-      if (endmdl || (end && atom->repeats(atoms[first]))) {
-        ++atom->model;
-        first = atoms.size();
-      }
-    }
-    end = endmdl = false;
+    if (scan.add(line, false, identity_of(*atom)) == ModelScan::Step::begin) ++model;
+    atom->model = model;
     atoms.push_back(*atom);
   }
   if (atoms.empty()) throw LoadError(path + ": has no ATOM or HETATM records, expected a PQR file");

@@ -38,15 +38,9 @@ inline bool is_atom_record(std::string_view line) { return is_record(line, "ATOM
 /// True for ENDMDL, which ends a model of a PDB file.
 inline bool is_endmdl(std::string_view line) { return line.substr(0, 6) == "ENDMDL"; }
 
-/// True for END. It ends a model if a MODEL follows, or an atom with the columns of the model's first one: some
-/// programs write END after each frame. Other atoms after END are of the same model, for example of a second file.
+/// True for END. ModelScan tells whether it ends a model.
 inline bool is_end(std::string_view line) {
   return line.substr(0, 3) == "END" && line.find_first_not_of(" \t\r", 3) == std::string_view::npos;
-}
-
-/// Columns 13-27 of an atom record: the atom's name, alternative location, and residue.
-inline std::string_view atom_columns(std::string_view line) {
-  return line.substr(std::min<std::size_t>(12, line.size()), 15);
 }
 
 /// MODEL numbers have four columns. In files with more models, writers start again; in other files, a repeated number
@@ -55,6 +49,9 @@ constexpr std::size_t most_model_numbers = 9999;
 
 /// Returns the number in a MODEL record, or `otherwise` if the record has none.
 int model_number(std::string_view line, int otherwise);
+
+/// Returns the finite number that is the whole text, which may begin with +; nullopt: it is none.
+std::optional<double> finite_number(std::string_view text);
 
 /// Returns the coordinates of an atom record, angstrom. Throws LoadError, with line, atom and coordinate, if one is
 /// blank or not a number.
@@ -159,8 +156,8 @@ struct PreparedPdb {
 /// Numbers atoms from 0, cuts lines after `columns` and removes MODEL records. gemmi would start a new line after some
 /// characters beyond its own limit. It reads 0 and a blank as the same model number, and counts models without MODEL
 /// records by itself. Lengths at the end of LINK and SSBOND records are removed as well: gemmi would read beyond the
-/// end of the line at the start of "nan" or "inf". gemmi stops at END, so none is left; it becomes ENDMDL
-/// where it ends a model.
+/// end of the line at the start of "nan" or "inf". gemmi stops at END, so none is left; it becomes ENDMDL where it
+/// ends a model.
 PreparedPdb prepare_pdb(const std::string& text, std::size_t columns);
 
 /// True if the name of a file ends with .pqr or .pqr.gz, in either case.

@@ -12,6 +12,7 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/bonds.hpp"
+#include "io/model_scan.hpp"
 #include "io/read_file.hpp"
 #include "io/unpacked_file.hpp"
 
@@ -50,26 +51,18 @@ class FirstModel {
     for (std::size_t line_end = 0; (line_end = text.find('\n', next_)) != std::string_view::npos;
          next_ = line_end + 1) {
       const std::string_view line = text.substr(next_, line_end - next_);
-      const bool is_atom = is_atom_record(line);
-      if (end_ == std::string_view::npos) {
-        if (is_atom && first_atom_.empty()) first_atom_ = atom_columns(line);
-        ended_by_end_ = is_end(line);
-        if (ended_by_end_ || is_endmdl(line)) end_ = line_end + 1;
-      } else if (is_atom && ended_by_end_ && atom_columns(line) != first_atom_) {
-        end_ = std::string_view::npos;
-      } else if (is_endmdl(line)) {
-        ended_by_end_ = false;
-      } else if (is_atom || line.starts_with("MODEL ")) {
-        return end_;
-      }
+      const bool was_inside = scan_.is_inside();
+      const ModelScan::Step step = scan_.add_pdb(line, line.starts_with("MODEL "));
+      if (step == ModelScan::Step::begin && end_ != std::string_view::npos) return end_;
+      if (step == ModelScan::Step::resume) end_ = std::string_view::npos;
+      if (was_inside && !scan_.is_inside()) end_ = line_end + 1;
     }
     return std::string_view::npos;
   }
 
  private:
-  std::string first_atom_;  // its columns
+  ModelScan scan_;
   std::size_t end_ = std::string_view::npos;
-  bool ended_by_end_ = false;
   std::size_t next_ = 0;  // offset of the next line
 };
 
