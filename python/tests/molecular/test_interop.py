@@ -98,6 +98,46 @@ def test_mdanalysis(file):
     assert np.array_equal(theirs.pairs_coordinates(positions, within=0.3, decimals=3), expected)
 
 
+def two_molecules(mda):
+    """A universe of ubiquitin twice, 60 angstrom apart, with the same names and residue numbers."""
+    protein = mda.Universe(str(FILES[0])).select_atoms("protein")
+    both = mda.Merge(protein, protein)
+    both.atoms[len(protein) :].translate((60, 60, 60))
+    both.add_TopologyAttr("charges", np.zeros(len(both.atoms)))
+    both.add_TopologyAttr("radii", np.ones(len(both.atoms)))
+    return both
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("ending", ["pdb", "pqr"])
+def test_files_of_two_molecules_that_mdanalysis_writes(tmp_path, ending):
+    mda = imported("MDAnalysis")
+    file = tmp_path / f"two.{ending}"
+    two_molecules(mda).atoms.write(str(file))
+    m, universe = hm.Molecule(file), mda.Universe(str(file))
+    assert m.n_atoms == len(universe.atoms)
+    assert np.array_equal(m.atoms["name"], universe.atoms.names)
+    assert np.array_equal(m.atoms["residue_name"], universe.atoms.resnames)
+    assert np.array_equal(m.atoms["residue_number"], universe.atoms.resids)
+    assert np.array_equal(np.float32(m.coordinates), universe.atoms.positions)
+    assert len(m.bonds) == 2 * len(hm.Molecule(FILES[0], model=1).bonds)
+
+
+def test_joined_files_hold_what_gemmi_reads_from_each(tmp_path):
+    """gemmi itself stops at the first END."""
+    gemmi = imported("gemmi")
+    joined = tmp_path / "joined.pdb"
+    joined.write_text("".join(file.read_text() for file in FILES[:2]))
+    expected = []
+    for file in FILES[:2]:
+        s = gemmi.read_structure(str(file))
+        s.remove_waters()
+        expected += [(a.name, *a.pos.tolist()) for chain in s[0] for residue in chain for a in residue]
+    m = hm.Molecule(joined)
+    assert m.n_models == 1
+    assert [(name, *x) for name, x in zip(m.atoms["name"], m.coordinates.tolist())] == expected
+
+
 @pytest.mark.filterwarnings("ignore")
 def test_part_of_a_universe():
     mda = imported("MDAnalysis")
