@@ -73,8 +73,9 @@ Exit run(int argc, char** argv) {
   CLI::App* check = app.add_subcommand("check", "check each model of a file, or each frame of trajectories");
   biocd::add_model_options(*check, o);
   check->option_defaults()->group(title::input);
-  check->add_option("TRAJECTORY", o.trajectories,
-                    "conformations to check instead of the models of FILE: DCD, XTC, .npy, PDB, mmCIF, plain or .gz");
+  check->add_option(
+      "TRAJECTORY", o.trajectories,
+      "conformations to check instead of the models of FILE: DCD, XTC, .npy, PDB, mmCIF, PQR, plain or .gz");
   biocd::add_check_options(*check, o);
   check->option_defaults()->group(title::output);
   hinge::tool::add_choice(

@@ -25,7 +25,7 @@ namespace title = hinge::tool::title;
 
 namespace {
 
-constexpr const char* conformations = "DCD, XTC, .npy, PDB, mmCIF, plain or .gz";
+constexpr const char* conformations = "DCD, XTC, .npy, PDB, mmCIF, PQR, plain or .gz";
 
 void add_input_options(CLI::App& command, Options& o) {
   command.option_defaults()->group(title::input);

@@ -65,7 +65,7 @@ struct Configurations {
   /// Configuration k < count. Throws as require_finite() does if one of its numbers is not finite.
   std::span<const double> operator[](std::size_t k) const;
   /// Configurations first ... last - 1, one after the other. Their numbers are not checked, because a further pass
-  /// over a large array costs time: use it for what refuses numbers that are not finite.
+  /// over a large array costs time: pass them only to functions that refuse numbers that are not finite.
   std::span<const double> slice(std::size_t first, std::size_t last) const {
     return {array.data() + first * dof, (last - first) * dof};
   }

@@ -12,8 +12,9 @@ from ._molecule import Molecule
 class Trajectory(_core.TrajectoryBase):
     """The conformations of a molecule in a file: DCD, XTC, NumPy, PDB, mmCIF or PQR, plain or gzipped.
 
-    molecule: a Molecule. path: the file; its content decides the format. may_have_more: PDB and mmCIF models may have
-    further atoms, which are left out. Frames are read when they are asked for, in the molecule's atoms and order.
+    molecule: a Molecule. path: the file; its content decides the format, but PQR is known by its name. may_have_more:
+    PDB and mmCIF models may have further atoms, which are left out. Frames are read when they are asked for, in the
+    molecule's atoms and order.
     Iterating gives arrays of shape (n_atoms, 3), angstrom; indices and slices work as for a list. Pass a trajectory to
     Checker.collides_coordinates() and its relatives to check it in bounded memory. Raises LoadError.
     """

@@ -77,7 +77,7 @@ void find_colliding(Checker& checker, const Configurations& q, std::size_t first
     try {
       const std::vector<std::uint8_t> found = checker.check_batch(q.slice(first, last));
       std::copy(found.begin(), found.end(), verdicts + first);
-    } catch (const ConfigurationError&) {  // it counts from `first`
+    } catch (const ConfigurationError&) {  // it does not name the argument
       require_finite(q.array, q.name);
       throw;
     }
