@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# hinge_add_tool(NAME LIBRARY [SOURCE...] [SYSTEM_INCLUDES DIR...] [LIBRARIES TARGET...]): adds the command-line tool NAME
-# from the caller's apps/*.cpp and LIBRARY. SOURCE...: those of apps whose code runs for every configuration. The private
-# dependencies of LIBRARY are given again.
+# hinge_add_tool(NAME LIBRARY [SYSTEM_INCLUDES DIR...] [LIBRARIES TARGET...]): adds the command-line tool NAME from the
+# caller's apps/*.cpp and LIBRARY. The private dependencies of LIBRARY are given again.
 find_package(CLI11 QUIET)
 find_package(nlohmann_json QUIET)
 find_package(fmt QUIET)
@@ -42,14 +41,12 @@ function(hinge_add_tool tool library)
                              -DPROGRAMS=${programs_from_bin} -P ${write_build_id})
   set_source_files_properties(${build_id} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   set(libraries hinge_ensemble hinge_own hinge_report CLI11::CLI11 nlohmann_json::nlohmann_json fmt::fmt)
-  list(TRANSFORM needs_UNPARSED_ARGUMENTS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE repeated)
-  list(REMOVE_ITEM sources ${repeated})
   add_library(${tool}_once STATIC ${sources})
   set_target_properties(${tool}_once PROPERTIES UNITY_BUILD_BATCH_SIZE 0)
   # Not linked to ${library}: a program for another instruction set has its own copy of that code.
   target_include_directories(${tool}_once PRIVATE include)
   target_link_libraries(${tool}_once PRIVATE ${libraries})
-  add_executable(${tool} ${repeated} ${build_id})
+  add_executable(${tool} ${build_id})
   target_link_libraries(${tool} PRIVATE ${tool}_once ${library} ${libraries})
   set(programs ${tool})
   # One more program per instruction set, for Release builds. The tool starts the best one. A program's own objects come
@@ -69,7 +66,7 @@ function(hinge_add_tool tool library)
       if(NOT name)
         message(FATAL_ERROR "HINGE_TOOL_LEVELS has '${level}', expected x86-64-v3 and x86-64-v4")
       endif()
-      add_executable(${tool}-${name} ${repeated} ${build_id} ${library_sources})
+      add_executable(${tool}-${name} ${build_id} ${library_sources})
       set_target_properties(${tool}-${name} PROPERTIES UNITY_BUILD_BATCH_SIZE 0)
       target_compile_options(${tool}-${name} PRIVATE -march=${level})
       target_include_directories(${tool}-${name} PRIVATE include src)

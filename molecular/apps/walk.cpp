@@ -10,9 +10,7 @@
 
 #include "conformation_file.hpp"
 #include "hinge/core/error.hpp"
-#include "hinge/moves/move_checker.hpp"
-#include "hinge/moves/move_closer.hpp"
-#include "hinge/moves/random_move.hpp"
+#include "hinge/molecular/walker.hpp"
 #include "hinge_tools/clock.hpp"
 #include "hinge_tools/counted.hpp"
 #include "hinge_tools/json_text.hpp"
@@ -28,7 +26,6 @@ namespace {
 
 using namespace hinge::molecular;
 using hinge::tool::counted;
-using Moves = hinge::MoveChecker<hinge::Point, BondExclusions, hinge::TypedThresholds>;
 
 void check_options(const Options& options, const Job& job) {
   if (options.check.engine != "simd")
@@ -42,21 +39,14 @@ void check_options(const Options& options, const Job& job) {
         fmt::format("--changes {}: expected at most {}, the number of free torsions", options.changes, dof));
 }
 
-void check_start(const Options& options, const Structure& s, Moves& moves) {
-  if (!moves.collides()) return;
-  const std::vector<hinge::Hit>& hits = moves.collisions();
+void check_start(const Options& options, const Structure& s, Walker& walker) {
+  const std::vector<hinge::Hit> hits = walker.collisions();
+  if (hits.empty()) return;
   const auto name = [&](hinge::PrimitiveId i) { return label(s, static_cast<std::uint32_t>(hinge::index(i))); };
   throw hinge::LoadError(
       fmt::format("{}: collides in {}, first {} and {}; expected a start without collisions "
                   "(--exempt-reference exempts these pairs)",
                   options.file, counted(hits.size(), "pair"), name(hits.front().first), name(hits.front().second)));
-}
-
-std::vector<hinge::Vec3> positions(Moves& moves) {
-  std::vector<hinge::Vec3> all;
-  for (std::size_t i = 0; i < moves.model().size(); ++i)
-    all.push_back(moves.placed(hinge::id<hinge::PrimitiveId>(i)).position);
-  return all;
 }
 
 }  // namespace
@@ -70,70 +60,61 @@ Exit run_walk(const Options& options) {
   }
   check_options(options, job);
   const Structure& s = job.molecule->structure();
-  Moves moves(MolecularHierarchy<hinge::Simd>(job.molecule->model(), job.checker.selection(), job.checker.exclusions(),
-                                              job.checker.thresholds().matrix));
-  check_start(options, s, moves);
+  Walker walker(job.checker, {.closures = job.kept.closures,
+                              .changes = options.changes,
+                              .sigma = options.step_degrees * degree,
+                              .seed = options.seed});
+  check_start(options, s, walker);
   if (options.output == Output::table) fmt::print("{}", heading(options, job));
 
   ConformationFile file(options, s, s.atoms.size(), false);
   hinge::tool::ProgressBar bar(options.steps);
-  const double sigma = options.step_degrees * degree;
-  std::vector<hinge::DofChange> changes;
-  hinge::MoveCloser closer(job.molecule->model().tree(), job.checker.selection(), job.kept.closures);
-  std::uint64_t accepted = 0, unclosed = 0;
   MoleculePage page(options, job, true);
   const std::uint64_t shown_every = std::max<std::uint64_t>(1, options.steps / 100);
   const auto start = hinge::tool::Clock::now();
   for (std::uint64_t step = 0; step < options.steps; ++step) {
-    hinge::random_move(options.seed, step, moves.configuration(), options.changes, sigma, changes);
-    if (!closer.close(moves.configuration(), changes)) {
-      ++unclosed;
-    } else if (moves.try_move(changes)) {
-      moves.accept();
-      ++accepted;
-    } else {
-      moves.reject();
-    }
+    walker.step();
     if (file.wanted() && (step + 1) % options.every == 0)
-      file.add(positions(moves), static_cast<int>(file.size()) + 1, false);
+      file.add(walker.positions(), static_cast<int>(file.size()) + 1, false);
     if (page.wanted() && (step + 1) % shown_every == 0)
-      page.add_next({step + 1, fmt::format("after step {}", step + 1), false, positions(moves), {}});
+      page.add_next({step + 1, fmt::format("after step {}", step + 1), false, walker.positions(), {}});
     bar.show(step + 1);
   }
   const double walking = hinge::tool::seconds_since(start);
   file.finish();
 
   // Checks the final conformation by a query that is independent of the moves.
-  const Verdict end = job.checker.check(moves.configuration(), Mode::parse("any", "angstrom"));
+  const Verdict end = job.checker.check(walker.configuration(), Mode::parse("any", "angstrom"));
   if (end.collides) throw std::logic_error("the walk ended in a collision that no move reported");
-  const std::uint64_t rejected = options.steps - accepted;
+  const WalkCounts counts = walker.counts();
+  const std::uint64_t rejected = options.steps - counts.accepted;
   if (options.output == Output::json) {
     Json json{{"tool", "biocd"}, {"command", "walk"}, {"model", model_json(options, job)}, {"seed", options.seed}};
     json["step_degrees"] = options.step_degrees;
     json["changes"] = options.changes;
     json["constant_contacts"] = constant_contacts_json(job);
     json["summary"] = {{"steps", options.steps},
-                       {"accepted", accepted},
+                       {"accepted", counts.accepted},
                        {"rejected", rejected},
-                       {"unclosed", unclosed},
+                       {"unclosed", counts.unclosed},
                        {"frames", file.size()},
-                       {"full_queries", moves.counts().full_queries},
+                       {"full_queries", counts.full_queries},
                        {"closure_residual", end.closure_residual}};
     fmt::print("{}\n", hinge::tool::json_text(json, 1));
   } else {
-    fmt::print("{} of {} accepted ({:.2f} %), {} rejected, {:.0f} steps per second\n", accepted,
+    fmt::print("{} of {} accepted ({:.2f} %), {} rejected, {:.0f} steps per second\n", counts.accepted,
                counted(options.steps, "step"),
-               100.0 * static_cast<double>(accepted) / static_cast<double>(options.steps), rejected,
+               100.0 * static_cast<double>(counts.accepted) / static_cast<double>(options.steps), rejected,
                static_cast<double>(options.steps) / walking);
     if (file.size() > 0) fmt::print("{} written to {}\n", counted(file.size(), "conformation"), options.out);
     if (!job.kept.closures.empty())
       fmt::print("closures kept: {}; moves rejected because they did not close: {}\n", job.kept.closures.size(),
-                 unclosed);
+                 counts.unclosed);
     if (end.closure_residual > 0.0)
       fmt::print("closures: the worst residual at the end is {:.3g} angstrom\n", end.closure_residual);
   }
-  if (options.view) write_view(options, job, {"the end of the walk", positions(moves), {}}, file.size() > 0);
-  page.write("free", fmt::format("{} of {} accepted; every conformation of the walk is free", accepted,
+  if (options.view) write_view(options, job, {"the end of the walk", walker.positions(), {}}, file.size() > 0);
+  page.write("free", fmt::format("{} of {} accepted; every conformation of the walk is free", counts.accepted,
                                  counted(options.steps, "step")));
   return Exit::free;
 }

@@ -15,9 +15,7 @@
 #include "hinge/molecular/free_sampler.hpp"
 #include "hinge/molecular/sampler.hpp"
 #include "hinge/molecular/torsion_prior.hpp"
-#include "hinge/moves/move_checker.hpp"
-#include "hinge/moves/move_closer.hpp"
-#include "hinge/moves/random_move.hpp"
+#include "hinge/molecular/walker.hpp"
 #include "run_aside.hpp"
 #include "run_slices.hpp"
 
@@ -150,20 +148,9 @@ py::array_t<std::int64_t> unclosable(CheckerHandle& self, std::uint64_t seed, st
       }));
 }
 
-using Moves = MoveChecker<Point, BondExclusions, TypedThresholds>;
-
-/// A walk in progress: what its steps change.
-struct Walk {
-  Moves moves;
-  MoveCloser closer;
-  std::vector<DofChange> changes{};
-  std::vector<double> rows{};
-  std::uint64_t accepted = 0, unclosed = 0;
-};
-
-void check_start(const Structure& structure, Moves& moves) {
-  if (!moves.collides()) return;
-  const std::vector<Hit>& hits = moves.collisions();
+void check_start(const Structure& structure, Walker& walker) {
+  const std::vector<Hit> hits = walker.collisions();
+  if (hits.empty()) return;
   const auto name = [&](PrimitiveId i) { return label(structure, static_cast<std::uint32_t>(index(i))); };
   throw ModelError("walk: the start collides in " + std::to_string(hits.size()) + " pairs, first " +
                    name(hits.front().first) + " and " + name(hits.front().second) +
@@ -173,51 +160,38 @@ void check_start(const Structure& structure, Moves& moves) {
 py::tuple walk(CheckerHandle& self, std::uint64_t steps, double sigma, std::uint64_t count, std::uint64_t seed,
                std::uint64_t every, const py::object& start, const py::object& progress) {
   const std::size_t dof = self.dof();
-  if (!self.molecule->placed_parts().empty())
-    throw ModelError("walk: changes only torsions, expected a molecule without placed parts");
-  if (dof == 0) throw ModelError("walk: no torsion is free, expected at least one");
   if (!(sigma > 0.0 && sigma <= 1e9)) throw py::value_error("step_size: expected an angle above 0, at most 1e9 rad");
-  if (count < 1 || count > dof)
+  if (dof > 0 && (count < 1 || count > dof))
     throw py::value_error("changes: " + std::to_string(count) + ", expected 1 to " + std::to_string(dof) +
                           ", the number of free torsions");
   if (every < 1) throw py::value_error("every: 0, expected at least 1");
-  std::vector<double> from(dof, 0.0);
+  WalkOptions options{
+      .closures = self.kept.closures, .changes = static_cast<std::size_t>(count), .sigma = sigma, .seed = seed};
   if (!start.is_none()) {
     const Configurations given = as_configurations(start, "start", dof);
     if (!given.one) throw py::value_error("start: two dimensions, expected shape (" + std::to_string(dof) + ",)");
-    from.assign(given[0].begin(), given[0].end());
+    options.start.assign(given[0].begin(), given[0].end());
   }
-  Walk w =
-      run_aside([from, molecule = self.molecule, closures = self.kept.closures, selection = self.checker().selection(),
-                 exclusions = self.checker().exclusions(), matrix = self.checker().thresholds().matrix] {
-        const Model<Point>& model = molecule->model();
-        Walk made{Moves(MolecularHierarchy<Simd>(model, selection, exclusions, matrix)),
-                  MoveCloser(model.tree(), selection, closures)};
-        made.moves.set(from);
-        check_start(molecule.structure(), made.moves);
-        return made;
-      });
+  Walker walker = run_aside([options, molecule = self.molecule, checker = self.checker()] {
+    Walker made(checker, options);
+    check_start(molecule.structure(), made);
+    return made;
+  });
+  std::vector<double> kept;                                                  // a row per `every` steps
   run_slices(static_cast<std::size_t>(steps), 1, progress, [&]() -> Slice {  // one thread: slices come in order
     return [&](std::size_t begin, std::size_t end) {
       for (std::size_t step = begin; step < end; ++step) {
-        random_move(seed, step, w.moves.configuration(), count, sigma, w.changes);
-        if (!w.closer.close(w.moves.configuration(), w.changes)) {
-          ++w.unclosed;
-        } else if (w.moves.try_move(w.changes)) {
-          w.moves.accept();
-          ++w.accepted;
-        } else {
-          w.moves.reject();
-        }
-        if ((step + 1) % every == 0)
-          w.rows.insert(w.rows.end(), w.moves.configuration().begin(), w.moves.configuration().end());
+        walker.step();
+        const std::span<const double> q = walker.configuration();
+        if ((step + 1) % every == 0) kept.insert(kept.end(), q.begin(), q.end());
       }
     };
   });
-  const std::span<const double> end = w.moves.configuration();
-  const auto rows = static_cast<py::ssize_t>(w.rows.size() / dof);
-  return py::make_tuple(to_array(std::move(w.rows), {rows, static_cast<py::ssize_t>(dof)}),
-                        to_array(std::vector<double>(end.begin(), end.end())), w.accepted, w.unclosed);
+  const std::span<const double> end = walker.configuration();
+  const auto rows = static_cast<py::ssize_t>(kept.size() / dof);
+  return py::make_tuple(to_array(std::move(kept), {rows, static_cast<py::ssize_t>(dof)}),
+                        to_array(std::vector<double>(end.begin(), end.end())), walker.counts().accepted,
+                        walker.counts().unclosed);
 }
 
 }  // namespace

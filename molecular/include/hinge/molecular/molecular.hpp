@@ -35,6 +35,7 @@
 #include "hinge/molecular/torsion_prior.hpp"
 #include "hinge/molecular/torsions.hpp"
 #include "hinge/molecular/trajectory.hpp"
+#include "hinge/molecular/walker.hpp"
 #include "hinge/molecular/write_structure.hpp"
 #include "hinge/molecular/write_trajectory.hpp"
 
