@@ -6,12 +6,23 @@
 #include <vector>
 
 #include "approximation/between.hpp"
+#include "checking/body_pairs.hpp"
 #include "checking/contacts.hpp"
 #include "checking/find_inside.hpp"
 #include "hinge/bounds/aabb.hpp"
 #include "hinge/robotics/robot_checker.hpp"
 
 namespace hinge::robotics {
+
+namespace {
+
+/// Admits every pair. Of the type that queries of environments use, so no query is compiled for a second filter.
+OtherLinks every_pair(const Robot& robot) {
+  static const std::vector<bool> no_link;
+  return {robot.model().links(), &no_link};
+}
+
+}  // namespace
 
 /// Calls found(contact, point) for each containment between the two robots, with a common point (world), until it
 /// returns true.
@@ -49,7 +60,7 @@ bool RobotChecker::collides(RobotChecker& other) {
   const std::vector<double> more = filling(*hierarchy_, margins_.clearance(), other.margins_.clearance());
   return with_same_engine(*hierarchy_, *other.hierarchy_,
                           [&](auto& mine, auto& theirs) {
-                            return mine.collides(theirs, AdmitAll{}, {false, more});
+                            return mine.collides(theirs, every_pair(*robot_), {false, more});
                           }) ||
          find_insides(other, [](const LinkContact&, const Vec3&) { return true; });
 }
@@ -58,7 +69,7 @@ std::vector<LinkContact> RobotChecker::within(RobotChecker& other, double margin
   check_margin(margin);
   const std::vector<double> more = filling(*hierarchy_, margins_.clearance(), other.margins_.clearance());
   std::vector<LinkContact> contacts = with_same_engine(*hierarchy_, *other.hierarchy_, [&](auto& mine, auto& theirs) {
-    return links_within(mine, theirs, margin, AdmitAll{}, {false, more});
+    return links_within(mine, theirs, margin, every_pair(*robot_), {false, more});
   });
   find_insides(other, [&](const LinkContact& contact, const Vec3&) {
     put_contact(contacts, contact);
@@ -71,7 +82,7 @@ std::optional<ClosestLinks> RobotChecker::closest(RobotChecker& other) {
   const std::vector<double> more = filling(*hierarchy_, margins_.clearance(), other.margins_.clearance());
   auto best =
       with_same_engine(*hierarchy_, *other.hierarchy_, [&](auto& mine, auto& theirs) -> std::optional<ClosestLinks> {
-        const auto found = closest_between(mine, margins_, theirs, other.margins_, AdmitAll{}, {false, more});
+        const auto found = closest_between(mine, margins_, theirs, other.margins_, every_pair(*robot_), {false, more});
         if (!found) return {};
         return answer(robot_->model().links()[index(found->first.first)],
                       other.robot_->model().links()[index(found->first.second)], found->first, found->second);
