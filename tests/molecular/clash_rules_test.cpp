@@ -16,13 +16,13 @@
 #include <utility>
 #include <vector>
 
-#include "clash/hydrogen_bonds.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/checker.hpp"
 #include "hinge/molecular/sampler.hpp"
 #include "hinge/molecular/selection.hpp"
 #include "hinge/molecular/severity.hpp"
 #include "molecular/test_files.hpp"
+#include "rules/hydrogen_bonds.hpp"
 
 namespace hinge::molecular {
 namespace clash_rules_test {

@@ -15,7 +15,6 @@
 #include <string>
 #include <vector>
 
-#include "clash/hydrogen_bonds.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/checker.hpp"
@@ -25,6 +24,7 @@
 #include "hinge/molecular/molecule.hpp"
 #include "hinge/molecular/selection.hpp"
 #include "molecular/test_files.hpp"
+#include "rules/hydrogen_bonds.hpp"
 
 namespace hinge::molecular {
 namespace loop_test {

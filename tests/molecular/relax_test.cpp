@@ -24,9 +24,9 @@
 #include "hinge/molecular/loop.hpp"
 #include "hinge/molecular/part.hpp"
 #include "hinge/molecular/selection.hpp"
-#include "mechanism/displacement.hpp"
 #include "molecular/side_chains.hpp"
 #include "molecular/test_files.hpp"
+#include "motion/displacement.hpp"
 
 namespace hinge::molecular {
 namespace relax_test {

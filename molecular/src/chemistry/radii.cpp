@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "chemistry/atom_traits.hpp"
-#include "clash/hydrogen_bonds.hpp"
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
 #include "hinge/core/number_text.hpp"
+#include "rules/hydrogen_bonds.hpp"
 
 namespace hinge::molecular {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <string_view>
 
-#include "clash/hydrogen_bonds.hpp"
 #include "hinge/molecular/radii.hpp"
+#include "rules/hydrogen_bonds.hpp"
 
 namespace hinge::molecular {
 

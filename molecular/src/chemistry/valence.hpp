@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "clash/hydrogen_bonds.hpp"
 #include "hinge/molecular/structure.hpp"
+#include "rules/hydrogen_bonds.hpp"
 
 namespace hinge::molecular {
 

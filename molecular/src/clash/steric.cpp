@@ -11,7 +11,7 @@
 #include "hinge/core/vec3.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
 #include "hinge/molecular/checker.hpp"
-#include "mechanism/moved_atoms.hpp"
+#include "motion/moved_atoms.hpp"
 
 namespace hinge::molecular {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "clash/hydrogen_bonds.hpp"
 #include "hinge/core/id.hpp"
+#include "rules/hydrogen_bonds.hpp"
 
 namespace hinge::molecular {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Minimises the steric energy.
-#include "mechanism/clash_descent.hpp"
+#include "motion/clash_descent.hpp"
 
 #include <algorithm>
 #include <cmath>

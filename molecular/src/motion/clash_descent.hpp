@@ -10,9 +10,9 @@
 
 #include "hinge/kinematics/closure_equations.hpp"
 #include "hinge/molecular/checker.hpp"
-#include "mechanism/displacement.hpp"
-#include "mechanism/minimise.hpp"
-#include "mechanism/moved_atoms.hpp"
+#include "motion/displacement.hpp"
+#include "motion/minimise.hpp"
+#include "motion/moved_atoms.hpp"
 
 namespace hinge::molecular {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Minimises distances from given coordinates.
-#include "mechanism/coordinate_descent.hpp"
+#include "motion/coordinate_descent.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,9 +12,9 @@
 #include "hinge/core/error.hpp"
 #include "hinge/core/finite.hpp"
 #include "hinge/core/number_text.hpp"
-#include "mechanism/clash_descent.hpp"
-#include "mechanism/moved_atoms.hpp"
-#include "mechanism/superpose.hpp"
+#include "motion/clash_descent.hpp"
+#include "motion/moved_atoms.hpp"
+#include "motion/superpose.hpp"
 
 namespace hinge::molecular {
 

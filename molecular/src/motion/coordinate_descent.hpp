@@ -15,7 +15,7 @@
 #include "hinge/kinematics/closure_solver.hpp"
 #include "hinge/molecular/checker.hpp"
 #include "hinge/molecular/fit_coordinates.hpp"
-#include "mechanism/minimise.hpp"
+#include "motion/minimise.hpp"
 
 namespace hinge::molecular {
 

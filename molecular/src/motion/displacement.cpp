@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sums over rigid groups instead of atoms: a group's displacements are those of its centre and of its turn about it.
-#include "mechanism/displacement.hpp"
+#include "motion/displacement.hpp"
 
 #include <cstddef>
 #include <cstdint>
 
-#include "mechanism/moved_atoms.hpp"
+#include "motion/moved_atoms.hpp"
 
 namespace hinge::molecular {
 

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "mechanism/coordinate_descent.hpp"
+#include "motion/coordinate_descent.hpp"
 
 namespace hinge::molecular {
 

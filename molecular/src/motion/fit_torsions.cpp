@@ -11,7 +11,7 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/detail/core/elementary.hpp"
-#include "mechanism/superpose.hpp"
+#include "motion/superpose.hpp"
 
 namespace hinge::molecular {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Calls NLopt.
-#include "mechanism/minimise.hpp"
+#include "motion/minimise.hpp"
 
 #include <algorithm>
 #include <memory>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sums over the atoms that each value moves, from the outermost groups to the root.
-#include "mechanism/moved_atoms.hpp"
+#include "motion/moved_atoms.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -15,7 +15,7 @@
 #include "hinge/core/philox.hpp"
 #include "hinge/kinematics/closure_solver.hpp"
 #include "hinge/kinematics/rigid_groups.hpp"
-#include "mechanism/clash_descent.hpp"
+#include "motion/clash_descent.hpp"
 
 namespace hinge::molecular {
 

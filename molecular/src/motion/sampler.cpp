@@ -12,7 +12,7 @@
 #include "hinge/core/number_text.hpp"
 #include "hinge/detail/core/sincos.hpp"
 #include "hinge/detail/simd/fill_random.hpp"
-#include "mechanism/draw_turn.hpp"
+#include "motion/draw_turn.hpp"
 
 namespace hinge::molecular {
 

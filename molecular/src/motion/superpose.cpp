@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Computes superpositions by Horn's method.
-#include "mechanism/superpose.hpp"
+#include "motion/superpose.hpp"
 
 #include <array>
 #include <cmath>

@@ -11,8 +11,8 @@
 #include "chemistry/ramachandran_table.hpp"
 #include "chemistry/rotamer_table.hpp"
 #include "hinge/core/error.hpp"
-#include "mechanism/backbone_geometry.hpp"
-#include "mechanism/draw_turn.hpp"
+#include "motion/backbone_geometry.hpp"
+#include "motion/draw_turn.hpp"
 
 namespace hinge::molecular {
 

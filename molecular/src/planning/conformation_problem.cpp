@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Metric, draws and closed steps of motions between conformations.
-#include "mechanism/conformation_problem.hpp"
+#include "planning/conformation_problem.hpp"
 
 #include <algorithm>
 #include <numbers>
 
-#include "mechanism/moved_atoms.hpp"
+#include "motion/moved_atoms.hpp"
 
 namespace hinge::molecular {
 

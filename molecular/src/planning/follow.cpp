@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Follows coordinates in steps that adapt to what is free.
-#include "mechanism/follow.hpp"
+#include "planning/follow.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 
-#include "mechanism/superpose.hpp"
+#include "motion/superpose.hpp"
 
 namespace hinge::molecular {
 

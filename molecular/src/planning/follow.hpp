@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "mechanism/conformation_problem.hpp"
-#include "mechanism/coordinate_descent.hpp"
+#include "motion/coordinate_descent.hpp"
+#include "planning/conformation_problem.hpp"
 
 namespace hinge::molecular {
 

@@ -14,10 +14,10 @@
 #include "hinge/core/error.hpp"
 #include "hinge/core/number_text.hpp"
 #include "hinge_planning/find_motion.hpp"
-#include "mechanism/clash_descent.hpp"
-#include "mechanism/conformation_problem.hpp"
-#include "mechanism/coordinate_descent.hpp"
-#include "mechanism/follow.hpp"
+#include "motion/clash_descent.hpp"
+#include "motion/coordinate_descent.hpp"
+#include "planning/conformation_problem.hpp"
+#include "planning/follow.hpp"
 
 namespace hinge::molecular {
 

@@ -10,8 +10,8 @@
 
 #include "chemistry/atom_traits.hpp"
 #include "chemistry/valence.hpp"
-#include "clash/hydrogen_bonds.hpp"
 #include "hinge/core/number_text.hpp"
+#include "rules/hydrogen_bonds.hpp"
 
 namespace hinge::molecular {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds the backbone hydrogen bonds of Kabsch and Sander, Biopolymers 22:2577 (1983), as DSSP does.
-#include "clash/hydrogen_bonds.hpp"
+#include "rules/hydrogen_bonds.hpp"
 
 #include <algorithm>
 #include <cmath>
