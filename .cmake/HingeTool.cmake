@@ -8,6 +8,14 @@ find_package(fmt QUIET)
 set(HINGE_TOOL_LEVELS "x86-64-v3;x86-64-v4" CACHE STRING
     "On x86-64: the levels that tools have programs of their own for, beside the baseline's")
 
+# Adds PROGRAM_build_id, the object of the generated source BUILD_ID. CMake compiles no object of a target before the
+# target's sources are generated, and it generates them after the target's libraries are built. In a target without
+# libraries, the source keeps nothing waiting.
+function(hinge_add_build_id program build_id)
+  add_library(${program}_build_id OBJECT ${build_id})
+  target_link_libraries(${program}_build_id PRIVATE hinge hinge_own)
+endfunction()
+
 function(hinge_add_tool tool library)
   cmake_parse_arguments(PARSE_ARGV 2 needs "" "" "SYSTEM_INCLUDES;LIBRARIES")
   # The tool is for developers and for installations, not for a host project that links the library.
@@ -39,9 +47,7 @@ function(hinge_add_tool tool library)
                      COMMAND ${CMAKE_COMMAND} -DOUT=${build_id} -DTOOL=${tool} -DVERSION=${PROJECT_VERSION}
                              -DROOT=${PROJECT_SOURCE_DIR} -DFOLDER=${CMAKE_CURRENT_SOURCE_DIR}
                              -DPROGRAMS=${programs_from_bin} -P ${write_build_id})
-  # In a target of its own: all objects of a target wait for its generated sources, and these for the target's libraries.
-  add_library(${tool}_build_id OBJECT ${build_id})
-  target_link_libraries(${tool}_build_id PRIVATE hinge hinge_own)
+  hinge_add_build_id(${tool} ${build_id})
   set(libraries hinge_ensemble hinge_own hinge_report CLI11::CLI11 nlohmann_json::nlohmann_json fmt::fmt)
   add_library(${tool}_once STATIC ${sources})
   set_target_properties(${tool}_once PROPERTIES UNITY_BUILD_BATCH_SIZE 0)
@@ -69,8 +75,8 @@ function(hinge_add_tool tool library)
       if(NOT name)
         message(FATAL_ERROR "HINGE_TOOL_LEVELS has '${level}', expected x86-64-v3 and x86-64-v4")
       endif()
-      add_library(${tool}-${name}_build_id OBJECT ${build_id})
-      target_link_libraries(${tool}-${name}_build_id PRIVATE hinge hinge_own)
+      hinge_add_build_id(${tool}-${name} ${build_id})
+      add_dependencies(${tool}-${name}_build_id ${tool}_build_id)  # so that only one job of make generates the source
       add_executable(${tool}-${name} $<TARGET_OBJECTS:${tool}-${name}_build_id> ${library_sources})
       set_target_properties(${tool}-${name} PROPERTIES UNITY_BUILD_BATCH_SIZE 0)
       foreach(target ${tool}-${name} ${tool}-${name}_build_id)
