@@ -15,12 +15,12 @@
 
 namespace hinge::robotics {
 
-/// Admits triangles of links that may not touch the body.
+/// Admits triangles of links that may not touch the other model.
 struct OtherLinks {
   std::span<const LinkId> links;
-  const std::vector<bool>* may_touch = nullptr;  // by link; empty: no link may
+  const std::vector<bool>* may_touch = nullptr;  // by link; null: no link may
 
-  bool admits(LinkId link, LinkId) const noexcept { return may_touch->empty() || !(*may_touch)[index(link)]; }
+  bool admits(LinkId link, LinkId) const noexcept { return may_touch == nullptr || !(*may_touch)[index(link)]; }
   bool admits(PrimitiveId i, PrimitiveId) const noexcept { return admits(links[index(i)], LinkId{}); }
 };
 
@@ -45,7 +45,7 @@ auto RobotChecker::ask(const BodyPair& pair, const Environment& environment, con
   // Every body already has the full clearance of the environment, so a held body needs no more.
   const double missing = is_held ? 0.0 : missing_clearance(margins_.clearance(), environment.clearance());
   const std::vector<double> more = for_all_groups(first, missing + extra);
-  const OtherLinks filter{robot_->model().links(), &pair.may_touch};
+  const OtherLinks filter{robot_->model().links(), pair.may_touch.empty() ? nullptr : &pair.may_touch};
   return with_same_engine(first, pair.body->hierarchy, [&](auto& mine, auto& theirs) {
     return f(mine, theirs, filter, QueryOptions{false, more, {}, nullptr});
   });

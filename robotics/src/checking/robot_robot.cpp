@@ -14,16 +14,6 @@
 
 namespace hinge::robotics {
 
-namespace {
-
-/// Admits every pair. Of the type that queries of environments use, so no query is compiled for a second filter.
-OtherLinks every_pair(const Robot& robot) {
-  static const std::vector<bool> no_link;
-  return {robot.model().links(), &no_link};
-}
-
-}  // namespace
-
 /// Calls found(contact, point) for each containment between the two robots, with a common point (world), until it
 /// returns true.
 template <class Found>
@@ -56,11 +46,13 @@ bool RobotChecker::find_insides(RobotChecker& other, const Found& found) {
   });
 }
 
+// OtherLinks admits every pair here. AdmitAll would do, but all queries would be compiled a second time.
+
 bool RobotChecker::collides(RobotChecker& other) {
   const std::vector<double> more = filling(*hierarchy_, margins_.clearance(), other.margins_.clearance());
   return with_same_engine(*hierarchy_, *other.hierarchy_,
                           [&](auto& mine, auto& theirs) {
-                            return mine.collides(theirs, every_pair(*robot_), {false, more});
+                            return mine.collides(theirs, OtherLinks{robot_->model().links()}, {false, more});
                           }) ||
          find_insides(other, [](const LinkContact&, const Vec3&) { return true; });
 }
@@ -69,7 +61,7 @@ std::vector<LinkContact> RobotChecker::within(RobotChecker& other, double margin
   check_margin(margin);
   const std::vector<double> more = filling(*hierarchy_, margins_.clearance(), other.margins_.clearance());
   std::vector<LinkContact> contacts = with_same_engine(*hierarchy_, *other.hierarchy_, [&](auto& mine, auto& theirs) {
-    return links_within(mine, theirs, margin, every_pair(*robot_), {false, more});
+    return links_within(mine, theirs, margin, OtherLinks{robot_->model().links()}, {false, more});
   });
   find_insides(other, [&](const LinkContact& contact, const Vec3&) {
     put_contact(contacts, contact);
@@ -82,7 +74,8 @@ std::optional<ClosestLinks> RobotChecker::closest(RobotChecker& other) {
   const std::vector<double> more = filling(*hierarchy_, margins_.clearance(), other.margins_.clearance());
   auto best =
       with_same_engine(*hierarchy_, *other.hierarchy_, [&](auto& mine, auto& theirs) -> std::optional<ClosestLinks> {
-        const auto found = closest_between(mine, margins_, theirs, other.margins_, every_pair(*robot_), {false, more});
+        const auto found =
+            closest_between(mine, margins_, theirs, other.margins_, OtherLinks{robot_->model().links()}, {false, more});
         if (!found) return {};
         return answer(robot_->model().links()[index(found->first.first)],
                       other.robot_->model().links()[index(found->first.second)], found->first, found->second);
