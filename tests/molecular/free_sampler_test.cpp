@@ -20,11 +20,10 @@
 #include "hinge/molecular/free_sampler.hpp"
 #include "hinge/molecular/ideal_protein.hpp"
 #include "hinge/molecular/join_structures.hpp"
-#include "hinge/molecular/kept_closures.hpp"
-#include "hinge/molecular/loop.hpp"
 #include "hinge/molecular/molecule.hpp"
 #include "hinge/molecular/part.hpp"
 #include "hinge/molecular/selection.hpp"
+#include "molecular/free_molecule.hpp"
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
@@ -33,16 +32,11 @@ namespace free_sampler_test {
 /// A molecule with free torsions, as biocd sample --collision-free makes it.
 struct Question {
   Question(const Structure& structure, const std::string& loop, const std::string& free, const std::string& engine) {
-    MoleculeOptions made;
-    if (!loop.empty()) made.loops = find_loops(structure, loop);
-    molecule = std::make_shared<const Molecule>(structure, made);
-    auto torsions =
-        loop.empty() ? select_torsions(*molecule, free, false) : select_loop_torsions(*molecule, free, false);
-    const KeptClosures kept = find_kept_closures(*molecule, torsions, Closures::all);
-    closures = kept.closures;
+    const test::FreeMolecule made(structure, free, loop);
+    molecule = made.molecule;
+    closures = made.kept.closures;
     options.exempt_reference = true;
-    options.engine = engine;
-    checker.emplace(molecule, molecule->select(kept.torsions), options);
+    checker = made.checker(options, engine);
   }
   FreeSampler sampler(Prior prior, std::uint64_t seed) const {
     FreeSampling how;

@@ -23,11 +23,10 @@
 #include "hinge/molecular/closed_sampler.hpp"
 #include "hinge/molecular/fit_coordinates.hpp"
 #include "hinge/molecular/fit_torsions.hpp"
-#include "hinge/molecular/kept_closures.hpp"
-#include "hinge/molecular/loop.hpp"
 #include "hinge/molecular/sampler.hpp"
 #include "hinge/molecular/selection.hpp"
 #include "hinge/molecular/trajectory.hpp"
+#include "molecular/free_molecule.hpp"
 #include "molecular/test_files.hpp"
 
 namespace hinge::molecular {
@@ -38,20 +37,13 @@ constexpr double pi = std::numbers::pi;
 /// Ubiquitin with free torsions; pairs that collide in the file are left out.
 struct Chain {
   explicit Chain(const std::string& free, const std::string& loop = "", const std::string& engine = "simd") {
-    const Structure structure = read_structure(test::ubiquitin());
-    MoleculeOptions made;
-    if (!loop.empty()) made.loops = find_loops(structure, loop);
-    molecule = std::make_shared<const Molecule>(structure, made);
-    const auto torsions =
-        loop.empty() ? select_torsions(*molecule, free, false) : select_loop_torsions(*molecule, free, false);
-    const KeptClosures kept = find_kept_closures(*molecule, torsions, Closures::all);
-    how.closures = kept.closures;
+    const test::FreeMolecule made(read_structure(test::ubiquitin()), free, loop);
+    molecule = made.molecule;
+    how.closures = made.kept.closures;
     CheckOptions options;
     options.exempt_reference = true;
-    options.engine = engine;
-    checker.emplace(molecule, molecule->select_placed(kept.torsions), options);
-    options.engine = "brute";
-    brute.emplace(molecule, checker->selection(), options);
+    checker = made.checker(options, engine);
+    brute = made.checker(options, "brute");
   }
   std::vector<double> reference() const { return std::vector<double>(checker->dof_count(), 0.0); }
   /// Returns free conformations: draws until enough do not collide.

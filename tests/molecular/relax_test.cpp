@@ -20,10 +20,8 @@
 #include "hinge/core/error.hpp"
 #include "hinge/core/philox.hpp"
 #include "hinge/core/vec3.hpp"
-#include "hinge/molecular/kept_closures.hpp"
-#include "hinge/molecular/loop.hpp"
-#include "hinge/molecular/part.hpp"
 #include "hinge/molecular/selection.hpp"
+#include "molecular/free_molecule.hpp"
 #include "molecular/side_chains.hpp"
 #include "molecular/test_files.hpp"
 #include "motion/displacement.hpp"
@@ -37,16 +35,10 @@ constexpr double degree = std::numbers::pi / 180.0;
 struct Question {
   Question(const Structure& structure, const std::string& free, const std::string& engine = "simd",
            const std::string& loop = "", const std::string& placed = "") {
-    MoleculeOptions made;
-    if (!loop.empty()) made.loops = find_loops(structure, loop);
-    if (!placed.empty()) made.placed.push_back(find_part(structure, placed));
-    molecule = std::make_shared<const Molecule>(structure, made);
-    const auto torsions =
-        loop.empty() ? select_torsions(*molecule, free, false) : select_loop_torsions(*molecule, free, false);
-    const KeptClosures kept = find_kept_closures(*molecule, torsions, Closures::all);
-    how.closures = kept.closures;
-    options.engine = engine;
-    checker.emplace(molecule, molecule->select_placed(kept.torsions), options);
+    const test::FreeMolecule made(structure, free, loop, placed);
+    molecule = made.molecule;
+    how.closures = made.kept.closures;
+    checker = made.checker(options, engine);
   }
   Verdict by_brute_force(const std::vector<double>& q) const {
     CheckOptions other = options;
