@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Walks by moves that MoveChecker tests.
+// Implements a walk with MoveChecker, MoveCloser and random_move.
 #include "hinge/molecular/walker.hpp"
 
 #include <string>
@@ -7,6 +7,7 @@
 
 #include "hinge/core/error.hpp"
 #include "hinge/core/id.hpp"
+#include "hinge/core/number_text.hpp"
 #include "hinge/engine/simd.hpp"
 #include "hinge/moves/dof_change.hpp"
 #include "hinge/moves/move_checker.hpp"
@@ -20,14 +21,14 @@ namespace {
 /// Throws ModelError if the molecule or the options allow no walk.
 void require_walk(const Checker& checker, const WalkOptions& options) {
   if (!checker.molecule().placed_parts().empty())
-    throw ModelError("a walk changes only torsions, expected a molecule without placed parts");
+    throw ModelError("walk: changes only torsions, expected a molecule without placed parts");
   const std::size_t dof = checker.dof_count();
-  if (dof == 0) throw ModelError("a walk: no torsion is free, expected at least one");
+  if (dof == 0) throw ModelError("walk: no torsion is free, expected at least one");
   if (options.changes < 1 || options.changes > dof)
-    throw ModelError("a walk: " + std::to_string(options.changes) + " changes per step, expected 1 to " +
+    throw ModelError("walk: " + std::to_string(options.changes) + " changes per step, expected 1 to " +
                      std::to_string(dof) + ", the number of free torsions");
   if (!(options.sigma > 0.0 && options.sigma <= 1e9))
-    throw ModelError("a walk: standard deviation " + std::to_string(options.sigma) +
+    throw ModelError("walk: standard deviation " + number_text(options.sigma) +
                      ", expected an angle above 0, at most 1e9 rad");
 }
 

@@ -161,7 +161,7 @@ py::tuple walk(CheckerHandle& self, std::uint64_t steps, double sigma, std::uint
                std::uint64_t every, const py::object& start, const py::object& progress) {
   const std::size_t dof = self.dof();
   if (!(sigma > 0.0 && sigma <= 1e9)) throw py::value_error("step_size: expected an angle above 0, at most 1e9 rad");
-  if (dof > 0 && (count < 1 || count > dof))
+  if (dof > 0 && (count < 1 || count > dof))  // Walker refuses a molecule without a free torsion
     throw py::value_error("changes: " + std::to_string(count) + ", expected 1 to " + std::to_string(dof) +
                           ", the number of free torsions");
   if (every < 1) throw py::value_error("every: 0, expected at least 1");
@@ -177,21 +177,22 @@ py::tuple walk(CheckerHandle& self, std::uint64_t steps, double sigma, std::uint
     check_start(molecule.structure(), made);
     return made;
   });
-  std::vector<double> kept;                                                  // a row per `every` steps
+  std::vector<double> configurations;                                        // a row per `every` steps
   run_slices(static_cast<std::size_t>(steps), 1, progress, [&]() -> Slice {  // one thread: slices come in order
     return [&](std::size_t begin, std::size_t end) {
       for (std::size_t step = begin; step < end; ++step) {
         walker.step();
+        if ((step + 1) % every != 0) continue;
         const std::span<const double> q = walker.configuration();
-        if ((step + 1) % every == 0) kept.insert(kept.end(), q.begin(), q.end());
+        configurations.insert(configurations.end(), q.begin(), q.end());
       }
     };
   });
   const std::span<const double> end = walker.configuration();
-  const auto rows = static_cast<py::ssize_t>(kept.size() / dof);
-  return py::make_tuple(to_array(std::move(kept), {rows, static_cast<py::ssize_t>(dof)}),
-                        to_array(std::vector<double>(end.begin(), end.end())), walker.counts().accepted,
-                        walker.counts().unclosed);
+  const auto rows = static_cast<py::ssize_t>(configurations.size() / dof);
+  const WalkCounts counts = walker.counts();
+  return py::make_tuple(to_array(std::move(configurations), {rows, static_cast<py::ssize_t>(dof)}),
+                        to_array(std::vector<double>(end.begin(), end.end())), counts.accepted, counts.unclosed);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -17,11 +18,11 @@ namespace hinge::molecular {
 
 /// Options of a Walker.
 struct WalkOptions {
-  std::vector<std::size_t> closures{};  ///< closures to keep (find_kept_closures), indices in the tree's
-  std::size_t changes = 1;              ///< torsions that a step draws, at least 1, at most the number of free ones
-  double sigma = 0.05;                  ///< standard deviation of a drawn change, rad, above 0
-  std::uint64_t seed = 1;               ///< of the random changes
-  std::vector<double> start{};          ///< first conformation: one value per selected DOF, rad; empty: the reference
+  std::vector<std::size_t> closures{};   ///< closures to keep (find_kept_closures), indices in the tree's
+  std::size_t changes = 1;               ///< torsions that a step draws, at least 1, at most the number of free ones
+  double sigma = std::numbers::pi / 60;  ///< standard deviation of a drawn change, rad, above 0, at most 1e9
+  std::uint64_t seed = 1;                ///< of the random changes
+  std::vector<double> start{};           ///< first conformation: one value per selected DOF, rad; empty: the reference
 };
 
 /// Work of a walk.
@@ -32,11 +33,10 @@ struct WalkCounts {
   std::uint64_t full_queries = 0;  ///< steps that were answered by a query of the whole molecule (MoveChecker)
 };
 
-/// A walk. Each step draws a Gaussian change of a few free torsions (random_move) and, if
-/// these are in closed cycles, the smallest change of the other torsions that closes them (MoveCloser). The step is
-/// accepted if no pair of atoms collides after it, otherwise the conformation stays. Steps with closures are not
-/// symmetric, so such a walk does not visit all free conformations equally often. Step k is a function of (seed, k) and
-/// the conformation before it. One per thread.
+/// Each step draws a Gaussian change of a few free torsions (random_move). If these are in closed cycles, the smallest
+/// change of the other torsions closes the cycles (MoveCloser). The step is accepted if no pair of atoms collides after
+/// it; otherwise the conformation stays. Steps that close cycles are not symmetric, so such a walk does not visit all
+/// free conformations equally often. Step k is a function of (seed, k) and the conformation before it. One per thread.
 class HINGE_API Walker {
  public:
   /// Tests the pairs of the checker, with the SIMD engine; the checker is not kept. Throws ModelError if the molecule
