@@ -8,9 +8,9 @@ find_package(fmt QUIET)
 set(HINGE_TOOL_LEVELS "x86-64-v3;x86-64-v4" CACHE STRING
     "On x86-64: the levels that tools have programs of their own for, beside the baseline's")
 
-# Adds PROGRAM_build_id, the object of the generated source BUILD_ID. CMake compiles no object of a target before the
-# target's sources are generated, and it generates them after the target's libraries are built. In a target without
-# libraries, the source keeps nothing waiting.
+# Adds PROGRAM_build_id, the object of the generated source BUILD_ID. It is a target of its own, because CMake generates
+# the source of a target after building the target's libraries, and compiles no object of the target before that. This
+# target has no compiled library, so the objects of the program need not wait.
 function(hinge_add_build_id program build_id)
   add_library(${program}_build_id OBJECT ${build_id})
   target_link_libraries(${program}_build_id PRIVATE hinge hinge_own)
