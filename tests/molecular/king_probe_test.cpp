@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -647,7 +646,6 @@ struct Case {
   const char* file;
   Comparison::Clashes clashes;
   bool hetero = false;
-  bool takes_long = false;  ///< seconds, for Probe itself
 
   friend std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.file; }
 };
@@ -657,7 +655,6 @@ class ProteinBesideKingProbe : public testing::TestWithParam<Case> {};
 TEST_P(ProteinBesideKingProbe, RadiiOverlapsHydrogenBondsAndClashesAreTheSame) {
   if (test::run_tool("king-probe", "-version 2>/dev/null").status != 0) GTEST_SKIP() << "king-probe is not installed";
   if (!std::filesystem::exists(test::molecule_file(GetParam().file))) GTEST_SKIP() << "shared data not found";
-  if (GetParam().takes_long && std::getenv("HINGE_TEST_ALL") == nullptr) GTEST_SKIP() << "only with HINGE_TEST_ALL";
   Comparison comparison(GetParam().file, GetParam().hetero);
   if (HasFatalFailure()) return;
   comparison.radii();
@@ -679,7 +676,7 @@ constexpr std::array<Case, 6> others{{{"1bna.pdb", {1, 0, 0, 0}, true},
                                       {"1d66.pdb", {22, 0, 1, 0}, true},
                                       {"1hpx.pdb", {1, 0, 0, 0}, true},
                                       {"1a4w.pdb", {19, 2, 0, 0}, true},
-                                      {"1igy.cif.gz", {223, 14, 18, 0}, true, true}}};
+                                      {"1igy.cif.gz", {223, 14, 18, 0}, true}}};
 
 INSTANTIATE_TEST_SUITE_P(Others, ProteinBesideKingProbe, testing::ValuesIn(others),
                          [](const auto& parameter) { return "n" + std::to_string(parameter.index); });
