@@ -110,6 +110,8 @@ TEST(Walker, StartsAnywhere) {
   Walker moved(std::move(first));
   EXPECT_EQ(moved.counts().steps, 1U);
   EXPECT_EQ(std::vector<double>(moved.configuration().begin(), moved.configuration().end()), q);
+  moved.step();
+  EXPECT_EQ(moved.counts().steps, 2U);
 }
 
 TEST(Walker, RefusesWhatCannotWalk) {
