@@ -92,7 +92,7 @@ TEST(ResidueKind, KeepsAModifiedResidueBetweenTwoBreaks) {
   const Structure s =
       read(records(ideal, 0, "") + records(ideal, 1, "SEP", {0, 30, 0}) + records(ideal, 2, "", {0, 60, 0}));
   ASSERT_EQ(s.residues.size(), 3U);
-  EXPECT_TRUE(has_note(s, "break between ALA1 and SEP2"));
+  EXPECT_TRUE(has_note(s, "chain A: breaks between ALA1 and SEP2, SEP2 and ALA3; no bond across"));
 }
 
 TEST(ResidueKind, LeavesOutDummyAtomsAndSaysSo) {

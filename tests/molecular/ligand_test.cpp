@@ -273,6 +273,20 @@ TEST(Components, OfADictionaryThatOnlyShareTheNameAreNotUsed) {
   EXPECT_EQ(s.bonds.size(), 3U);
 }
 
+/// As HIS.cif of Debian's refmac-dictionary 5.41: the file does not start with data_.
+TEST(Components, OfADictionaryThatCannotBeReadAreNoted) {
+  const Dictionary dictionary("LGD", "f#\n" + component("LGD", "LGD C1 C2 SING N\n"));
+  const auto atoms = hetatm(zigzag({1.53, 1.53, 1.53}), "LGD");
+  const Structure s = read(atoms + hetatm(zigzag({1.53}), "LGD", 2, 5), std::nullopt, dictionary.path());
+  EXPECT_EQ(source_of(s, "LGD"), "covalent radii");
+  EXPECT_EQ(std::count_if(s.notes.begin(), s.notes.end(),
+                          [&](const std::string& note) {
+                            return note.starts_with("component LGD is not used: " +
+                                                    (dictionary.path() / "l" / "LGD.cif").string() + ":1:1: expected");
+                          }),
+            1);
+}
+
 /// Its bonds are as long as bonds, but atoms that it knows are bonded otherwise: a truncated or reused name.
 TEST(Components, OfADictionaryThatLackBondsAreNotUsed) {
   const Dictionary dictionary("LGD", component("LGD", "LGD C1 C2 SING N\nLGD C3 C7 SING N\nLGD C4 C8 SING N\n"));
@@ -303,6 +317,15 @@ TEST(Components, NameTheBearersOfHydrogens) {
   EXPECT_EQ(
       bearer(read(hetatm(atoms, "LGD"), component("LGD", "LGD C1 C2 SING N\nLGD C2 C3 SING N\nLGD C1 H1 SING N\n"))),
       "C1");
+}
+
+TEST(Hydrogens, WithoutAHeavyAtomNearAreNotedTogether) {
+  auto atoms = zigzag({1.53});
+  atoms.push_back({"H1", "H", Vec3(0, 9, 0)});
+  atoms.push_back({"H2", "H", Vec3(0, 0, 9)});
+  const Structure s = read(hetatm(atoms, "LGD"));
+  EXPECT_TRUE(has_note(s, "no heavy atom of their residue is within 1.6 angstrom: 2 (first: L:LGD1:H1)"));
+  EXPECT_EQ(s.bonds.size(), 1U);
 }
 
 TEST(Hydrogens, OfAminoAcidsAreBondedByTheirNames) {

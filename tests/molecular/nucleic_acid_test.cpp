@@ -188,9 +188,25 @@ TEST(NucleicAcid, HasNoBondAcrossABreak) {
   const TemporaryFile broken(text);
   const auto m = molecule(broken.path());
   const auto& notes = m->structure().notes;
-  EXPECT_EQ(std::count(notes.begin(), notes.end(), "chain A: break between DG4 and DA6, no bond across"), 1);
+  EXPECT_EQ(std::count(notes.begin(), notes.end(), "chain A: break between DG4 and DA6; no bond across"), 1);
   // Missing: all six torsions of nucleotide 5, and epsilon and zeta of 4. alpha of 6 remains, about its own phosphate.
   EXPECT_EQ(m->torsions().size(), 136U - 6U - 2U);
+}
+
+/// Some models leave phosphates out: one note for each chain, not one for each nucleotide.
+TEST(NucleicAcid, NotesAllBreaksOfAChainTogether) {
+  std::string text;
+  std::istringstream lines(dodecamer_text());
+  for (std::string line; std::getline(lines, line);)
+    if (!line.starts_with("ATOM") || line.substr(12, 4) != " P  ") text += line + "\n";
+  const TemporaryFile broken(text);
+  const auto m = molecule(broken.path());
+  std::vector<std::string> breaks;
+  for (const std::string& note : m->structure().notes)
+    if (note.find("no bond across") != std::string::npos) breaks.push_back(note);
+  ASSERT_EQ(breaks.size(), 2U);
+  EXPECT_TRUE(breaks[0].starts_with("chain A: breaks between DC1 and DG2, DG2 and DC3, ")) << breaks[0];
+  EXPECT_TRUE(breaks[0].ends_with(", DG10 and DC11, and 1 more; no bond across")) << breaks[0];
 }
 
 TEST(NucleicAcid, TurnsHydroxylsWhereTheirHydrogensAreExplicit) {

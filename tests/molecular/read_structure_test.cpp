@@ -510,7 +510,7 @@ TEST(ReadStructure, FindsChainBreaksAndBuildsNoBondAcross) {
     far.replace(at, 24, "  50.000   0.000   0.000");
   const TemporaryFile file(alanine() + far);
   const Structure s = read_structure(file.path());
-  EXPECT_TRUE(has_note(s, "chain A: break between ALA1 and ALA9, no bond across"));
+  EXPECT_TRUE(has_note(s, "chain A: break between ALA1 and ALA9; no bond across"));
   EXPECT_TRUE(
       std::none_of(s.bonds.begin(), s.bonds.end(), [](const Bond& b) { return b.origin == BondOrigin::peptide; }));
 }

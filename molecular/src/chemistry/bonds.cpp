@@ -62,17 +62,19 @@ class Perception {
 
   void bond_chain(const Chain& chain) {
     std::optional<std::uint32_t> first, last;
+    std::vector<std::string> breaks;
     for (std::uint32_t r = chain.first_residue; r < chain.last_residue; ++r) {
       if (!in_polymer(r)) continue;
       if (!last || !bond_next(*last, r)) {
         if (last && s_.residues[*last].kind == s_.residues[r].kind && s_.residues[r].kind != ResidueKind::other)
-          note_break(chain, *last, r);
+          breaks.push_back(name_of(*last) + " and " + name_of(r));
         pieces_.emplace_back(r, r);
       }
       pieces_.back().second = r;
       if (!first) first = r;
       last = r;
     }
+    if (!breaks.empty()) note_breaks(chain, breaks);
     // The ends of a cyclic backbone are bonded. A chain of two residues cannot form a ring.
     if (first && last && *last > *first + 1) ends_.emplace_back(*last, *first);
   }
@@ -105,14 +107,20 @@ class Perception {
     return true;
   }
 
-  void note_break(const Chain& chain, std::uint32_t r, std::uint32_t t) {
-    const auto name = [&](std::uint32_t k) {
-      const Residue& residue = s_.residues[k];
-      return residue.name + std::to_string(residue.sequence_number) +
-             (residue.insertion_code != '\0' ? std::string(1, residue.insertion_code) : "");
-    };
-    s_.notes.push_back("chain " + (chain.name.empty() ? "_" : chain.name) + ": break between " + name(r) + " and " +
-                       name(t) + ", no bond across");
+  std::string name_of(std::uint32_t r) const {
+    const Residue& residue = s_.residues[r];
+    return residue.name + std::to_string(residue.sequence_number) +
+           (residue.insertion_code != '\0' ? std::string(1, residue.insertion_code) : "");
+  }
+
+  /// Adds one note for all breaks of a chain. A nucleic acid without phosphates has a break at each residue.
+  void note_breaks(const Chain& chain, const std::vector<std::string>& breaks) {
+    constexpr std::size_t named = 10;
+    std::string text = "chain " + (chain.name.empty() ? "_" : chain.name) +
+                       (breaks.size() == 1 ? ": break between " : ": breaks between ") + breaks.front();
+    for (std::size_t k = 1; k < std::min(breaks.size(), named); ++k) text += ", " + breaks[k];
+    if (breaks.size() > named) text += ", and " + std::to_string(breaks.size() - named) + " more";
+    s_.notes.push_back(text + "; no bond across");
   }
 
   void bond_recorded() {

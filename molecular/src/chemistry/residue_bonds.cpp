@@ -9,6 +9,7 @@
 #include "chemistry/bond_judge.hpp"
 #include "chemistry/nucleotide_table.hpp"
 #include "chemistry/residue_table.hpp"
+#include "hinge/core/error.hpp"
 #include "hinge/molecular/bonds.hpp"
 
 namespace hinge::molecular {
@@ -75,10 +76,16 @@ bool ResidueBonds::has_all(const std::set<std::uint32_t>& known, const Residue& 
   return true;
 }
 
-/// Returns the component of the residue's name; null if it is from a dictionary and does not fit the coordinates.
+/// Returns the component of the residue's name; null if the dictionary's file cannot be read, or if the component is
+/// from a dictionary and does not fit the coordinates.
 const Component* ResidueBonds::fitting_component(std::uint32_t r) {
   const Residue& residue = s_.residues[r];
-  const Component* component = components_.find(residue.name);
+  const Component* component = nullptr;
+  try {
+    component = components_.find(residue.name);
+  } catch (const LoadError& error) {  // thrown once for each name
+    s_.notes.push_back(std::string("component ") + residue.name + " is not used: " + error.what());
+  }
   if (component == nullptr || component->given) return component;
   BondJudge judge(s_, residue.first_atom, residue.last_atom);
   std::set<std::uint32_t> known;
@@ -217,13 +224,16 @@ void ResidueBonds::add_hydrogen(std::uint32_t h, std::uint32_t r) {
   if (bearer)
     bonds_.add(*bearer, h, BondOrigin::residue_template, BondOrder::single);
   else
-    s_.notes.push_back(label(s_, h) + ": no heavy atom of its residue is within 1.6 angstrom, so it has no bond");
+    alone_.add([&] { return label(s_, h); });
 }
 
 void ResidueBonds::say() {
   for (const auto& [name, misfit] : misfits_)
     s_.notes.push_back(misfit.first +
                        (misfit.number > 1 ? " (and " + std::to_string(misfit.number - 1) + " more residues)" : ""));
+  if (alone_.number > 0)
+    s_.notes.push_back("hydrogens without a bond, because no heavy atom of their residue is within 1.6 angstrom: " +
+                       std::to_string(alone_.number) + " (first: " + alone_.first + ")");
   std::string names;
   for (const std::string& name : extended_) append(names, name);
   if (!names.empty()) s_.notes.push_back("bonds by covalent radii for atoms that the template lacks: " + names);

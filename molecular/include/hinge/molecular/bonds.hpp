@@ -13,13 +13,13 @@ namespace hinge::molecular {
 
 /// Fills structure.bonds (sorted) and structure.bond_sources from names, structure.bond_records and the coordinates
 /// of the first model. Adds a note to structure.notes for each guess: chain breaks, ignored records, residues without a
-/// template, and each bond between residues that is known from its distance alone. Time is near-linear in the number of
-/// atoms.
+/// template, components whose file cannot be read, and each bond between residues that is known from its distance
+/// alone. Time is near-linear in the number of atoms.
 ///
 /// Inside a residue, the first applicable source is used: the built-in table, if it knows every heavy atom; the
 /// component of that name; CONECT records, if they connect all heavy atoms; otherwise the table for the atoms that it
 /// knows, and covalent radii for the others. Between residues: polymer bonds, recorded bonds, and those that `between`
-/// asks for. Throws LoadError if a component cannot be read.
+/// asks for.
 HINGE_API void perceive_bonds(Structure& structure, ComponentLibrary components = {},
                               BondSearch between = BondSearch::geometry);
 
