@@ -64,8 +64,8 @@ class Relaxation:
 class Checker(_core.CheckerBase):
     """Tests configurations of one robot against itself and the bodies around it. Any number of threads may use it.
 
-    robot: a Robot. clearance: links closer than this collide, m; links that touch always do. clearances: others for
-    some pairs: {(name, name): m}. environment: an Environment with the same engine, or None. disable: pairs of link
+    robot: a Robot. clearance: links closer than this collide, m; links that touch always do. pair_clearances: others
+    for some pairs: {(name, name): m}. environment: an Environment with the same engine, or None. disable: pairs of link
     names that are not tested, in addition to those of the robot's SRDF, or a CollisionMatrix.
     tiers: a tier for all links, or tiers by link name, see Robot.with_tiers(); the robot of the checker is then another
     one. base: pose of the root link in the world, shape (4, 4) or a translation of shape (3,), m; a robot with a
@@ -82,7 +82,7 @@ class Checker(_core.CheckerBase):
         robot,
         *,
         clearance=0.0,
-        clearances=None,
+        pair_clearances=None,
         environment=None,
         disable=(),
         tiers=None,
@@ -98,13 +98,14 @@ class Checker(_core.CheckerBase):
             disable = disable.disabled_pairs()
         _environment(environment)
         special = {}
-        for pair, value in dict(clearances or {}).items():
-            special[_check.pair_names("clearances", [pair])[0]] = _check.number("clearances", value, positive=True)
+        for pair, value in dict(pair_clearances or {}).items():
+            names = _check.pair_names("pair_clearances", [pair])[0]
+            special[names] = _check.number("pair_clearances", value, positive=True)
         self._robot = robot
         self._environment = environment
         self._options = {
             "clearance": _check.number("clearance", clearance, positive=True),
-            "clearances": special,
+            "pair_clearances": special,
             "disable": _check.pair_names("disable", disable),
             "base": None if base is None else matrix("base", base),
             "engine": _check.one_of("engine", engine, ("simd", "lazy", "brute")),

@@ -44,7 +44,7 @@ class Checker:
         robot: Robot,
         *,
         clearance: float = 0.0,
-        clearances: Mapping[tuple[str, str], float] | None = None,
+        pair_clearances: Mapping[tuple[str, str], float] | None = None,
         environment: Environment | None = None,
         disable: Iterable[tuple[str, str]] | CollisionMatrix = (),
         tiers: _Tier | Mapping[str, _Tier] | None = None,

@@ -148,7 +148,7 @@ class RobotPage:
         n_links = len(self._robot.link_names)
         bodies = {name: n_links + k for k, name in enumerate([*self._held, *self._bodies])}
         place = [*range(n_links), *(bodies.get(str(name)) for name in checker.names[n_links:])]
-        special = bool(checker._options["clearances"])
+        special = bool(checker._options["pair_clearances"])
         rows = []
         for row in found[:_MOST_ROWS]:
             first, second = int(row["first"]), int(row["second"])

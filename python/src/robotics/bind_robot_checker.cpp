@@ -39,7 +39,7 @@ std::unique_ptr<RobotCheckerHandle> make_checker(
   for (const auto& [a, b] : link_pairs_named(*robot, disable, "disable").list()) disabled.insert(a, b);
   std::vector<PairClearance> clearances;
   for (const auto& [a, b, c] : special)
-    clearances.push_back({link_named(*robot, a, "clearances"), link_named(*robot, b, "clearances"), c});
+    clearances.push_back({link_named(*robot, a, "pair_clearances"), link_named(*robot, b, "pair_clearances"), c});
   check_environment(robot, environment.get(), engine, !base.is_none());
   const Pose at = as_pose(base, "base");
   const bool placed = !base.is_none();

@@ -97,7 +97,7 @@ def test_arrays_need_not_be_float64_in_c_order(checker, robot):
         (lambda c, q: hr.Checker(c.robot, disable=[("hand", "nose")]), hinge.ModelError, "disable: .* 'nose'"),
         (lambda c, q: hr.Checker(c.robot, disable="hand"), TypeError, "disable: a str"),
         (lambda c, q: hr.Checker(c.robot, disable=["hand"]), ValueError, "disable: 'hand', expected a pair"),
-        (lambda c, q: hr.Checker(c.robot, clearances={("hand", "nose"): 1}), hinge.ModelError, "clearances: "),
+        (lambda c, q: hr.Checker(c.robot, pair_clearances={("hand", "nose"): 1}), hinge.ModelError, "pair_clearances: "),
         (lambda c, q: hr.Checker(c.robot, environment=3), TypeError, "environment: a int"),
         (lambda c, q: hr.Checker(c.robot, engine="lazy", environment=c.environment), hinge.ModelError, "environment: "),
         (lambda c, q: hr.Checker(c.robot, base=np.ones((4, 4))), ValueError, "base: the last row"),
