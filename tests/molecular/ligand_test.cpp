@@ -319,6 +319,14 @@ TEST(Components, NameTheBearersOfHydrogens) {
       "C1");
 }
 
+TEST(Residues, OfACoarseGrainedModelAreNoted) {
+  const std::vector<LigandAtom> beads{{"BB", "F", Vec3(22.2, 42.3, 23.9)}, {"SC1", "S", Vec3(23.6, 44.3, 24.6)}};
+  const std::string text = hetatm(beads, "THR", 1, 1, "ATOM  ") + hetatm(beads, "THR", 3, 2, "ATOM  ");
+  EXPECT_TRUE(has_note(read(text), "residues without any atom of their template: 2 (first: L:THR1:BB)"));
+  // A trace of C-alphas has one atom of each template.
+  EXPECT_FALSE(has_note(read(hetatm({{"CA", "C", Vec3(0, 0, 0)}}, "THR", 1, 1, "ATOM  ")), "without any atom"));
+}
+
 TEST(Hydrogens, WithoutAHeavyAtomNearAreNotedTogether) {
   auto atoms = zigzag({1.53});
   atoms.push_back({"H1", "H", Vec3(0, 9, 0)});

@@ -176,6 +176,7 @@ std::string ResidueBonds::source_of(std::uint32_t r) {
     if (j) known.insert(*j);
     if (i && j) found.emplace_back(*i, *j);
   });
+  if (has_table && known.empty()) unknown_.add([&] { return label(s_, residue.first_atom); });
   const bool complete = has_table && has_all(known, residue);
   if (const Component* component = complete ? nullptr : fitting_component(r)) {
     known.clear();
@@ -231,6 +232,10 @@ void ResidueBonds::say() {
   for (const auto& [name, misfit] : misfits_)
     s_.notes.push_back(misfit.first +
                        (misfit.number > 1 ? " (and " + std::to_string(misfit.number - 1) + " more residues)" : ""));
+  if (unknown_.number > 0)
+    s_.notes.push_back("residues without any atom of their template: " + std::to_string(unknown_.number) +
+                       " (first: " + unknown_.first + "); beads of a coarse-grained model get radii of atoms, which " +
+                       "are too small for them");
   if (alone_.number > 0)
     s_.notes.push_back("hydrogens without a bond, because no heavy atom of their residue is within 1.6 angstrom: " +
                        std::to_string(alone_.number) + " (first: " + alone_.first + ")");

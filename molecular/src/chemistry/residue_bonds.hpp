@@ -47,6 +47,7 @@ class ResidueBonds {
   std::vector<BondRecord> conect_;                                      // bonds inside residues, sorted by first atom
   std::map<std::pair<std::string, std::string>, std::size_t> sources_;  // (residue name, source) -> residues
   std::map<std::string, Counted> misfits_;  // residues that a component of the dictionary does not fit, by its name
+  Counted unknown_;                         // residues without any atom of their table
   Counted alone_;                           // hydrogens without a bond
   std::set<std::string> extended_;          // names of residues with atoms that their table or component lacks
 };
