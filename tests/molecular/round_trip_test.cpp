@@ -107,10 +107,22 @@ TEST(WritePdb, RefusesModelsWithNamesLongerThanTheirColumns) {
   std::ostringstream out;
   write_pdb_model(out, protein, protein.models.front(), 1);
   Structure residue = protein, atom = protein;
-  residue.residues.front().name = "ALAN";
+  residue.residues.front().name = "ALANI";
   atom.atoms.front().name = "N1234";
   EXPECT_THROW(write_pdb_model(out, residue, protein.models.front(), 1), ModelError);
   EXPECT_THROW(write_pdb_model(out, atom, protein.models.front(), 1), ModelError);
+}
+
+TEST(RoundTrip, ResiduesWithoutNames) {
+  const TemporaryFile file(
+      "HETATM    1  C       A   1       0.095   0.011   0.000  1.00  0.00           C\n"
+      "HETATM    2  O       A   1       0.513  -1.098  -0.004  1.00  0.00           O\n"
+      "HETATM    3  H1      A   1      -0.998   0.149   0.015  1.00  0.00           H\n"
+      "HETATM    4  H2      A   1       0.590   0.938  -0.011  1.00  0.00           H\nEND\n");
+  const Structure s = read_structure(file.path(), everything());
+  ASSERT_EQ(s.bonds.size(), 3U);
+  for (const TrajectoryFormat format : {TrajectoryFormat::pdb, TrajectoryFormat::cif})
+    expect_same_molecule(s, again(written(s, format), format));
 }
 
 TEST(RoundTrip, EveryFile) {

@@ -129,13 +129,15 @@ void write_connections(std::ostream& out, const Structure& s, const std::vector<
   if (count > 0) out << "#\n";
 }
 
-/// Writes the recorded bonds inside residues, by residue name: the union over all residues of that name.
+/// Writes the recorded bonds inside residues, by residue name: the union over all residues of that name. A residue
+/// without a name has no component; Hinge reads its bonds from write_recorded().
 void write_components(std::ostream& out, const Structure& s, const RecordedBonds& recorded) {
   std::map<std::tuple<std::string, std::string, std::string>, BondOrder> bonds;
   for (const RecordedBond& bond : recorded.bonds) {
     const Atom &a = s.atoms[bond.first], &b = s.atoms[bond.second];
-    if (bond.bonded && a.residue == b.residue)
-      bonds.emplace(std::tuple(s.residues[a.residue].name, a.name, b.name), bond.order);
+    const std::string& residue = s.residues[a.residue].name;
+    if (bond.bonded && a.residue == b.residue && !residue.empty())
+      bonds.emplace(std::tuple(residue, a.name, b.name), bond.order);
   }
   if (bonds.empty()) return;
   out << "loop_\n_chem_comp_bond.comp_id\n_chem_comp_bond.atom_id_1\n_chem_comp_bond.atom_id_2\n"
