@@ -137,7 +137,7 @@ int BondJudge::room_of_nitrogen(std::uint32_t i) const {
 int BondJudge::room_of_oxygen(std::uint32_t i) const {
   if (near(i).size() != 1) return 0;
   const Residue& residue = s_.residues[s_.atoms[i].residue];
-  const std::string_view of = residue.name, name = s_.atoms[i].name;
+  const std::string_view of = pdb_residue_name(residue.name), name = s_.atoms[i].name;
   if (residue.kind == ResidueKind::nucleotide) return name.ends_with('\'') || name.ends_with('*') ? 1 : 0;
   if (residue.kind == ResidueKind::amino_acid && find_residue_template(of) != nullptr) {
     const bool amide = (of == "ASN" && name == "OD1") || (of == "GLN" && name == "OE1");
@@ -176,7 +176,7 @@ bool BondJudge::has_angles(std::uint32_t i, std::uint32_t j) const {
   }
   // A planar atom's third bond lies in the plane of the other two.
   const bool planar = near(i).size() == 2 && ((element == "C" && (multiple_bonds(i) > 0 || s_.atoms[i].name == "C")) ||
-                                              s_.residues[s_.atoms[i].residue].name.starts_with("HI"));
+                                              is_histidine(s_.residues[s_.atoms[i].residue].name));
   return !planar || sum + angle(near(i)[0].atom, i, near(i)[1].atom) >= planar_sum;
 }
 

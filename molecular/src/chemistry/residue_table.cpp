@@ -35,26 +35,57 @@ constexpr std::array<ResidueTemplate, 21> templates{{
     {"VAL", 'V', "CA-CB CB-CG1 CB-CG2", "N-CA-CB-CG1"},
 }};
 
-/// Residues that share the backbone, side-chain names and bonds of another: protonation states of AMBER and CHARMM,
-/// disulphide-bonded cysteine, D residues, and modified residues, whose further atoms are bonded by distance.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 52> variants{{
-    {"HID", "HIS"},  {"HIE", "HIS"}, {"HIP", "HIS"},  {"HSD", "HIS"}, {"HSE", "HIS"}, {"HSP", "HIS"}, {"ASH", "ASP"},
-    {"ASPP", "ASP"}, {"GLH", "GLU"}, {"GLUP", "GLU"}, {"LYN", "LYS"}, {"LSN", "LYS"}, {"CYX", "CYS"}, {"CYM", "CYS"},
-    {"CYS2", "CYS"}, {"DAL", "ALA"}, {"DAR", "ARG"},  {"DSG", "ASN"}, {"DAS", "ASP"}, {"DCY", "CYS"}, {"DGN", "GLN"},
-    {"DGL", "GLU"},  {"DHI", "HIS"}, {"DIL", "ILE"},  {"DLE", "LEU"}, {"DLY", "LYS"}, {"MED", "MET"}, {"DPN", "PHE"},
-    {"DPR", "PRO"},  {"DSN", "SER"}, {"DTH", "THR"},  {"DTR", "TRP"}, {"DTY", "TYR"}, {"DVA", "VAL"}, {"SEP", "SER"},
-    {"TPO", "THR"},  {"PTR", "TYR"}, {"TYS", "TYR"},  {"HYP", "PRO"}, {"MLY", "LYS"}, {"MLZ", "LYS"}, {"M3L", "LYS"},
-    {"ALY", "LYS"},  {"KCX", "LYS"}, {"CSO", "CYS"},  {"CSD", "CYS"}, {"CSX", "CYS"}, {"OCS", "CYS"}, {"CME", "CYS"},
-    {"SMC", "CYS"},  {"SME", "MET"}, {"HIC", "HIS"},
+/// Names of force fields (AMBER, CHARMM, GROMOS, OPLS): protonation states of histidine, cysteine and its disulphides,
+/// and further names of protonated acids and neutral lysine.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 24> force_field_names{{
+    {"HID", "HIS"},  {"HIE", "HIS"},  {"HIP", "HIS"},  {"HSD", "HIS"},  {"HSE", "HIS"},  {"HSP", "HIS"},
+    {"HISA", "HIS"}, {"HISB", "HIS"}, {"HISD", "HIS"}, {"HISE", "HIS"}, {"HISH", "HIS"}, {"HIS1", "HIS"},
+    {"HIS2", "HIS"}, {"CYX", "CYS"},  {"CYM", "CYS"},  {"CYS1", "CYS"}, {"CYS2", "CYS"}, {"CYSH", "CYS"},
+    {"LYSH", "LYS"}, {"ASPP", "ASH"}, {"ASPH", "ASH"}, {"GLUP", "GLH"}, {"GLUH", "GLH"}, {"LSN", "LYN"},
 }};
+
+/// Residues that share the backbone, side-chain names and bonds of another: neutral states of charged residues, D
+/// residues, and modified residues, whose further atoms are bonded by distance.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 41> variants{{
+    {"ASH", "ASP"}, {"GLH", "GLU"}, {"LYN", "LYS"}, {"ARGN", "ARG"}, {"DAL", "ALA"}, {"DAR", "ARG"}, {"DSG", "ASN"},
+    {"DAS", "ASP"}, {"DCY", "CYS"}, {"DGN", "GLN"}, {"DGL", "GLU"},  {"DHI", "HIS"}, {"DIL", "ILE"}, {"DLE", "LEU"},
+    {"DLY", "LYS"}, {"MED", "MET"}, {"DPN", "PHE"}, {"DPR", "PRO"},  {"DSN", "SER"}, {"DTH", "THR"}, {"DTR", "TRP"},
+    {"DTY", "TYR"}, {"DVA", "VAL"}, {"SEP", "SER"}, {"TPO", "THR"},  {"PTR", "TYR"}, {"TYS", "TYR"}, {"HYP", "PRO"},
+    {"MLY", "LYS"}, {"MLZ", "LYS"}, {"M3L", "LYS"}, {"ALY", "LYS"},  {"KCX", "LYS"}, {"CSO", "CYS"}, {"CSD", "CYS"},
+    {"CSX", "CYS"}, {"OCS", "CYS"}, {"CME", "CYS"}, {"SMC", "CYS"},  {"SME", "MET"}, {"HIC", "HIS"},
+}};
+
+template <class Table>
+std::string_view mapped(const Table& table, std::string_view name) noexcept {
+  const auto found = std::find_if(table.begin(), table.end(), [&](const auto& row) { return row.first == name; });
+  return found == table.end() ? name : found->second;
+}
+
+const ResidueTemplate* find_by_pdb_name(std::string_view name) noexcept {
+  const std::string_view standard = mapped(variants, name);
+  const auto found =
+      std::find_if(templates.begin(), templates.end(), [&](const auto& t) { return t.name == standard; });
+  return found == templates.end() ? nullptr : found;
+}
 
 }  // namespace
 
+std::string_view pdb_residue_name(std::string_view name) noexcept {
+  const bool is_end = name.size() == 4 && (name.front() == 'N' || name.front() == 'C');  // AMBER: NALA, CALA
+  if (is_end) {
+    const std::string_view inner = mapped(force_field_names, name.substr(1));
+    if (find_by_pdb_name(inner) != nullptr) return inner;
+  }
+  return mapped(force_field_names, name);
+}
+
 const ResidueTemplate* find_residue_template(std::string_view name) noexcept {
-  for (const auto& [variant, standard] : variants)
-    if (name == variant) name = standard;
-  const auto found = std::find_if(templates.begin(), templates.end(), [&](const auto& t) { return t.name == name; });
-  return found == templates.end() ? nullptr : found;
+  return find_by_pdb_name(pdb_residue_name(name));
+}
+
+bool is_histidine(std::string_view name) noexcept {
+  const ResidueTemplate* known = find_residue_template(name);
+  return known != nullptr && known->name == "HIS";
 }
 
 const ResidueTemplate* find_residue_template(char letter) noexcept {

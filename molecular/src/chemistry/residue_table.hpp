@@ -23,7 +23,15 @@ inline constexpr std::string_view backbone_bonds = "N-CA CA-C C-O C-OXT C-OT1 C-
 /// in sulphotyrosine.
 inline constexpr std::string_view gromos_terminal_bonds = "C-O1 C-O2";
 
-/// Returns the template of a residue name, or null; a static object. Protonation variants, D residues and modified
+/// Returns the PDB's name of a residue that force fields name by its protonation or place in the chain: HIS for HIE and
+/// HISE, ALA for NALA. Neutral states of charged residues keep one name each: ASH, GLH, LYN, ARGN. Other names are
+/// returned as they are.
+std::string_view pdb_residue_name(std::string_view name) noexcept;
+
+/// True for histidine in any protonation, and for its D and methylated forms.
+bool is_histidine(std::string_view name) noexcept;
+
+/// Returns the template of a residue name, or null; a static object. Names of force fields, D residues and modified
 /// residues share the template of their parent. A modified residue has more atoms than its template.
 const ResidueTemplate* find_residue_template(std::string_view name) noexcept;
 

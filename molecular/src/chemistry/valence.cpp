@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "chemistry/residue_table.hpp"
 #include "hinge/molecular/radii.hpp"
 #include "rules/hydrogen_bonds.hpp"
 
@@ -55,11 +56,11 @@ class Valences {
 
   Valence carbon(std::uint32_t i) const {
     constexpr Valence sp3{4, tetrahedral}, sp2{3, planar};
-    const std::string_view of = residue(i).name, atom = name(i);
+    const std::string_view of = pdb_residue_name(residue(i).name), atom = name(i);
     const bool planar_class = classes_[i] == AtomClass::carbon_aromatic || classes_[i] == AtomClass::carbon_carbonyl;
     if (residue(i).kind == ResidueKind::amino_acid) {
       if ((of == "ASP" && atom == "CG") || (of == "GLU" && atom == "CD")) return {3, planar, 0, true};
-      return planar_class || (of == "ARG" && atom == "CZ") ? sp2 : sp3;
+      return planar_class || ((of == "ARG" || of == "ARGN") && atom == "CZ") ? sp2 : sp3;
     }
     if (residue(i).kind == ResidueKind::nucleotide) {
       const bool methyl = near_[i].size() == 1 || atom == "C7" || atom == "C5M";
@@ -70,10 +71,10 @@ class Valences {
 
   Valence nitrogen(std::uint32_t i) const {
     constexpr Valence amide{3, planar}, imine{2, planar}, amine{3, tetrahedral}, ammonium{4, tetrahedral};
-    const std::string_view of = residue(i).name, atom = name(i);
+    const std::string_view of = pdb_residue_name(residue(i).name), atom = name(i);
     if (residue(i).kind == ResidueKind::amino_acid) {
       if (of == "LYS" && atom == "NZ") return ammonium;
-      if (!of.starts_with("HI") || atom == "N") return amide;
+      if (!is_histidine(of) || atom == "N") return amide;
       if (has_hydrogens_) return bears_hydrogen(i) ? amide : imine;
       return atom == "ND1" ? amide : imine;
     }

@@ -57,6 +57,19 @@ std::string element_of_type(std::string_view line) {
   return is_symbol ? std::string{first, second} : std::string{' ', first};
 }
 
+/// Blanks the fourth letters of residue names in records of bonds and of secondary structure.
+void blank_fourth_letters(std::string& text, std::size_t start) {
+  struct LetterPair {
+    const char* record;
+    std::size_t first, second;  // offsets of the letters in the line
+  };
+  constexpr std::array<LetterPair, 4> all{{{"SSBO", 14, 28}, {"LINK", 20, 50}, {"HELI", 18, 30}, {"SHEE", 20, 31}}};
+  for (const auto& [record, first, second] : all)
+    if (is_record(std::string_view(text).substr(start), record))
+      for (const std::size_t column : {first, second})
+        if (start + column < text.size()) text[start + column] = ' ';
+}
+
 }  // namespace
 
 int model_number(std::string_view line, int otherwise) {
@@ -68,6 +81,7 @@ int model_number(std::string_view line, int otherwise) {
 
 PreparedPdb prepare_pdb(const std::string& text, std::size_t columns) {
   constexpr std::size_t length_column = 72;
+  const bool has_long_names = has_long_residue_names(text);
   constexpr std::size_t most_atoms = 100000 + 26UL * 36 * 36 * 36 * 36;  // that gemmi reads from five columns
   PreparedPdb result;
   std::vector<int>& serials = result.fields.serials;
@@ -100,7 +114,9 @@ PreparedPdb prepare_pdb(const std::string& text, std::size_t columns) {
       end_line = lines;
     }
     if (is_record(line, "TER")) ++ters;
+    const std::size_t start = kept.size();
     kept += is_model || is_end(line) ? "REMARK" : line;
+    if (has_long_names) blank_fourth_letters(kept, start);
     if (is_atom_record(line) && line.size() > 11) {
       if (!is_counted) result.fields.model_numbers.push_back(model);
       is_counted = true;
@@ -113,7 +129,8 @@ PreparedPdb prepare_pdb(const std::string& text, std::size_t columns) {
                                                                         : element_field(line));
       const std::string number = hybrid36(serials.size());
       serials.push_back(read_hybrid36(line.substr(6, 5)).value_or(0));
-      const std::size_t start = kept.size() - line.size();
+      result.fields.fourth_letters += has_long_names && line.size() > 20 ? line[20] : ' ';
+      if (result.fields.fourth_letters.back() != ' ') kept[start + 20] = ' ';
       kept.replace(start + 6, 5, std::string(5 - number.size(), ' ') + number);
       if (is_pdbqt) {
         if (const std::string element = element_of_type(line); !element.empty()) kept.replace(start + 76, 3, element);

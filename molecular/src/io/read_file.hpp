@@ -142,6 +142,7 @@ struct AtomFields {
   std::vector<ElementField> elements;  ///< by index
   std::vector<std::size_t> labels;     ///< mmCIF only, by index: a number for each label_asym_id and label_seq_id
   std::vector<std::size_t> ters;       ///< PDB only, by index: the number of TER records before the atom
+  std::string fourth_letters;          ///< PDB only, by index: fourth letter of the residue's name; ' ': none
   /// PDB only, per model: the number of its MODEL record, otherwise its position from 1.
   std::vector<int> model_numbers;
 };
@@ -153,11 +154,17 @@ struct PreparedPdb {
   std::size_t joined_at = 0;  ///< line of the first END that atoms of the same model follow; 0: none
 };
 
+/// True if column 21 of a PDB file's atoms holds the fourth letter of a residue's name (LYSH, TIP3, POPC), as programs
+/// for molecular dynamics write it. False if it holds the first of two letters of a chain's name. The PDB format leaves
+/// the column blank. It is a letter of the residue if that follows an amino acid or nucleotide without such a letter in
+/// its chain, or if the chain of two letters would hold no water and not two different amino acids or nucleotides.
+bool has_long_residue_names(std::string_view text);
+
 /// Numbers atoms from 0, cuts lines after `columns` and removes MODEL records. gemmi would start a new line after some
 /// characters beyond its own limit. It reads 0 and a blank as the same model number, and counts models without MODEL
 /// records by itself. Lengths at the end of LINK and SSBOND records are removed as well: gemmi would read beyond the
 /// end of the line at the start of "nan" or "inf". gemmi stops at END, so none is left; it becomes ENDMDL where it
-/// ends a model.
+/// ends a model. gemmi reads column 21 as a letter of the chain, so fourth letters of residue names become blanks.
 PreparedPdb prepare_pdb(const std::string& text, std::size_t columns);
 
 /// True if the name of a file ends with .pqr or .pqr.gz, in either case.

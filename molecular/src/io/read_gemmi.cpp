@@ -50,8 +50,8 @@ int number_of(const Model& model, long position) {
 }
 
 ResidueKind kind_of(const std::string& name) {
-  if (name == "WAT" || name == "TIP" || name == "TIP3" || name == "SOL" || name == "DOD" || name == "H2O")
-    return ResidueKind::water;
+  for (const char* water : {"WAT", "TIP", "TIP2", "TIP3", "TIP4", "TIP5", "TP3M", "SPCE", "SOL", "DOD", "H2O"})
+    if (name == water) return ResidueKind::water;
   const gemmi::ResidueInfo& info = gemmi::find_tabulated_residue(name);
   if (info.is_water()) return ResidueKind::water;
   if (info.is_amino_acid()) return ResidueKind::amino_acid;
@@ -109,7 +109,10 @@ RawModel convert(const gemmi::Model& model, int number, const AtomFields& fields
       r.number = residue.seqid.num.has_value() ? *residue.seqid.num : 0;
       r.insertion_code = or_null(residue.seqid.icode);
       r.hetero = residue.het_flag == 'H';
-      r.kind = kind_of(residue.name);
+      const auto front = static_cast<std::size_t>(residue.atoms.front().serial);
+      if (!fields.fourth_letters.empty() && fields.fourth_letters.at(front) != ' ')
+        r.name += fields.fourth_letters.at(front);
+      r.kind = kind_of(r.name);
       std::map<std::size_t, std::vector<RawAtom>> parts;  // by label: several residues may have the same author name
       for (const gemmi::Atom& atom : residue.atoms) {
         RawAtom a;

@@ -52,9 +52,14 @@ std::string number_field(const Residue& residue) {
          (residue.insertion_code == '\0' ? ' ' : residue.insertion_code);
 }
 
+/// "CYS A". A fourth letter of the residue's name takes the place of the blank.
+std::string name_field(const Structure& s, const Residue& residue) {
+  return left(right(residue.name, 3), 4) + chain_of(s, residue);
+}
+
 /// "CYS A  32 ", the form of residues in SSBOND and HELIX.
 std::string residue_field(const Structure& s, const Residue& residue) {
-  return right(residue.name, 3) + ' ' + chain_of(s, residue) + ' ' + number_field(residue);
+  return name_field(s, residue) + ' ' + number_field(residue);
 }
 
 bool is_hetero(const Residue& residue) {
@@ -73,8 +78,8 @@ void write_elements(std::ostream& out, const Structure& s) {
           << right("", 30) << ' ' << right(std::to_string(element.last - element.first + 1), 5) << "\n";
     } else {
       const std::string name = right(std::to_string(++strands % 1000), 3);  // every strand is a sheet of its own
-      out << "SHEET    1 " << name << " 1 " << right(first.name, 3) << ' ' << chain_of(s, first) << number_field(first)
-          << ' ' << right(last.name, 3) << ' ' << chain_of(s, last) << number_field(last) << " 0\n";
+      out << "SHEET    1 " << name << " 1 " << name_field(s, first) << number_field(first) << ' ' << name_field(s, last)
+          << number_field(last) << " 0\n";
     }
   }
 }
@@ -95,7 +100,7 @@ void write_links(std::ostream& out, const Structure& s) {
           << residue_field(s, t) << right("", 23) << symmetry << length(bond) << "\n";
     } else {
       const auto partner = [&](const Atom& atom, const Residue& residue) {
-        return atom_field(atom) + ' ' + right(residue.name, 3) + ' ' + chain_of(s, residue) + number_field(residue);
+        return atom_field(atom) + ' ' + name_field(s, residue) + number_field(residue);
       };
       links += "LINK        " + partner(a, r) + right("", 15) + partner(b, t) + "  " + symmetry + length(bond) + "\n";
     }
@@ -125,7 +130,7 @@ void check_fits_pdb(const Structure& s) {
     if (chain.name.size() > 1) refuse("chain name " + chain.name + " of more than one character");
   for (const Residue& residue : s.residues) {
     const auto where = [&] { return " (" + label(s, residue.first_atom) + ")"; };
-    if (residue.name.size() > 3) refuse("residue name " + residue.name + where());
+    if (residue.name.size() > 4) refuse("residue name " + residue.name + where());
     if (residue.sequence_number < -999 || residue.sequence_number > 9999 + 2 * 26 * 36 * 36 * 36)
       refuse("residue number " + std::to_string(residue.sequence_number) + where());
   }
@@ -157,7 +162,7 @@ void write_pdb_model(std::ostream& out, const Structure& structure, std::span<co
       if (!is_hetero(structure.residues[r])) polymer_end = r + 1;
     for (std::uint32_t r = chain.first_residue; r < chain.last_residue; ++r) {
       const Residue& residue = structure.residues[r];
-      const std::string ends = right(residue.name, 3) + ' ' + chain_of(structure, residue) + number_field(residue);
+      const std::string ends = name_field(structure, residue) + number_field(residue);
       for (i = residue.first_atom; i < residue.last_atom; ++i) {
         const Atom& atom = structure.atoms[i];
         text += (is_hetero(residue) ? "HETATM" : "ATOM  ") + serial_field(i) + ' ' + atom_field(atom) + ' ' + ends;

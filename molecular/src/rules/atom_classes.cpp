@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "chemistry/residue_table.hpp"
 #include "chemistry/valence.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 #include "hinge/molecular/radii.hpp"
@@ -21,19 +22,19 @@ using Neighbours = std::vector<std::vector<std::uint32_t>>;
 /// Returns true for aromatic carbons of amino acids. Aromatic rings of other residues count as aliphatic here; the
 /// radii differ by 0.05 angstrom, in one set only.
 bool is_aromatic(std::string_view residue, std::string_view atom) {
+  residue = pdb_residue_name(residue);
   if (residue == "PHE" || residue == "TYR" || residue == "PTR")
     return atom == "CG" || atom == "CD1" || atom == "CD2" || atom == "CE1" || atom == "CE2" || atom == "CZ";
   if (residue == "TRP")
     return atom == "CG" || atom == "CD1" || atom == "CD2" || atom == "CE2" || atom == "CE3" || atom == "CZ2" ||
            atom == "CZ3" || atom == "CH2";
-  if (residue.starts_with("HI") || residue.starts_with("HS")) return atom == "CG" || atom == "CD2" || atom == "CE1";
-  return false;
+  return is_histidine(residue) && (atom == "CG" || atom == "CD2" || atom == "CE1");
 }
 
 AtomClass classify_oxygen(const Structure& s, const Neighbours& near, std::uint32_t i) {
   for (const std::uint32_t j : near[i])
     if (s.atoms[j].element == "H") return AtomClass::oxygen_hydroxyl;
-  const std::string_view residue = s.residues[s.atoms[i].residue].name, atom = s.atoms[i].name;
+  const std::string_view residue = pdb_residue_name(s.residues[s.atoms[i].residue].name), atom = s.atoms[i].name;
   bool hydroxyl =
       (residue == "SER" && atom == "OG") || (residue == "THR" && atom == "OG1") || (residue == "TYR" && atom == "OH");
   // If the file leaves out hydrogens, these are hydroxyl: oxygens of sugars, and terminal oxygens at single-bond

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "chemistry/atom_traits.hpp"
+#include "chemistry/residue_table.hpp"
 #include "chemistry/valence.hpp"
 #include "hinge/molecular/bond_exclusions.hpp"
 
@@ -46,7 +47,7 @@ class Charges {
 
   int of_heavy(std::uint32_t i) const {
     const Residue& residue = s_.residues[s_.atoms[i].residue];
-    const std::string_view of = residue.name, atom = s_.atoms[i].name, element = s_.atoms[i].element;
+    const std::string_view of = pdb_residue_name(residue.name), atom = s_.atoms[i].name, element = s_.atoms[i].element;
     if (residue.kind == ResidueKind::amino_acid) {
       if (element == "N" && (of == "LYS" || of == "ARG") && atom != "N") return 1;
       if (of.starts_with('H') && element == "N" && atom != "N") return is_histidinium(residue) ? 1 : 0;
@@ -66,11 +67,11 @@ bool is_one_of(std::string_view name, std::string_view list) {  // list: ":A:DA:
   return list.find(':' + std::string(name) + ':') != std::string_view::npos;
 }
 
-/// Names of the residues that Probe knows. In any other residue it sees no aromatic rings and no carbonyls. The names
-/// of protonation states that Probe does not know are listed too, so that they count as their residue.
+/// Names of the residues that Probe knows (pdb_residue_name()). In any other residue it sees no aromatic rings and no
+/// carbonyls. Neutral states that Probe does not know are listed too, so that they count as their residue.
 constexpr std::string_view amino_acids =
     ":GLY:ALA:VAL:PHE:PRO:MET:ILE:LEU:ASP:GLU:LYS:ARG:SER:THR:TYR:HIS:CYS:ASN:GLN:TRP:ASX:GLX:ACE:FOR:NH2:NME:MSE:AIB:"
-    "ABU:PCA:HSD:HSE:HSP:HID:HIE:HIP:CYX:CYM:ASH:GLH:LYN:LSN:";
+    "ABU:PCA:ASH:GLH:LYN:ARGN:";
 constexpr std::string_view adenines = ":A:ADE:ATP:ADP:AMP:1MA:RIA:T6A:DA:AR:";
 constexpr std::string_view guanines = ":G:GUA:GTP:GDP:GMP:GSP:1MG:2MG:M2G:7MG:OMG:DG:GR:YG:";
 constexpr std::string_view inosines = ":I:DI:";
@@ -106,7 +107,7 @@ bool is_base_hydrogen(std::string_view residue, std::string_view atom) {
 
 /// Returns true for atoms of aromatic rings, whose faces accept hydrogen bonds. Rings of His do not accept them.
 bool is_face(const Structure& s, std::uint32_t i, AtomClass c) {
-  const std::string_view residue = s.residues[s.atoms[i].residue].name, atom = s.atoms[i].name;
+  const std::string_view residue = pdb_residue_name(s.residues[s.atoms[i].residue].name), atom = s.atoms[i].name;
   if (is_one_of(residue, amino_acids))
     return (c == AtomClass::carbon_aromatic && !residue.starts_with('H')) || (residue == "TRP" && atom == "NE1");
   return is_base_ring(residue, atom);
@@ -116,7 +117,7 @@ bool is_face(const Structure& s, std::uint32_t i, AtomClass c) {
 /// nitrogens of residues it does not know (except N3 of H2U), and N2 of M2G, which is neither in a ring nor in an amino
 /// group.
 bool is_unknown_nitrogen(const Structure& s, std::uint32_t i) {
-  const std::string_view residue = s.residues[s.atoms[i].residue].name, atom = s.atoms[i].name;
+  const std::string_view residue = pdb_residue_name(s.residues[s.atoms[i].residue].name), atom = s.atoms[i].name;
   if (s.atoms[i].element != "N" || is_one_of(residue, amino_acids)) return false;
   if (residue == "H2U") return atom != "N3";
   return !is_base(residue) || (residue == "M2G" && atom == "N2");
@@ -127,7 +128,7 @@ bool is_unknown_nitrogen(const Structure& s, std::uint32_t i) {
 std::vector<AtomClass> probe_classes(const Structure& structure) {
   std::vector<AtomClass> classes = classify_atoms(structure);
   for (std::uint32_t i = 0; i < classes.size(); ++i) {
-    const std::string_view residue = structure.residues[structure.atoms[i].residue].name;
+    const std::string_view residue = pdb_residue_name(structure.residues[structure.atoms[i].residue].name);
     if (is_one_of(residue, amino_acids)) continue;
     const std::string_view atom = structure.atoms[i].name, element = structure.atoms[i].element;
     AtomClass& c = classes[i];
