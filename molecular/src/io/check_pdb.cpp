@@ -62,7 +62,7 @@ void check_pdb(std::string_view text, const std::string& path, std::size_t numbe
   std::size_t atoms = 0, atoms_before = 0;  // atoms_before: at the start of the open model
   std::set<int> models;                     // model numbers
   std::size_t model_count = 0;
-  std::string twice;                  // message about the first repeated number
+  std::string twice;                  // note about the first repeated number
   std::size_t open_model = 0;         // its line; 0: no model is open
   std::size_t longest = 0, last = 0;  // lengths of atom records without trailing blanks
   bool is_closed = false;             // by a record that follows all models
@@ -87,7 +87,9 @@ void check_pdb(std::string_view text, const std::string& path, std::size_t numbe
         throw LoadError(where + ": MODEL " + std::string(name) + " begins, but the MODEL of line " +
                         std::to_string(open_model) + " has no ENDMDL");
       const int model = model_number(line, static_cast<int>(++model_count));
-      if (!models.insert(model).second && twice.empty()) twice = where + ": MODEL " + std::to_string(model);
+      if (!models.insert(model).second && twice.empty())
+        twice = "line " + std::to_string(number) + ": MODEL " + std::to_string(model) +
+                " occurs twice, so models are numbered by their position in the file";
       open_model = number;
       atoms_before = atoms;
     } else if (line.starts_with("ENDMDL")) {
@@ -98,7 +100,7 @@ void check_pdb(std::string_view text, const std::string& path, std::size_t numbe
       is_closed = true;
     }
   }
-  if (!twice.empty() && model_count <= most_model_numbers) throw LoadError(twice + " occurs twice");
+  if (!twice.empty() && notes != nullptr) notes->push_back(twice);
   if (atoms == 0)
     throw LoadError(path + ": no ATOM or HETATM record in " + std::to_string(number - lines_before) +
                     " lines, expected a PDB or mmCIF file");

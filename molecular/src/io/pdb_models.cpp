@@ -2,7 +2,6 @@
 // PdbModels: finds models line by line and reads one at a time.
 #include "io/pdb_models.hpp"
 
-#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -54,21 +53,17 @@ class PdbModels::Finder {
     if (scan_.add_pdb(line, is_model) == ModelScan::Step::begin) {
       const int position = static_cast<int>(models_.size()) + 1;
       models_.push_back({at_, at_, lines_, is_model ? model_number(line, position) : position});
-      named_ = named_ || is_model;
     }
     at_ += line.size() + 1;
     ++lines_;
     if (was_inside || scan_.is_inside()) models_.back().end = at_;
   }
 
-  bool named() const noexcept { return named_; }
-
  private:
   std::vector<Model>& models_;
   std::uint64_t at_ = 0;
   std::size_t lines_ = 0;
   ModelScan scan_;
-  bool named_ = false;
 };
 
 void PdbModels::find_models() {
@@ -87,12 +82,10 @@ void PdbModels::find_models() {
     chunk.erase(0, end + 1);
   }
   if (models_.empty()) throw LoadError(file_.name() + ": has no ATOM record, expected DCD, XTC, NumPy, PDB or mmCIF");
-  if (!finder.named() || models_.size() > most_model_numbers) return;
   std::vector<int> numbers;
   for (const Model& model : models_) numbers.push_back(model.number);
-  std::sort(numbers.begin(), numbers.end());
-  if (const auto twice = std::adjacent_find(numbers.begin(), numbers.end()); twice != numbers.end())
-    throw LoadError(file_.name() + ": MODEL " + std::to_string(*twice) + " occurs twice");
+  number_by_position_if_repeated(numbers);
+  for (std::size_t k = 0; k < models_.size(); ++k) models_[k].number = numbers[k];
 }
 
 PdbModels::PdbModels(BinaryFile file, const Structure& structure, const ReadOptions& options, bool may_have_more)

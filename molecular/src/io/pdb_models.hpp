@@ -22,12 +22,12 @@ namespace hinge::molecular {
 class PdbModels {
  public:
   /// The structure must outlive this object. may_have_more: models may have further atoms, which are dropped. Throws
-  /// LoadError if there is no model, MODEL numbers repeat, or the first model is damaged or of another molecule.
+  /// LoadError if there is no model, or if the first one is damaged or of another molecule.
   PdbModels(BinaryFile file, const Structure& structure, const ReadOptions& options, bool may_have_more);
 
   /// Number of models.
   std::size_t size() const noexcept { return models_.size(); }
-  /// Number in the MODEL record of model k, otherwise its position from 1.
+  /// Number in the MODEL record of model k, otherwise its position from 1; see number_by_position_if_repeated().
   int number(std::size_t k) const noexcept { return models_[k].number; }
 
   /// Returns the positions of the structure's atoms in model k, angstrom. Throws LoadError, with line or atom, if it is

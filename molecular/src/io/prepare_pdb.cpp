@@ -5,6 +5,7 @@
 #include <cctype>
 #include <charconv>
 #include <cstddef>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -79,6 +80,12 @@ int model_number(std::string_view line, int otherwise) {
   return otherwise;
 }
 
+void number_by_position_if_repeated(std::vector<int>& numbers) {
+  std::vector<int> sorted = numbers;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) std::iota(numbers.begin(), numbers.end(), 1);
+}
+
 PreparedPdb prepare_pdb(const std::string& text, std::size_t columns) {
   constexpr std::size_t length_column = 72;
   const bool has_long_names = has_long_residue_names(text);
@@ -140,6 +147,7 @@ PreparedPdb prepare_pdb(const std::string& text, std::size_t columns) {
     if (end < text.size()) kept += '\n';
     first = end + 1;
   }
+  number_by_position_if_repeated(result.fields.model_numbers);
   return result;
 }
 

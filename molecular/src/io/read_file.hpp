@@ -43,12 +43,12 @@ inline bool is_end(std::string_view line) {
   return line.substr(0, 3) == "END" && line.find_first_not_of(" \t\r", 3) == std::string_view::npos;
 }
 
-/// MODEL numbers have four columns. In files with more models, writers start again; in other files, a repeated number
-/// is an error.
-constexpr std::size_t most_model_numbers = 9999;
-
 /// Returns the number in a MODEL record, or `otherwise` if the record has none.
 int model_number(std::string_view line, int otherwise);
+
+/// Numbers models by their positions, from 1, if a number occurs twice: files that were joined begin again, and so do
+/// writers after 9999, the last number with four columns.
+void number_by_position_if_repeated(std::vector<int>& numbers);
 
 /// Returns the finite number that is the whole text, which may begin with +; nullopt: it is none.
 std::optional<double> finite_number(std::string_view text);
@@ -57,10 +57,10 @@ std::optional<double> finite_number(std::string_view text);
 /// blank or not a number.
 Vec3 read_pdb_coordinates(std::string_view line, const std::string& path, std::size_t line_number);
 
-/// Refuses data that the parser would silently repair: blank or malformed coordinates, repeated, empty or nested
-/// MODELs. The text starts at line `number` + 1. Throws LoadError with the line. A MODEL without ENDMDL is accepted,
-/// with a note, if a later record (END, CONECT, MASTER) shows that the file is complete, or if it is the only model and
-/// its last atom record is as long as the longest.
+/// Refuses data that the parser would silently repair: blank or malformed coordinates, empty or nested MODELs. The text
+/// starts at line `number` + 1. Throws LoadError with the line. Repeated numbers of MODELs are noted. A MODEL without
+/// ENDMDL is accepted, with a note, if a later record (END, CONECT, MASTER) shows that the file is complete, or if it
+/// is the only model and its last atom record is as long as the longest.
 void check_pdb(std::string_view text, const std::string& path, std::size_t number = 0,
                std::vector<std::string>* notes = nullptr);
 
@@ -143,7 +143,8 @@ struct AtomFields {
   std::vector<std::size_t> labels;     ///< mmCIF only, by index: a number for each label_asym_id and label_seq_id
   std::vector<std::size_t> ters;       ///< PDB only, by index: the number of TER records before the atom
   std::string fourth_letters;          ///< PDB only, by index: fourth letter of the residue's name; ' ': none
-  /// PDB only, per model: the number of its MODEL record, otherwise its position from 1.
+  /// PDB only, per model: the number of its MODEL record, otherwise its position from 1; see
+  /// number_by_position_if_repeated().
   std::vector<int> model_numbers;
 };
 
