@@ -336,6 +336,12 @@ TEST(ReadStructure, TakesTheAtomsThatAllModelsHave) {
   EXPECT_TRUE(
       has_note(s, "models differ: 1 atoms are left out, because some models lack them (first: A:ALA1:CB of model 1)"));
   // Another order of the atoms is the same molecule; another ion is not.
+  const std::string last = alanine().substr(alanine().size() - 79), front = alanine().substr(0, alanine().size() - 79);
+  const TemporaryFile order("MODEL        1\n" + alanine() + "ENDMDL\nMODEL        2\n" + last + front + "ENDMDL\n");
+  const Structure turned = read_structure(order.path());
+  ASSERT_EQ(turned.models.size(), 2U);
+  EXPECT_EQ(turned.models[0], turned.models[1]);
+  EXPECT_TRUE(has_note(turned, "models differ in the order of their atoms"));
   const std::string zinc = atom(6, "ZN", "ZN", 3, 20, 9, 9, ' ', 1, "ZN", "HETATM"),
                     renumbered = atom(6, "ZN", "ZN", 4, 20, 9, 9, ' ', 1, "ZN", "HETATM");
   const TemporaryFile ions("MODEL        1\n" + alanine() + zinc + "ENDMDL\nMODEL        2\n" + alanine() + renumbered +
@@ -344,6 +350,10 @@ TEST(ReadStructure, TakesTheAtomsThatAllModelsHave) {
   hetero.hetero = true;
   EXPECT_EQ(read_structure(ions.path(), hetero).atoms.size(), 5U);
   EXPECT_TRUE(has_note(read_structure(ions.path(), hetero), "models differ: 2 atoms"));
+  // Two ions with the same name and number are two atoms.
+  const TemporaryFile twins("MODEL        1\n" + alanine() + zinc + "TER\n" + zinc + "ENDMDL\nMODEL        2\n" +
+                            front + zinc + "TER\n" + zinc + "ENDMDL\n");
+  EXPECT_EQ(read_structure(twins.path(), hetero).atoms.size(), 6U);
   std::string other = alanine();
   for (std::size_t at = 0; (at = other.find("A   1", at)) != std::string::npos;) other[at + 4] = '7';
   EXPECT_NE(refusal("MODEL        1\n" + alanine() + "ENDMDL\nMODEL        2\n" + other + "ENDMDL\n")

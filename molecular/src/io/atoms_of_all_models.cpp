@@ -17,17 +17,23 @@ namespace hinge::molecular {
 
 namespace {
 
-/// Chain, number, insertion code, residue name, atom name.
-using Key = std::tuple<std::string, int, char, std::string, std::string>;
-
-Key key_of(const Structure& s, const Atom& atom) {
-  const Residue& residue = s.residues[atom.residue];
-  return {s.chains[residue.chain].name, residue.sequence_number, residue.insertion_code, residue.name, atom.name};
-}
+/// Chain, number, insertion code, residue name, atom name, and the number of atoms before with the same of these:
+/// residues of one chain may have the same name and number.
+using Key = std::tuple<std::string, int, char, std::string, std::string, std::uint32_t>;
 
 std::map<Key, std::uint32_t> atoms_by_key(const Structure& s) {
-  std::map<Key, std::uint32_t> atoms;
-  for (std::uint32_t i = 0; i < s.atoms.size(); ++i) atoms.emplace(key_of(s, s.atoms[i]), i);
+  std::map<Key, std::uint32_t> atoms, numbers;
+  for (std::uint32_t i = 0; i < s.atoms.size(); ++i) {
+    const Residue& residue = s.residues[s.atoms[i].residue];
+    Key key{s.chains[residue.chain].name,
+            residue.sequence_number,
+            residue.insertion_code,
+            residue.name,
+            s.atoms[i].name,
+            0};
+    std::get<5>(key) = numbers[key]++;
+    atoms.emplace(std::move(key), i);
+  }
   return atoms;
 }
 
@@ -102,12 +108,12 @@ std::string first_difference(const Structure& other, const Structure& molecule) 
 
 std::optional<MatchedAtoms> match_atoms(const Structure& other, const Structure& molecule) {
   const std::map<Key, std::uint32_t> atoms = atoms_by_key(other);
-  MatchedAtoms matched;
-  for (const Atom& atom : molecule.atoms) {
-    const auto found = atoms.find(key_of(molecule, atom));
+  MatchedAtoms matched{std::vector<Vec3>(molecule.atoms.size()), std::vector<std::uint32_t>(molecule.atoms.size())};
+  for (const auto& [key, i] : atoms_by_key(molecule)) {
+    const auto found = atoms.find(key);
     if (found == atoms.end()) return std::nullopt;
-    matched.positions.push_back(other.models[0][found->second]);
-    matched.records.push_back(other.atoms[found->second].record);
+    matched.positions[i] = other.models[0][found->second];
+    matched.records[i] = other.atoms[found->second].record;
   }
   return matched;
 }
@@ -161,6 +167,10 @@ Structure assemble_common(RawFile raw, const std::string& path, const ReadOption
   for (std::size_t m = 1; m < each.size(); ++m) {
     common.models.push_back(std::move(match_atoms(each[m], common)->positions));
     common.model_numbers.push_back(each[m].model_numbers[0]);
+  }
+  if (left_out.empty()) {
+    common.notes.push_back("models differ in the order of their atoms; the order of the first one is used");
+    return common;
   }
   const auto& [key, m] = *left_out.begin();
   common.notes.push_back(
