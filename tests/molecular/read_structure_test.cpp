@@ -412,6 +412,8 @@ TEST(ReadStructure, NumbersModelsAsTheirRecordsDo) {
   const TemporaryFile joined("MODEL 1\n" + model + "MODEL 1\n" + model);
   EXPECT_EQ(read_structure(joined.path()).model_numbers, (std::vector<int>{1, 2}));
   EXPECT_TRUE(has_note(read_structure(joined.path()), "line 8: MODEL 1 occurs twice, so models are numbered by"));
+  // gemmi compares four letters of a record's name, in either case.
+  EXPECT_EQ(numbers("model\n" + alanine() + "ENDMDX\nMODEL\n" + alanine() + "endmdl\n"), (std::vector<int>{1, 2}));
   EXPECT_NE(refusal("MODEL 1\n" + model + "MODEL 2\nENDMDL\n").find(":8: the MODEL has no ATOM or HETATM record"),
             std::string::npos);
 }

@@ -80,9 +80,9 @@ void check_pdb(std::string_view text, const std::string& path, std::size_t numbe
       ++atoms;
       last = trimmed(line).size();
       longest = std::max(longest, last);
-    } else if (line.starts_with("MODEL ")) {
+    } else if (is_model_record(line)) {
       const std::string where = path + ":" + std::to_string(number);
-      const std::string_view name = trimmed(line.substr(6));
+      const std::string_view name = trimmed(line.substr(std::min<std::size_t>(6, line.size())));
       if (open_model != 0)
         throw LoadError(where + ": MODEL " + std::string(name) + " begins, but the MODEL of line " +
                         std::to_string(open_model) + " has no ENDMDL");
@@ -92,7 +92,7 @@ void check_pdb(std::string_view text, const std::string& path, std::size_t numbe
                 " occurs twice, so models are numbered by their position in the file";
       open_model = number;
       atoms_before = atoms;
-    } else if (line.starts_with("ENDMDL")) {
+    } else if (is_endmdl(line)) {
       if (open_model != 0 && atoms == atoms_before)
         throw LoadError(path + ":" + std::to_string(open_model) + ": the MODEL has no ATOM or HETATM record");
       open_model = 0;

@@ -49,7 +49,7 @@ class PdbModels::Finder {
 
   /// Adds the next line, without its line end.
   void add(std::string_view line) {
-    const bool is_model = line.starts_with("MODEL "), was_inside = scan_.is_inside();
+    const bool is_model = is_model_record(line), was_inside = scan_.is_inside();
     if (scan_.add_pdb(line, is_model) == ModelScan::Step::begin) {
       const int position = static_cast<int>(models_.size()) + 1;
       models_.push_back({at_, at_, lines_, is_model ? model_number(line, position) : position});

@@ -104,7 +104,7 @@ PreparedPdb prepare_pdb(const std::string& text, std::size_t columns) {
     std::string_view line = std::string_view(text).substr(first, end - first);
     line =
         line.substr(0, is_record(line, "LINK") || is_record(line, "SSBO") ? std::min(columns, length_column) : columns);
-    const bool is_model = is_record(line, "MODE");
+    const bool is_model = is_model_record(line);
     const int next = static_cast<int>(result.fields.model_numbers.size()) + 1;
     ++lines;
     const bool was_inside = scan.is_inside();

@@ -35,8 +35,11 @@ inline bool is_record(std::string_view line, std::string_view name) {
 /// True if this line of a PDB file holds an atom for gemmi. A number of six digits begins in column 6.
 inline bool is_atom_record(std::string_view line) { return is_record(line, "ATOM") || is_record(line, "HETA"); }
 
+/// True for MODEL, which begins a model of a PDB file.
+inline bool is_model_record(std::string_view line) { return is_record(line, "MODE"); }
+
 /// True for ENDMDL, which ends a model of a PDB file.
-inline bool is_endmdl(std::string_view line) { return line.substr(0, 6) == "ENDMDL"; }
+inline bool is_endmdl(std::string_view line) { return is_record(line, "ENDM"); }
 
 /// True for END. ModelScan tells whether it ends a model.
 inline bool is_end(std::string_view line) {

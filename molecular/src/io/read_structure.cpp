@@ -52,7 +52,7 @@ class FirstModel {
          next_ = line_end + 1) {
       const std::string_view line = text.substr(next_, line_end - next_);
       const bool was_inside = scan_.is_inside();
-      const ModelScan::Step step = scan_.add_pdb(line, line.starts_with("MODEL "));
+      const ModelScan::Step step = scan_.add_pdb(line, is_model_record(line));
       if (step == ModelScan::Step::begin && end_ != std::string_view::npos) return end_;
       if (step == ModelScan::Step::resume) end_ = std::string_view::npos;
       if (was_inside && !scan_.is_inside()) end_ = line_end + 1;

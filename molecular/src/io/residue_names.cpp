@@ -58,7 +58,7 @@ bool has_long_residue_names(std::string_view text) {
     const std::size_t end = text.find('\n');
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    if (is_record(line, "TER") || is_record(line, "MODE") || is_endmdl(line)) last.reset();
+    if (is_record(line, "TER") || is_model_record(line) || is_endmdl(line)) last.reset();
     const std::optional<Address> address = Address::of(line);
     if (!address) continue;
     if (last && (is_long_beside(*address, *last) || is_long_beside(*last, *address))) return true;
